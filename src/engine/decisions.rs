@@ -10,8 +10,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::distance::finite;
 use super::fast::listings::Boxes;
-use super::not_finite::finite;
 use mathcad::Conjunction;
 use mathcad::array::{Table, rows};
 use numbers::scalar::{Scalar, Unsure};
@@ -60,9 +60,9 @@ fn truth<T: Scalar>(order: Conjunction, condition: &[Operand<T>]) -> Truth<T> {
     let mut unsure = Vec::new();
     for operand in condition {
         match of_operand(operand) {
-            Some(OfOperand::Sure(true)) => (),
-            Some(OfOperand::Sure(false)) => return Truth::False,
-            Some(OfOperand::Unsure(by)) => unsure.push((operand.clone(), by)),
+            Some(Ok(true)) => (),
+            Some(Ok(false)) => return Truth::False,
+            Some(Err(by)) => unsure.push((operand.clone(), by)),
             None if order == Conjunction::LeftToRight => return Truth::Unsure(unsure),
             None => (),
         }
@@ -70,35 +70,22 @@ fn truth<T: Scalar>(order: Conjunction, condition: &[Operand<T>]) -> Truth<T> {
     if unsure.is_empty() { Truth::True } else { Truth::Unsure(unsure) }
 }
 
-/// What numbers with bounds say of an operand.
-#[derive(Clone, Copy)]
-enum OfOperand {
-    Sure(bool),
-    Unsure(Unsure),
-}
-
-/// Returns what is sure of an operand; None where it fails.
-fn of_operand<T: Scalar>(operand: &Operand<T>) -> Option<OfOperand> {
-    let compared = |smaller: T, larger: T, holds: bool| match Unsure::of(smaller, larger) {
-        Some(by) => OfOperand::Unsure(by),
-        None => OfOperand::Sure(holds),
-    };
+/// Returns whether an operand surely holds, or by how little it may not; None where it fails.
+fn of_operand<T: Scalar>(operand: &Operand<T>) -> Option<Result<bool, Unsure>> {
+    let compared =
+        |smaller: T, larger: T, holds: bool| Unsure::of(smaller, larger).map_or(Ok(holds), Err);
     let at_most = |smaller: T, larger: T| compared(smaller, larger, smaller <= larger);
+    let or = |one, other| match (one, other) {
+        (Ok(true), _) | (_, Ok(true)) => Ok(true),
+        (Ok(false), rest) => rest,
+        (Err(by), Ok(false) | Err(_)) => Err(by),
+    };
     match operand.comparison {
         Comparison::MinAtMost([a, b], x) => Some(or(at_most(a, x), at_most(b, x))),
         Comparison::AtMostMax(x, [a, b]) => Some(or(at_most(x, a), at_most(x, b))),
         Comparison::Less(a, b) => Some(compared(a, b, a < b)),
-        Comparison::Whole(value) => Some(OfOperand::Sure(value)),
+        Comparison::Whole(value) => Some(Ok(value)),
         Comparison::Fails(_) => None,
-    }
-}
-
-/// Returns what is sure of "this one or the other".
-fn or(one: OfOperand, other: OfOperand) -> OfOperand {
-    match (one, other) {
-        (OfOperand::Sure(true), _) | (_, OfOperand::Sure(true)) => OfOperand::Sure(true),
-        (OfOperand::Sure(false), rest) => rest,
-        (unsure, _) => unsure,
     }
 }
 
@@ -160,13 +147,11 @@ fn status<T: Scalar>(
     let near = truth(reading.r4, &is_near(ct, yt, sheet.c_tll, i1));
     let after = truth(reading.r4, &is_jumped_after(ct, yt, i1));
     let before = truth(reading.r4, &is_jumped_before(ct, yt, i1));
-    let mut left = Vec::new();
-    let mut conditions = vec![near, after];
-    match before {
+    let (mut left, conditions) = match before {
         // From left to right line 18 fails at the first node where yt[1] < 0: nothing settles that.
-        Truth::Unsure(operands) if i1 == 1 => left = operands,
-        before => conditions.push(before),
-    }
+        Truth::Unsure(operands) if i1 == 1 => (operands, vec![near, after]),
+        before => (Vec::new(), vec![near, after, before]),
+    };
     if conditions.iter().any(|condition| matches!(condition, Truth::True)) {
         return left;
     }

@@ -2,9 +2,8 @@
 //! equilibrium under the scene's own friction.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
-use super::not_finite::or_nan;
 use super::quantities::summaries;
 use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
@@ -69,4 +68,14 @@ pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
 /// Returns a difference over a scale, where 0 over 0 is 0.
 pub fn over(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale }
+}
+
+/// Returns a number, None where it is not finite.
+pub(super) fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite())
+}
+
+/// Reads a float, and NaN from null: JSON has no number that is not finite.
+fn or_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

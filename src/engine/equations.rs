@@ -9,14 +9,15 @@ use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::request::Request;
-use super::sparse::{Sparse, State};
+use super::session::Session;
+use super::sparse::{SparseScalar, SparseSolver, StateEquations, takes_sparse};
 use super::stiffness::Stiffness;
 use super::support::{support, supports};
 use base::error::InputError;
 use base::plain::six_digits;
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
-use numbers::solve::{self, Precision, Solver, SparseSquare, Unsolved};
+use numbers::solve::{Solved, Solver, SparseSquare, Unsolved};
 use paper::door;
 use paper::edited::Interpreter;
 use paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
@@ -29,8 +30,8 @@ enum Assembly<T> {
     Printed,
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
-    /// Elimination from the triangles' matrices, solved by the function.
-    Sparse(Box<dyn Sparse<T>>),
+    /// Elimination from the triangles' matrices.
+    Sparse(SparseSolver),
 }
 
 /// The parts of the equations that every iteration of a run shares.
@@ -57,7 +58,7 @@ pub(super) struct Equations<'a, T> {
 
 /// The result of an iteration's own load.
 #[derive(Clone)]
-pub(super) struct Solved<T> {
+pub(super) struct Increment<T> {
     /// The displacements by degree of freedom, length.
     pub u: DVector<T>,
     /// The relative residual of the solution.
@@ -66,8 +67,8 @@ pub(super) struct Solved<T> {
     pub support: [T; 2],
 }
 
-impl<'a, T: Precision> Equations<'a, T> {
-    /// Prepares the equations of `request`. `sparse` solves them where the solver takes a sparse matrix.
+impl<'a, T: SparseScalar> Equations<'a, T> {
+    /// Prepares the equations of `request`, in numbers that `number` makes of those of the scene.
     ///
     /// # Errors
     /// The stiffness overflows.
@@ -75,7 +76,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         request: &'a Request,
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
-        sparse: Option<Box<dyn Sparse<T>>>,
+        session: &Session,
         interpreter: Option<&'a Interpreter>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
@@ -88,13 +89,15 @@ impl<'a, T: Precision> Equations<'a, T> {
             true => T::zero(),
             false => load[e] / share,
         });
-        let assembly = match (request.variant, sparse) {
-            (Variant::Printed, _) => Assembly::Printed,
-            (_, Some(sparse)) => Assembly::Sparse(sparse),
-            (_, None) => Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
+        let assembly = if request.variant == Variant::Printed {
+            Assembly::Printed
+        } else if takes_sparse(request.solver(), request.arithmetic.scalar) {
+            Assembly::Sparse(SparseSolver::new(request.arithmetic, model, session))
+        } else {
+            Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
                 None => door::free_stiffness(sheet, &request.reading)?,
-            }),
+            })
         };
         let stiffness = Stiffness::new(model, number);
         let equations = Equations {
@@ -122,7 +125,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         pairs: &Pairs<T>,
         constraints: &[Constraint<T>],
         k: usize,
-    ) -> Result<Solved<T>, Error> {
+    ) -> Result<Increment<T>, Error> {
         let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
         match &self.assembly {
             Assembly::Printed => {
@@ -147,7 +150,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             }),
             Assembly::Sparse(sparse) => self.eliminate(pairs, constraints, k, |t, f| {
                 let Equations { model, stiffness, .. } = self;
-                let solved = sparse.solve(&State { model, stiffness, constraints, t, f });
+                let state = StateEquations { model, stiffness, constraints, t, f };
+                let solved = T::solve_state(sparse, &state);
                 if !solved.as_ref().is_ok_and(|solved| solved.residual.is_finite()) {
                     self.check_overflow(t)?;
                 }
@@ -162,11 +166,8 @@ impl<'a, T: Precision> Equations<'a, T> {
         pairs: &Pairs<T>,
         constraints: &[Constraint<T>],
         k: usize,
-        solve: impl Fn(
-            &Elimination<T>,
-            &DVector<T>,
-        ) -> Result<Result<solve::Solved<T>, Unsolved>, Error>,
-    ) -> Result<Solved<T>, Error> {
+        solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Unsolved>, Error>,
+    ) -> Result<Increment<T>, Error> {
         let t = Elimination::new(&self.model.restrained, constraints);
         let solved = T::sweep(|| {
             let solved = solve(&t, &t.load(&self.f))?;
@@ -200,14 +201,14 @@ impl<'a, T: Precision> Equations<'a, T> {
         self.stiffness.times(u) - &self.load
     }
 
-    fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Solved<T> {
+    fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Increment<T> {
         let mut wanted = self.supports.clone();
         let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
         let support = support(self.model, &self.restrained, constraints, &force, &load);
-        Solved { residual, support, u }
+        Increment { residual, support, u }
     }
 
     /// Returns the error of a system without solution; `dof` maps a column to a degree of freedom.
@@ -218,48 +219,21 @@ impl<'a, T: Precision> Equations<'a, T> {
         iteration: usize,
         dof: impl Fn(usize) -> Dof,
     ) -> Error {
-        let stopped = match why {
-            Unsolved::Singular(s) => {
-                return self.singular_matrix(pairs, iteration, dof(s.column), s.pivot).into();
+        let singular = match why {
+            Unsolved::Singular(singular) => singular,
+            Unsolved::NotConverged(stopped) => {
+                let what = format!(
+                    "{} in {} stopped after {} iterations at a relative residual of {}",
+                    self.request.solver(),
+                    self.request.arithmetic.scalar,
+                    stopped.iterations,
+                    six_digits(stopped.residual)
+                );
+                let fix = "give a larger --tol or another solver";
+                return InputError::new("--solver, --tol", what, fix).into();
             }
-            Unsolved::NotConverged(stopped) => stopped,
         };
-        let what = format!(
-            "{} in {} stopped after {} iterations at a relative residual of {}",
-            self.request.solver(),
-            self.request.arithmetic.scalar,
-            stopped.iterations,
-            six_digits(stopped.residual)
-        );
-        InputError::new("--solver, --tol", what, "give a larger --tol or another solver").into()
-    }
-
-    /// Returns why the first contact has no node, in words: the direction of the target's edges, or the
-    /// smallest gap of the initial shape. None where no contact node faces the target.
-    fn no_contact(&self) -> Option<String> {
-        let hidden = || hidden(self.model, &self.request.reading, &self.model.nodes);
-        self.request.is_as_printed().then(hidden).flatten().or_else(|| self.too_far())
-    }
-
-    fn too_far(&self) -> Option<String> {
-        let surfaces = Surfaces::new(self.model).ok()?;
-        let pairings = surfaces.pairings(Coupling::Nts, &self.model.nodes);
-        let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
-        let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-        let c_tll = self.model.contact.tolerance;
-        Some(format!(
-            "the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
-             larger c_tll"
-        ))
-    }
-
-    fn singular_matrix(
-        &self,
-        pairs: &Pairs<T>,
-        iteration: usize,
-        dof: Dof,
-        pivot: f64,
-    ) -> SingularMatrix {
+        let dof = dof(singular.column);
         let body = self.model.body_of(dof.node());
         let in_contact = pairs.dy.iter().sum();
         let first = iteration == 1 && in_contact == 0 && self.model.has_contact();
@@ -268,12 +242,32 @@ impl<'a, T: Precision> Equations<'a, T> {
             iteration,
             node: dof.node().number(),
             direction: dof.axis(),
-            pivot,
+            pivot: singular.pivot,
             in_contact,
             no_contact: first.then(|| self.no_contact()).flatten(),
             untried: None,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }
+        .into()
+    }
+
+    /// Returns why the first contact has no node, in words: the direction of the target's edges, or the
+    /// smallest gap of the initial shape. None where no contact node faces the target.
+    fn no_contact(&self) -> Option<String> {
+        let (model, reading) = (self.model, &self.request.reading);
+        if self.request.is_as_printed()
+            && let Some(why) = hidden(model, reading, &model.nodes)
+        {
+            return Some(why);
+        }
+        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
+        let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
+        let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+        let c_tll = model.contact.tolerance;
+        Some(format!(
+            "the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
+             larger c_tll"
+        ))
     }
 }
 

@@ -44,8 +44,8 @@ impl From<Box<mathcad::Failure>> for Error {
 }
 
 impl Error {
-    /// Returns the same with words before what a search for an equilibrium tells.
-    pub fn told(self, before: &str) -> Self {
+    /// Returns the same with words before what is said of a search for an equilibrium.
+    pub fn prefixed(self, before: &str) -> Self {
         match self {
             Error::Equilibrium(NoEquilibrium { cause, what }) => {
                 NoEquilibrium { cause, what: format!("{before}{what}") }.into()

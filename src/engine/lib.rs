@@ -10,11 +10,8 @@ mod equations;
 pub mod error;
 pub mod estimates;
 pub mod fast;
-mod found;
-mod held;
 mod hertz;
 mod memory;
-mod not_finite;
 mod probe;
 mod published;
 pub mod quantities;
@@ -34,7 +31,6 @@ pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use fast::condensation::kept_equations;
-pub use found::FoundPairs;
 pub use hertz::Hertz;
 pub use memory::Bytes;
 pub use probe::{Probe, Probed, check_points};
@@ -46,7 +42,7 @@ pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use session::Session;
 pub use solution::{
-    Choice, Cycle, Detail, Equilibrium, Other, Path, Published, Solution, Start, Step, StepBounds,
+    Choice, Cycle, Detail, Equilibrium, FoundPairs, Other, Path, Published, Solution, Start, Step, StepBounds,
     Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};

@@ -6,11 +6,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::search::Segment;
+use super::distance::finite;
 use super::estimates::arithmetic::{bounded, stress_bounds, within};
 use super::estimates::discretisation::{SAFETY, compliance, von_mises};
-use super::estimates::{Cause, Dual, Estimates, Singular, singular};
-use super::held::Held;
-use super::not_finite::finite;
+use super::estimates::{Cause, Dual, Estimates, Singular, StateFactors, singular};
 use super::quantities::{Quantity, TriangleState, TriangleValues, Unit};
 use super::session::Session;
 use super::solution::Solution;
@@ -79,7 +78,8 @@ pub fn probes(
     let bench = Bench {
         solution,
         estimates,
-        dual: Held::new(solution, session).map(|held| Dual::new(solution, held, &estimates.mesh)),
+        dual: StateFactors::new(solution, session)
+            .map(|state| Dual::new(solution, state, &estimates.mesh)),
         singular: singular(solution),
         of_stress: stress_bounds(solution, &stiffness, estimates.errors.displacement_arithmetic),
         bounded: stiffness.stresses(&within(solution, estimates.errors.displacement_arithmetic)),

@@ -13,14 +13,15 @@ use nalgebra::DVector;
 use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status};
 use super::decisions::{Decision, decisions};
 use super::elimination::{Constraint, sum};
-use super::equations::{Equations, Solved};
+use super::equations::{Equations, Increment};
 use super::error::Error;
 use super::fast::listings::c_cnt;
-use super::found::FoundPairs;
 use super::request::Request;
 use super::session::Session;
-use super::solution::{Cycle, Detail, Published, Solution, Step, StepBounds, max_displacement};
-use super::sparse::{MakeSparse, dense_matrices, takes_sparse};
+use super::solution::{
+    Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
+};
+use super::sparse::{SparseScalar, dense_matrices};
 use super::support::passed_on;
 use base::error::InputError;
 use base::memory;
@@ -46,27 +47,23 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
     iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
 }
 
-/// Solves a request for one of the variants that the paper describes. `sparse` solves where the solver
-/// takes a sparse matrix; without it that solver gets a dense one.
+/// Solves a request for one of the variants that the paper describes, up to the step after which `goes_on`
+/// is false.
 ///
 /// # Errors
 /// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
-pub(super) fn published<T: Precision>(
+pub(super) fn published<T: SparseScalar>(
     request: &Request,
     session: &Session,
-    sparse: Option<MakeSparse<T>>,
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     let number = |x: f64| number_of(request, x);
-    let sheet = door::worksheet(&model, number);
+    let sheet: Worksheet<T> = door::worksheet(&model, number);
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let is_sparse = request.variant != Variant::Printed
-        && takes_sparse(request.solver(), request.arithmetic.scalar);
-    let sparse = sparse.filter(|_| is_sparse).map(|make| make(request, &model, session));
-    let equations = Equations::new(request, &model, &sheet, sparse, interpreter, &number)?;
+    let equations = Equations::new(request, &model, &sheet, session, interpreter, &number)?;
     let mut run = Run::new(request, &model, &sheet, interpreter, equations)?;
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
@@ -98,7 +95,10 @@ pub(super) fn published<T: Precision>(
 /// # Errors
 /// The matrices do not fit in memory, exact numbers do not end within a bearable time, the load vanishes
 /// in T, or mortar does not run in it.
-pub(super) fn check<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
+pub(super) fn check_published<T: Precision>(
+    request: &Request,
+    model: &Model,
+) -> Result<(), InputError> {
     check_size::<T>(request, model)?;
     if request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed {
         check_mortar(request.arithmetic.scalar)?;
@@ -191,7 +191,7 @@ struct Visited<T> {
     constraints: Vec<Constraint<T>>,
     /// The last iteration that visited it.
     k: usize,
-    solved: Solved<T>,
+    solved: Increment<T>,
 }
 
 /// The contact state that an iteration found before it solved any equation.
@@ -205,7 +205,7 @@ struct Found<T> {
     undecided: Option<Vec<Decision>>,
 }
 
-impl<'a, T: Precision> Run<'a, T> {
+impl<'a, T: SparseScalar> Run<'a, T> {
     fn new(
         request: &'a Request,
         model: &'a Arc<Model>,
@@ -314,7 +314,7 @@ impl<'a, T: Precision> Run<'a, T> {
     }
 
     /// Advances from one shape to the next.
-    fn advance(&mut self, solved: &Solved<T>) {
+    fn advance(&mut self, solved: &Increment<T>) {
         match self.request.schedule() {
             Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
             Schedule::Stepped => {
@@ -324,7 +324,13 @@ impl<'a, T: Precision> Run<'a, T> {
         }
     }
 
-    fn step(&self, k: usize, found: &Found<T>, cycle: Option<Cycle>, solved: &Solved<T>) -> Step {
+    fn step(
+        &self,
+        k: usize,
+        found: &Found<T>,
+        cycle: Option<Cycle>,
+        solved: &Increment<T>,
+    ) -> Step {
         let Found { node_n, pairs, constraints, places, undecided } = found;
         let bound: &[Constraint<T>] = match self.request.variant {
             Variant::Printed => &[],

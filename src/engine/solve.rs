@@ -1,24 +1,35 @@
 //! The solution of a request by the requested variant in the requested numbers.
 
-use std::sync::Arc;
-
 use super::error::{Error, SingularMatrix};
 use super::memory::{Bytes, FEWER_STEPS, bytes_of_paths};
-use super::published::{self, published};
+use super::published::{check_published, published};
 use super::request::Request;
 use super::session::Session;
 use super::solution::{Solution, Step};
-use super::sparse::{Condensing, Iterating, Sparse, Whole, dense_matrices};
+use super::sparse::dense_matrices;
 use super::unilateral::unilateral;
 use base::error::InputError;
 use base::memory;
 use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
-use numbers::solve::{Arithmetic, Iterates, ScalarName, Solver, cost};
+use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
 use paper::listings::Which;
 use paper::mirror::NodeTable;
 use problem::element::State;
-use problem::model::Model;
 use problem::modelling::{Variant, check_iterations, check_tolerance};
+
+/// Calls a function in the type of a scalar.
+macro_rules! in_scalar {
+    ($scalar:expr, $work:ident($($argument:expr),*)) => {
+        match $scalar {
+            ScalarName::F64 => $work::<f64>($($argument),*),
+            ScalarName::F32 => $work::<f32>($($argument),*),
+            ScalarName::F64x2 => $work::<F64x2>($($argument),*),
+            ScalarName::Bounded => $work::<Bounded>($($argument),*),
+            ScalarName::BoundedDouble => $work::<BoundedDouble>($($argument),*),
+            ScalarName::Exact => scalar::scope(|| $work::<Exact>($($argument),*)),
+        }
+    };
+}
 
 /// Solves `request` in a session of its own ([`Session::solve`]).
 ///
@@ -79,15 +90,10 @@ fn check_in(request: &Request, session: &Session) -> Result<(), InputError> {
     request.tolerance.map_or(Ok(()), check_tolerance)?;
     check_edited(request)?;
     let model = request.model()?;
-    match (request.variant, request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => check_unilateral(request)?,
-        (_, ScalarName::F64) => published::check::<f64>(request, &model)?,
-        (_, ScalarName::F32) => published::check::<f32>(request, &model)?,
-        (_, ScalarName::F64x2) => published::check::<F64x2>(request, &model)?,
-        (_, ScalarName::Bounded) => published::check::<Bounded>(request, &model)?,
-        (_, ScalarName::BoundedDouble) => published::check::<BoundedDouble>(request, &model)?,
-        (_, ScalarName::Exact) => {
-            scalar::scope(|| published::check::<Exact>(request, &model))?;
+    match request.variant {
+        Variant::Unilateral => check_unilateral(request)?,
+        Variant::Printed | Variant::Tied | Variant::Stepped => {
+            in_scalar!(request.arithmetic.scalar, check_published(request, &model))?;
         }
     }
     check_memory(request, session)
@@ -171,85 +177,43 @@ fn run(
     session: &Session,
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
-    let solution = match (request.variant, request.arithmetic.scalar) {
-        (Variant::Unilateral, _) => unilateral(request, session, &mut |step| _ = goes_on(step))?,
-        (_, ScalarName::F64) => published::<f64>(request, session, Some(sparse), goes_on)?,
-        (_, ScalarName::F32) => published::<f32>(
-            request,
-            session,
-            Some(|request, _, _| or_iterating(request, || Whole)),
-            goes_on,
-        )?,
-        (_, ScalarName::F64x2) => published::<F64x2>(request, session, Some(sparse), goes_on)?,
-        (_, ScalarName::Bounded) => {
-            published::<Bounded>(request, session, Some(condensing), goes_on)?
-        }
-        (_, ScalarName::BoundedDouble) => {
-            published::<BoundedDouble>(request, session, Some(condensing), goes_on)?
-        }
-        (_, ScalarName::Exact) => {
-            scalar::scope(|| published::<Exact>(request, session, None, goes_on))?
+    let solution = match request.variant {
+        Variant::Unilateral => unilateral(request, session, &mut |step| _ = goes_on(step))?,
+        Variant::Printed | Variant::Tied | Variant::Stepped => {
+            in_scalar!(request.arithmetic.scalar, published(request, session, goes_on))?
         }
     };
     check_finite(&solution)?;
     Ok(solution)
 }
 
-/// Returns the solver that a request asks for: what iterates, or else what `direct` makes.
-fn or_iterating<T: Iterates, S: Sparse<T> + 'static>(
-    request: &Request,
-    direct: impl FnOnce() -> S,
-) -> Box<dyn Sparse<T>> {
-    let (solver, tol) = (request.solver(), request.arithmetic.tol);
-    if solver.iterates() { Box::new(Iterating { solver, tol }) } else { Box::new(direct()) }
-}
-
-fn sparse<T: Iterates>(
-    request: &Request,
-    model: &Arc<Model>,
-    session: &Session,
-) -> Box<dyn Sparse<T>>
-where
-    Condensing: Sparse<T>,
-{
-    or_iterating(request, || Condensing::new(model, session))
-}
-
-fn condensing<T>(_: &Request, model: &Arc<Model>, session: &Session) -> Box<dyn Sparse<T>>
-where
-    Condensing: Sparse<T>,
-{
-    Box::new(Condensing::new(model, session))
-}
-
 /// Checks that a run with edited listings executes them: in f64, as the interpreter does, and an
 /// edited `Km`, whose matrix need not be symmetric, by LU.
 fn check_edited(request: &Request) -> Result<(), InputError> {
     let Request { variant, contact, arithmetic, .. } = request;
-    let c_cnt = request.is_edited(Which::CCnt);
-    let km = request.is_edited(Which::Km);
-    let by_listing = request.decides_by_listing();
-    let refuse = |place: &str, what: String, fix: &str| Err(InputError::new(place, what, fix));
-    match () {
-        () if !c_cnt && !km => Ok(()),
-        () if *variant == Variant::Unilateral => {
-            let what = "unilateral executes no listing".into();
-            refuse("--c-cnt, --km", what, "ask for --variant printed, tied or stepped")
-        }
-        () if arithmetic.scalar != ScalarName::F64 => {
-            let what = format!("an edited listing is not executed in {}", arithmetic.scalar);
-            refuse("--scalar", what, "leave it out")
-        }
-        () if c_cnt && !by_listing => {
-            let what = format!("under the rule {} c_cnt is not called", contact.status);
-            refuse("--status", what, "leave it out")
-        }
-        () if km && !matches!(request.solver(), Solver::DenseLu | Solver::SparseLu) => {
-            let what = format!("{} does not solve what an edited Km builds", request.solver());
-            refuse("--solver", what, "use sparse-lu or dense-lu")
-        }
-        () => Ok(()),
+    let [c_cnt, km] = [Which::CCnt, Which::Km].map(|which| request.is_edited(which));
+    if !c_cnt && !km {
+        return Ok(());
     }
+    let (place, what, fix) = if *variant == Variant::Unilateral {
+        let what = "unilateral executes no listing".into();
+        ("--c-cnt, --km", what, "ask for --variant printed, tied or stepped")
+    } else if arithmetic.scalar != ScalarName::F64 {
+        let what = format!("an edited listing is not executed in {}", arithmetic.scalar);
+        ("--scalar", what, "leave it out")
+    } else if c_cnt && !request.decides_by_listing() {
+        (
+            "--status",
+            format!("under the rule {} c_cnt is not called", contact.status),
+            "leave it out",
+        )
+    } else if km && !matches!(request.solver(), Solver::DenseLu | Solver::SparseLu) {
+        let what = format!("{} does not solve what an edited Km builds", request.solver());
+        ("--solver", what, "use sparse-lu or dense-lu")
+    } else {
+        return Ok(());
+    };
+    Err(InputError::new(place, what, fix))
 }
 
 /// Checks that `unilateral` is requested in f64 by sparse Cholesky.

@@ -70,7 +70,8 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns the matrix Ae·Bᵀ·D·B of a triangle, force/length, with its springs.
     fn matrix(&self, triangle: &Element<T>) -> SMatrix<T, 6, 6> {
-        let own = triangle.matrix(&self.materials);
+        let d = &self.materials[triangle.material as usize].d;
+        let own = element::stiffness(&triangle.strain(), d) * triangle.volume;
         if self.springs.is_zero() {
             return own;
         }
@@ -102,8 +103,10 @@ impl<T: Scalar> Stiffness<T> {
         for i in triangles {
             let triangle = &self.triangles[i];
             // A shift moves a few nodes alone.
-            if triangle.dofs().iter().any(|dof| !u[dof.index()].is_zero()) {
-                triangle.add_times(&self.matrix(triangle), &u, &mut force);
+            let dofs = triangle.dofs();
+            if dofs.iter().any(|dof| !u[dof.index()].is_zero()) {
+                let product = self.matrix(triangle) * triangle.displacements(&u);
+                dofs.iter().zip(&product).for_each(|(dof, value)| force[dof.index()] += *value);
             }
         }
         force.map(|f| f / common)
@@ -111,7 +114,8 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns Tᵀ K T, force/length.
     pub fn reduced(&self, t: &Elimination<T>) -> SparseSymmetric<T> {
-        let about = self.triangles.iter().filter(|triangle| triangle.is_about(t));
+        let has_row = |dof: &Dof| !t.row(*dof).is_empty();
+        let about = self.triangles.iter().filter(|triangle| triangle.dofs().iter().any(has_row));
         let corners = about.clone().map(|triangle| triangle.nodes.map(NodeId::index));
         let equations = |node: usize| {
             let rows = NodeId::new(node).dofs().map(|dof| t.row(dof));
@@ -140,11 +144,11 @@ impl<T: Scalar> Stiffness<T> {
 
     /// Returns the stresses and strains of every triangle under displacements `u`.
     pub fn states(&self, u: &DVector<T>) -> Vec<State> {
-        let state = |t: &Element<T>| {
+        let states = self.triangles.iter().map(|t| {
             let Elastic { e, nu, .. } = self.materials[t.material as usize];
             State::new(self.plane, e, nu, &t.strain(), &t.displacements(u))
-        };
-        self.triangles.iter().map(state).collect()
+        });
+        states.collect()
     }
 
     /// Returns sigma_x, sigma_y, tau_xy of every triangle under displacements `u`, stress.
@@ -165,11 +169,11 @@ impl Stiffness {
     /// Returns the energy norm sqrt(uᵀ K u), sqrt(force·length). It is summed by triangle, so that
     /// no cancellation leaves a negative number.
     pub fn energy_norm(&self, u: &DVector<f64>) -> f64 {
-        let of_triangle = |triangle: &Element<f64>| {
+        let squares = self.triangles.iter().map(|triangle| {
             let u = triangle.displacements(u);
             u.dot(&(self.matrix(triangle) * u)).max(0.0)
-        };
-        self.triangles.iter().map(of_triangle).sum::<f64>().sqrt()
+        });
+        squares.sum::<f64>().sqrt()
     }
 }
 
@@ -179,19 +183,10 @@ impl<T: Scalar> Element<T> {
         element::strain_matrix(&self.gradients)
     }
 
-    fn matrix(&self, materials: &[Elastic<T>]) -> SMatrix<T, 6, 6> {
-        element::stiffness(&self.strain(), &materials[self.material as usize].d) * self.volume
-    }
-
     /// Returns the degrees of freedom of its corners: x, y of each corner in turn.
     fn dofs(&self) -> [Dof; 6] {
         let [a, b, c] = self.nodes.map(|node| node.dofs());
         [a[0], a[1], b[0], b[1], c[0], c[1]]
-    }
-
-    /// Returns whether it adds to Tᵀ K T.
-    fn is_about(&self, t: &Elimination<T>) -> bool {
-        self.dofs().iter().any(|dof| !t.row(*dof).is_empty())
     }
 
     /// Visits the entries that it adds to the lower triangle of Tᵀ K T: row, column, value.
@@ -210,15 +205,6 @@ impl<T: Scalar> Element<T> {
                 }
             }
         }
-    }
-
-    /// Adds its part of K u.
-    fn add_times(&self, k: &SMatrix<T, 6, 6>, u: &DVector<T>, force: &mut DVector<T>) {
-        let product = k * self.displacements(u);
-        self.dofs()
-            .iter()
-            .zip(product.iter())
-            .for_each(|(dof, value)| force[dof.index()] += *value);
     }
 
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {

@@ -164,9 +164,11 @@ fn closest_points_on_whole_numbers_are_as_recorded() {
         let (mut places, mut numbers) = (Vec::new(), Vec::new());
         for (x, y) in (-4..5).flat_map(|x| (-4..5).map(move |y| (x, y))) {
             let p = [f64::from(x), f64::from(y)];
-            let within = |_: usize, c: &Closest<f64>| c.past() * c.past() * c.square <= 4.0;
-            let Some((k, one)) = closest(segments.iter().enumerate(), p, within) else { continue };
-            places.extend([k, one.end()]);
+            let within = |c: Closest<f64>| c.past() * c.past() * c.square <= 4.0;
+            let (own, near): (Vec<usize>, Vec<Segment<f64>>) =
+                segments.iter().enumerate().filter(|(_, s)| within(s.closest(p))).unzip();
+            let Some((k, one)) = closest(&near, p) else { continue };
+            places.extend([own[k], one.end()]);
             numbers.extend([one.xi, one.side, one.distance(), one.past(), one.distance_square]);
         }
         let line = folded(&json!({ "numbers": numbers, "places": places }));

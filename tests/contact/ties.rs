@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use plane_contact::engine::Decision;
 use plane_contact::engine::contact::Status;
 use plane_contact::engine::estimates::arithmetic::bounded;
-use plane_contact::engine::estimates::ties::{Looking, State};
+use plane_contact::engine::estimates::ties::{BoundedState, StateCheck};
 use plane_contact::engine::{Choice, Detail, Solution, Step, Unilateral};
 use plane_contact::numbers::scalar::{Bounded, Scalar};
 use plane_contact::problem::modelling::{ContactModel, Friction};
@@ -49,10 +49,10 @@ fn looked_at(solution: &Solution, step: &Step, part: f64) -> (Vec<Decision>, boo
     let error = part * solution.u.amax();
     let [before, u] = [0.5, 1.0].map(|scale| solution.u.map(|u| Bounded::new(scale * u, error)));
     let stiffness = bounded(&solution.model);
-    let mut looking = Looking::new(solution, &stiffness);
+    let mut check = StateCheck::new(solution, &stiffness);
     let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
-    looking.at(&State { step, load, before: &before, u: &u });
-    (looking.decisions, looking.only_ties)
+    check.check(&BoundedState { step, load, before: &before, u: &u });
+    (check.decisions, check.only_ties)
 }
 
 /// Returns every decision of which the sign or the part of the target is left open.
@@ -140,10 +140,10 @@ fn a_penetration_that_rounding_may_be_closes_nothing() {
         solution.steps = vec![first(solution.last(), violation)];
         own(&mut solution.steps[0]).statuses.fill(Status::Open);
         let stiffness = bounded(&solution.model);
-        let mut looking = Looking::new(&solution, &stiffness);
+        let mut check = StateCheck::new(&solution, &stiffness);
         let load = solution.model.load.map(Bounded::from_f64);
-        looking.at(&State { step: solution.last(), load, before: &u, u: &u });
-        looking.decisions.swap_remove(0)
+        check.check(&BoundedState { step: solution.last(), load, before: &u, u: &u });
+        check.decisions.swap_remove(0)
     };
     let touching = left(0.0);
     assert_eq!(touching.condition, "touches without force: gap > 0");
@@ -171,7 +171,7 @@ fn steps_that_are_far_from_other_decisions() {
             let own = own(&mut step);
             (own.margin, own.undetermined[0]) = (margin, shared);
             solution.steps = vec![step];
-            Looking::new(&solution, &stiffness).are_far(&solution.steps)[0]
+            StateCheck::new(&solution, &stiffness).are_far(&solution.steps)[0]
         };
         let cases = [
             (1, 1.0, false, 0.0),
@@ -209,10 +209,10 @@ fn contact_states_that_the_active_set_does_not_find_are_told() {
         let path = &mut solution.equilibrium.as_mut().expect("an equilibrium").path;
         path.iter_mut().for_each(|path| path.halved = halved);
         let stiffness = bounded(&solution.model);
-        let mut looking = Looking::new(&solution, &stiffness);
-        looking.searches();
-        assert_eq!(looking.decisions.is_empty(), looking.only_ties);
-        looking.decisions.len()
+        let mut check = StateCheck::new(&solution, &stiffness);
+        check.check_searches();
+        assert_eq!(check.decisions.is_empty(), check.only_ties);
+        check.decisions.len()
     };
     assert_eq!(with(0.2, 0, Choice::Asked, 0.0), 0);
     assert_eq!(with(0.2, 0, Choice::Bounds, 0.0), 1);

@@ -1,6 +1,5 @@
 //! Contact: the target that each contact node faces, the nodes in contact, and their traction.
 
-mod direction;
 mod mortar;
 mod nts;
 mod order;
@@ -8,18 +7,15 @@ mod outline;
 mod pairing;
 mod pressure;
 pub mod search;
-mod sliding;
 pub mod status;
 mod surface;
 pub use crate::quantities::ContactNode;
-pub use direction::{hidden, turned};
 pub use mortar::Mortar;
-pub use order::{along, oddity};
-pub use pairing::{Pairing, STEEP};
+pub use order::{along, hidden, oddity, turned};
+pub use pairing::{Pairing, STEEP, Sense, Status};
 pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
 pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
-pub use sliding::{Sense, Status};
 pub use surface::Surfaces;
 
 use numbers::scalar::Scalar;

@@ -51,14 +51,15 @@ pub struct Mortar<T> {
 /// Averages the target over what the edges of each contact node cover in a shape, given as the
 /// coordinates of each node, length.
 pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
-    let target: Vec<Placed<T>> = surfaces.target.iter().map(|edge| edge.place(shape)).collect();
+    let target: Vec<Placed<T>> =
+        surfaces.target.edges.iter().map(|edge| edge.place(shape)).collect();
     let mut gathered: FxHashMap<NodeId, Gathered<T>> = FxHashMap::default();
     let at = |n: NodeId| shape[n.index()].map(T::to_f64);
-    let tree = Tree::new(surfaces.target.iter().map(|edge| edge.nodes.map(at)).enumerate());
+    let tree = Tree::new(surfaces.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
     let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
     let search = Search { surfaces, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
     let mut unsure = Vec::new();
-    for edge in &surfaces.contact {
+    for edge in &surfaces.contact.edges {
         let (covered, left) = compared(|| search.cover(&edge.place(shape)));
         unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
         let Some(integrals) = Integrals::over(&covered) else { continue };
@@ -149,12 +150,12 @@ impl<T: Scalar> Search<'_, T> {
     /// two that share a node lie on either side of it.
     fn look_at_order(&self, facing: &[(T, Stretch<T>)]) {
         for (k, (distance, stretch)) in facing.iter().enumerate() {
-            let nodes = self.surfaces.target[stretch.edge].nodes;
+            let nodes = self.surfaces.target.edges[stretch.edge].nodes;
             for (other_distance, other) in &facing[k + 1..] {
                 let (from, to) =
                     (Scalar::max(stretch.from, other.from), Scalar::min(stretch.to, other.to));
                 let shared =
-                    self.surfaces.target[other.edge].nodes.iter().any(|n| nodes.contains(n));
+                    self.surfaces.target.edges[other.edge].nodes.iter().any(|n| nodes.contains(n));
                 if !shared && to - from > T::from_f64(ROUNDING) {
                     let _ = distance < other_distance;
                 }
@@ -267,7 +268,7 @@ impl<T: Scalar> Gathered<T> {
     ) {
         self.length += integrals.phi[k];
         for stretch in covered {
-            let edge: &Edge = &search.surfaces.target[stretch.edge];
+            let edge: &Edge = &search.surfaces.target.edges[stretch.edge];
             let normal = search.target[stretch.edge].normal;
             let id = edge.id.expect("a target edge is one of the model's");
             *self.edges.entry(id).or_insert(0.0) += (stretch.to - stretch.from).to_f64();

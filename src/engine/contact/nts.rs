@@ -27,7 +27,7 @@ const JUMP: f64 = 0.01;
 
 /// Returns, for each entry of the contact surface, its closest point on the target.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
-    let outline = target(surfaces, shape);
+    let outline = Outline::new(&surfaces.target, shape);
     let mut listed = HashSet::new();
     let pairing = |(&node, length): (&NodeId, f64)| {
         let faced = contact_node(surfaces, &outline, shape, node)?;
@@ -41,7 +41,7 @@ impl Faced {
     /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
     fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
         let Faced { edge, masters, normal, gap, .. } = self;
-        let edge = surfaces.target[edge].id.expect("a target edge is one of the model's");
+        let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
         Pairing { node, edge, masters, normal, gap, length }
     }
 }
@@ -57,11 +57,6 @@ fn jumps(one: Option<&Pairing>, other: Option<&Pairing>) -> bool {
         || (0..2).any(|d| (one.normal[d] - other.normal[d]).abs() > JUMP)
 }
 
-fn target<'a>(surfaces: &'a Surfaces, shape: &[Vector]) -> Outline<'a> {
-    let [_, meet] = &surfaces.meet;
-    Outline::new(&surfaces.target, meet, &surfaces.undeformed.target, shape)
-}
-
 /// Returns what a contact node faces.
 fn contact_node(
     surfaces: &Surfaces,
@@ -69,7 +64,7 @@ fn contact_node(
     shape: &[Vector],
     node: NodeId,
 ) -> Option<Faced> {
-    outline.faced(shape[node.index()], surfaces.undeformed.contact_nodes.get(&node).copied())
+    outline.faced(shape[node.index()], surfaces.contact.node_normals.get(&node).copied())
 }
 
 impl Surfaces {
@@ -84,10 +79,10 @@ impl Surfaces {
         shape: &[Vector],
         radius: f64,
     ) -> Vec<(NodeId, Option<Pairing>)> {
-        let outline = target(self, shape);
+        let outline = Outline::new(&self.target, shape);
         let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
         let faced = |node: NodeId, at: Vector| {
-            let own = self.undeformed.contact_nodes.get(&node).copied();
+            let own = self.contact.node_normals.get(&node).copied();
             Some(outline.faced(at, own)?.by(self, node, 0.0))
         };
         let outside = radius / FRAC_PI_8.cos();
@@ -111,11 +106,11 @@ impl Surfaces {
     /// see it: a vertex of the target between two contact nodes may enter the contact body. On
     /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
     pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
-        let [meet, _] = &self.meet;
-        let outline = Outline::new(&self.contact, meet, &self.undeformed.contact, shape);
-        let nodes: BTreeSet<NodeId> = self.target.iter().flat_map(|edge| edge.nodes).collect();
+        let outline = Outline::new(&self.contact, shape);
+        let nodes: BTreeSet<NodeId> =
+            self.target.edges.iter().flat_map(|edge| edge.nodes).collect();
         let depth = |node: NodeId| {
-            let own = self.undeformed.target_nodes.get(&node).map(|normal| unit(*normal));
+            let own = self.target.node_normals.get(&node).map(|normal| unit(*normal));
             let faced = outline.faced(shape[node.index()], own)?;
             (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
         };
@@ -139,8 +134,12 @@ impl Surfaces {
                 sides.into_iter().all(|ends| side(ends) > 0.0)
             })
         };
-        let edges: Vec<Segment<f64>> =
-            self.target.iter().map(|edge| Segment::new(edge.nodes.map(|node| at(&node)))).collect();
+        let edges: Vec<Segment<f64>> = self
+            .target
+            .edges
+            .iter()
+            .map(|edge| Segment::new(edge.nodes.map(|node| at(&node))))
+            .collect();
         let depth = |p: Vector| {
             let squares = edges.iter().map(|edge| edge.closest(p).distance_square);
             squares.fold(f64::INFINITY, f64::min).sqrt()
@@ -153,12 +152,15 @@ impl Surfaces {
     /// Checks that no contact node lies deep in the target before the loads act. What counts as
     /// deep is more than half the longest contact edge beside the node and more than 1 % of the
     /// scene's larger extent.
-    /// Errors: a contact node lies deep in the target; the error names the deepest.
+    ///
+    /// # Errors
+    /// A contact node lies deep in the target; the error names the deepest.
     pub fn check_initial_penetration(&self, model: &Model) -> Result<(), InputError> {
-        let outline = target(self, &model.nodes);
+        let outline = Outline::new(&self.target, &model.nodes);
         let size = model.bounds().larger_side();
         let longest = |node: NodeId| {
-            let beside = self.contact.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
+            let beside =
+                self.contact.edges.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
             beside.map(|edge| edge.place(&model.nodes).length).fold(0.0, f64::max)
         };
         let depth = |&node: &NodeId| {
@@ -169,18 +171,14 @@ impl Surfaces {
         };
         let deep = self.nodes.iter().filter_map(depth);
         let deepest = deep.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        match deepest {
-            Some((node, depth)) => {
-                let (edge, part) = (longest(node), 100.0 * depth / size);
-                let what = format!(
-                    "contact node {node} lies {depth:.4} inside the target before the loads act: \
-                     {part:.1} % of the scene's size, beside a contact edge of length {edge:.4}"
-                );
-                let fix = "move the bodies apart, or name the target's side that faces the \
-                           contact surface; an interference may be half a contact edge deep";
-                Err(InputError::new("contact", what, fix))
-            }
-            None => Ok(()),
-        }
+        let Some((node, depth)) = deepest else { return Ok(()) };
+        let (edge, part) = (longest(node), 100.0 * depth / size);
+        let what = format!(
+            "contact node {node} lies {depth:.4} inside the target before the loads act: {part:.1} % of \
+             the scene's size, beside a contact edge of length {edge:.4}"
+        );
+        let fix = "move the bodies apart, or name the target's side that faces the contact surface; an \
+                   interference may be half a contact edge deep";
+        Err(InputError::new("contact", what, fix))
     }
 }

@@ -1,19 +1,29 @@
-//! The order of the contact surface under `unilateral`, whatever the order in which it is listed.
+//! How surfaces are listed: the order of the contact surface, and the direction of the target's edges.
 //!
+//! Under `unilateral` the contact surface has an order of its own, whatever the order in which it is listed.
 //! The nodes are followed along the edges of the body's outline between them, with the body on the
 //! left. A closed outline starts at its lowest node; of several pieces, as two feet of a body, that
 //! with the lowest first node comes first.
+//!
+//! Contact that `c_cnt` does not find because of the direction of a target edge (findings C1 and C14):
+//!
+//! ```text
+//!   runs towards +x: found from x1 - c_tll to x2 + c_tll       runs towards -x: from x2 + c_tll to x1 - c_tll
+//!   1 ----------> 2                                            2 <---------- 1
+//! ```
 
 use std::collections::{HashMap, HashSet};
 
 use base::error::InputError;
-use problem::model::{Model, NodeId};
-
-const PLACE: &str = "contact.cnt";
+use paper::door::Call;
+use paper::mirror::Reading;
+use problem::model::{Model, NodeId, unordered};
 
 /// Returns the nodes of the contact surface in order along it, each once. A surface of one node,
 /// which bounds no contact edge, is that node.
-/// Errors: a node is joined to no other one by an edge of the outline, or to more than two.
+///
+/// # Errors
+/// A node is joined to no other one by an edge of the outline, or to more than two.
 pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
     let listed: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
     if listed.len() < 2 {
@@ -29,7 +39,7 @@ pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
             let [a, b] = pair;
             if next.insert(a, b).is_some() || !before.insert(b) {
                 let what = format!("the edges between the listed nodes branch at node {a} or {b}");
-                return Err(InputError::new(PLACE, what, "name one side of the outline"));
+                return Err(InputError::new("contact.cnt", what, "name one side of the outline"));
             }
         }
     }
@@ -38,19 +48,18 @@ pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
         let what = format!("no edge of the outline joins node {node} to another listed node");
         let fix = "list all nodes along the contact surface; those between two listed nodes may be \
                    missing";
-        return Err(InputError::new(PLACE, what, fix));
+        return Err(InputError::new("contact.cnt", what, fix));
     }
     let mut starts: Vec<NodeId> = listed.iter().filter(|n| !before.contains(*n)).copied().collect();
+    if starts.is_empty() {
+        starts.extend(listed.iter().min());
+    }
     starts.sort_unstable();
     let mut nodes: Vec<NodeId> = Vec::new();
     for start in starts {
         nodes.push(start);
-        nodes.extend(follow(&next, start, start));
-    }
-    if nodes.is_empty() {
-        let start = *listed.iter().min().expect("there are two nodes");
-        nodes.push(start);
-        nodes.extend(follow(&next, start, start));
+        let following = std::iter::successors(next.get(&start), |n| next.get(*n)).copied();
+        nodes.extend(following.take_while(|n| *n != start));
     }
     if nodes.len() == listed.len() {
         return Ok(nodes);
@@ -58,7 +67,11 @@ pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
     let found: HashSet<NodeId> = nodes.into_iter().collect();
     let left = listed.difference(&found).min().expect("not all were found");
     let what = format!("the listed nodes make more than one outline; node {left} is on another");
-    Err(InputError::new(PLACE, what, "name one outline, or parts of it that are not closed"))
+    Err(InputError::new(
+        "contact.cnt",
+        what,
+        "name one outline, or parts of it that are not closed",
+    ))
 }
 
 /// Returns what the list of the contact surface has that no walk along it would have; None where it
@@ -73,25 +86,44 @@ pub fn oddity(model: &Model) -> Option<String> {
         Ok(along) => along,
         Err(error) => return Some(error.what),
     };
-    let beside: HashSet<_> = listed.windows(2).map(sorted).collect();
-    let is_edge = |pair: &&[NodeId]| model.sides.boundary([pair[0], pair[1]]).is_some();
-    let mut apart = along.windows(2).filter(is_edge).filter(|pair| !beside.contains(&sorted(pair)));
-    let [a, b] = sorted(apart.next()?);
+    let pairs = |nodes: &[NodeId]| -> Vec<[NodeId; 2]> {
+        nodes.windows(2).map(|pair| unordered([pair[0], pair[1]])).collect()
+    };
+    let beside: HashSet<_> = pairs(listed).into_iter().collect();
+    let is_apart =
+        |pair: &[NodeId; 2]| model.sides.boundary(*pair).is_some() && !beside.contains(pair);
+    let [a, b] = pairs(&along).into_iter().find(is_apart)?;
     Some(format!("nodes {a} and {b} share an edge and are listed apart"))
 }
 
-/// Returns a pair of nodes, the lower one first.
-fn sorted(pair: &[NodeId]) -> [NodeId; 2] {
-    [pair[0].min(pair[1]), pair[0].max(pair[1])]
+/// Returns, where `c_cnt` finds no node in contact in a shape and would with the target's edges turned
+/// round, the cause and what to do, in words; None elsewhere. `shape` has the coordinates of each node,
+/// length.
+pub fn hidden(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Option<String> {
+    let found = |model: &Model| Call::c_cnt(model, reading, shape).ok().map(|call| call.statuses);
+    let own = found(model)?;
+    if own.iter().any(|status| status.in_contact) {
+        return None;
+    }
+    let turned = found(&turned(model))?;
+    let (own, turned) = own.iter().zip(&turned).find(|(_, turned)| turned.in_contact)?;
+    let edge = model.edge(turned.edge?);
+    let [a, b] = edge.nodes.map(|node| shape[node.index()]);
+    let towards = if b[0] < a[0] { "-x" } else { "-y" };
+    let ct = own.edge.map_or(0, |edge| model.edge(edge).number);
+    Some(format!(
+        "ct of node {} is {ct}, though it touches target edge {}, because the edge runs towards {towards}, \
+         where the box of lines 5 and 6 of c_cnt shrinks (finding C1); turn the target's edges round: in \
+         Gmsh, reverse their curve",
+        own.node, edge.number
+    ))
 }
 
-/// Returns the nodes after `start` as far as `end` or the end of the chain.
-fn follow(
-    next: &HashMap<NodeId, NodeId>,
-    start: NodeId,
-    end: NodeId,
-) -> impl Iterator<Item = NodeId> {
-    std::iter::successors(next.get(&start), |n| next.get(*n))
-        .copied()
-        .take_while(move |n| *n != end)
+/// Returns the model with every target edge turned round.
+pub fn turned(model: &Model) -> Model {
+    let mut turned = model.clone();
+    for edge in &model.contact.target {
+        turned.edges[edge.index()].nodes.reverse();
+    }
+    turned
 }

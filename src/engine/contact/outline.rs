@@ -35,7 +35,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{Edge, FACING, Meeting, Placed};
+use super::surface::{Edge, FACING, Placed, Surface};
 use problem::model::NodeId;
 use problem::tree::{Bounds, Tree};
 
@@ -57,12 +57,8 @@ const HANGING: f64 = 0.05;
 
 /// The edges of a body's surface in a shape, for the search of what a node faces.
 pub(super) struct Outline<'a> {
-    edges: &'a [Edge],
+    surface: &'a Surface,
     placed: Vec<Placed>,
-    /// The normal of each edge in the undeformed shape.
-    undeformed: &'a [Vector],
-    /// The edges at each node, an edge that is listed twice once.
-    at: &'a FxHashMap<NodeId, Vec<usize>>,
     /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
     normals: Vec<[Vector; 2]>,
     tree: Tree,
@@ -94,19 +90,15 @@ enum Part {
 }
 
 impl<'a> Outline<'a> {
-    /// Places edges in `shape`; `undeformed` contains the normal of each in the undeformed shape.
-    pub(super) fn new(
-        edges: &'a [Edge],
-        Meeting { once, at }: &'a Meeting,
-        undeformed: &'a [Vector],
-        shape: &[Vector],
-    ) -> Self {
+    /// Places the edges of a surface in `shape`.
+    pub(super) fn new(surface: &'a Surface, shape: &[Vector]) -> Self {
+        let Surface { edges, once, at, .. } = surface;
         let placed: Vec<Placed> = edges.iter().map(|edge| edge.place(shape)).collect();
         let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.iter().map(ends));
         let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
         let normals = normals(edges, &placed, at);
-        Outline { edges, placed, undeformed, at, normals, tree, tie }
+        Outline { surface, placed, normals, tree, tie }
     }
 
     /// Returns what a node at `p` faces; `own` is the normal out of the node's own body in the
@@ -132,9 +124,9 @@ impl<'a> Outline<'a> {
 
     /// Returns the place of a vertex in the shape, length.
     fn vertex(&self, v: NodeId) -> Vector {
-        let k = self.at[&v][0];
+        let k = self.surface.at[&v][0];
         let Placed { start, tangent, length, .. } = &self.placed[k];
-        let end = self.edges[k].nodes[1] == v;
+        let end = self.surface.edges[k].nodes[1] == v;
         let far = if end { *length } else { 0.0 };
         [0, 1].map(|d| start[d] + far * tangent[d])
     }
@@ -142,18 +134,18 @@ impl<'a> Outline<'a> {
     /// Returns how far `p` projects past end `v` of edge `k`, over its length; < 0 on its side.
     fn past(&self, k: usize, v: NodeId, p: Vector) -> f64 {
         let xi = self.placed[k].along(p);
-        if self.edges[k].nodes[1] == v { xi - 1.0 } else { -xi }
+        if self.surface.edges[k].nodes[1] == v { xi - 1.0 } else { -xi }
     }
 
     /// Returns the sum of the normals of the edges at a vertex, which points out of the body.
     fn pseudo_normal(&self, v: NodeId) -> Vector {
-        let normals = self.at[&v].iter().map(|&k| self.placed[k].normal);
+        let normals = self.surface.at[&v].iter().map(|&k| self.placed[k].normal);
         normals.fold([0.0; 2], |sum, n| [sum[0] + n[0], sum[1] + n[1]])
     }
 
     /// Returns whether the edges at a vertex meet in a bend of a smooth surface.
     fn bends(&self, v: NodeId) -> bool {
-        let at = &self.at[&v];
+        let at = &self.surface.at[&v];
         let normal = |k: usize| self.placed[k].normal;
         at.iter().all(|&k| at.iter().all(|&l| dot(normal(k), normal(l)) > BEND))
     }
@@ -173,13 +165,13 @@ impl Facing<'_> {
     }
 
     fn faces_edge(&self, k: usize) -> bool {
-        self.faces(self.outline.undeformed[k])
+        self.faces(self.outline.surface.normals[k])
     }
 
     /// Returns the part of edge `k` or of its ends that is nearest to the node, and its distance.
     fn part(&self, k: usize) -> Option<(f64, Part)> {
         let (outline, p) = (self.outline, self.p);
-        let edge = &outline.edges[k];
+        let edge = &outline.surface.edges[k];
         let xi = outline.placed[k].along(p);
         let v = edge.nodes[usize::from(xi > 0.5)];
         if outline.past(k, v, p) > 0.0 {
@@ -202,7 +194,7 @@ impl Facing<'_> {
     /// Returns the part of the surface at vertex `v` that the node rests on, past an edge's end.
     fn at_vertex(&self, v: NodeId) -> Option<Part> {
         let outline = self.outline;
-        let at = &outline.at[&v];
+        let at = &outline.surface.at[&v];
         let facing: Vec<usize> = at.iter().copied().filter(|k| self.faces_edge(*k)).collect();
         let past = |k: usize| outline.past(k, v, self.p);
         let last = if let [k] = facing[..] { Some(k) } else { None };
@@ -227,7 +219,7 @@ impl Facing<'_> {
     /// direction between their normals does.
     fn in_tip(&self, v: NodeId) -> bool {
         let outline = self.outline;
-        let at = &outline.at[&v];
+        let at = &outline.surface.at[&v];
         let inside = |k: &usize| outline.placed[*k].outside(self.p) <= outline.tie;
         at.len() > 1
             && at.iter().all(|k| !self.faces_edge(*k) && inside(k))
@@ -267,7 +259,7 @@ impl Facing<'_> {
                     Part::Edge(k) => Some(*k),
                     Part::Vertex(_) | Part::Tip(_) => None,
                 });
-                let first = edges.min_by_key(|k| self.outline.edges[*k].nodes);
+                let first = edges.min_by_key(|k| self.outline.surface.edges[*k].nodes);
                 self.on_edge(first.expect("a part is an edge or a vertex"))
             }
         }
@@ -280,12 +272,12 @@ impl Facing<'_> {
         let mut vertices: Vec<NodeId> = Vec::new();
         for part in parts {
             match part {
-                Part::Edge(k) => vertices.extend(outline.edges[*k].nodes),
+                Part::Edge(k) => vertices.extend(outline.surface.edges[*k].nodes),
                 Part::Vertex(v) | Part::Tip(v) => vertices.push(*v),
             }
         }
         let met = |v: &NodeId| {
-            let at = &outline.at[v];
+            let at = &outline.surface.at[v];
             let near = |k: &&usize| parts.contains(&Part::Edge(**k));
             let facing = || at.iter().filter(|k| self.faces_edge(**k)).count();
             at.iter().filter(near).count() > 1
@@ -299,10 +291,10 @@ impl Facing<'_> {
     fn farther(&self, v: NodeId) -> usize {
         let outline = self.outline;
         let away = |k: usize| outline.placed[k].outside(self.p).abs();
-        let edges = outline.at[&v].iter().copied();
+        let edges = outline.surface.at[&v].iter().copied();
         let best = edges.reduce(|a, b| {
             let further = away(b) - away(a);
-            let first = outline.edges[b].nodes < outline.edges[a].nodes;
+            let first = outline.surface.edges[b].nodes < outline.surface.edges[a].nodes;
             if further > outline.tie || further >= -outline.tie && first { b } else { a }
         });
         best.expect("a vertex has an edge")
@@ -314,7 +306,7 @@ impl Facing<'_> {
     }
 
     fn on_edge(&self, k: usize) -> Faced {
-        let (edge, placed) = (&self.outline.edges[k], &self.outline.placed[k]);
+        let (edge, placed) = (&self.outline.surface.edges[k], &self.outline.placed[k]);
         let along = placed.along(self.p);
         let xi = along.clamp(0.0, 1.0);
         let over = (along - xi).abs() <= ROUNDING;

@@ -1,4 +1,5 @@
-//! The target that each contact node faces in a given shape: target nodes and weights, normal, gap.
+//! The target that each contact node faces in a given shape: target nodes and weights, normal, gap; and
+//! whether the node is open, sticks or slides.
 //!
 //! ```text
 //!        contact surface          c  o            normal n: out of the target
@@ -10,10 +11,14 @@
 //! (`mortar.rs`) averages over the stretch of the target that the edges of c cover: more weights,
 //! and constant pressure is transferred exactly.
 
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::search::{dot, minus};
 use numbers::scalar::Scalar;
 use problem::model::{EdgeId, NodeId};
-use serde::Serialize;
 
 /// The component of a normal beyond which the one free motion of a node makes its gap, and the
 /// equation of that motion determines its force.
@@ -37,6 +42,23 @@ pub struct Pairing<T = f64> {
 }
 
 impl<T: Scalar> Pairing<T> {
+    /// Returns the contact node and its master nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        std::iter::once(self.node).chain(self.masters.iter().map(|(master, _)| *master))
+    }
+
+    /// Returns the same pairing in other numbers.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairing<U> {
+        Pairing {
+            node: self.node,
+            edge: self.edge,
+            masters: self.masters.iter().map(|&(master, w)| (master, to(w))).collect(),
+            normal: self.normal.map(&to),
+            gap: to(self.gap),
+            length: to(self.length),
+        }
+    }
+
     /// Returns n·(v_c − Σ w v_t) of a field: of coordinates the gap, of displacements its change.
     pub fn opening(&self, of_node: impl Fn(NodeId) -> [T; 2]) -> T {
         dot(self.motion(of_node), self.normal)
@@ -60,4 +82,61 @@ pub(super) type Vector = [f64; 2];
 pub(super) fn unit<T: Scalar>(v: [T; 2]) -> [T; 2] {
     let size = T::length(v[0], v[1]);
     [v[0] / size, v[1] / size]
+}
+
+/// The status of a contact node under `unilateral`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It is not in contact.
+    Open,
+    /// It is in contact and does not slide in this step of the load.
+    Stick,
+    /// It is in contact and slides, against the friction.
+    #[serde(untagged)]
+    Slip(Sense),
+}
+
+/// The sense in which a node slides along the tangent, which is the normal turned left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+pub enum Sense {
+    /// Along the tangent.
+    #[serde(rename = "slip+")]
+    Forward,
+    /// Against the tangent.
+    #[serde(rename = "slip-")]
+    Backward,
+    /// Either way: there is no friction.
+    #[serde(rename = "slip")]
+    Free,
+}
+
+impl Status {
+    /// Returns whether the node is in contact.
+    pub fn is_closed(self) -> bool {
+        self != Status::Open
+    }
+}
+
+impl Sense {
+    /// Returns the sign of the motion along the tangent; 0 without friction.
+    pub fn sign(self) -> f64 {
+        match self {
+            Sense::Forward => 1.0,
+            Sense::Backward => -1.0,
+            Sense::Free => 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Status::Open => "open",
+            Status::Stick => "stick",
+            Status::Slip(Sense::Forward) => "slip +",
+            Status::Slip(Sense::Backward) => "slip -",
+            Status::Slip(Sense::Free) => "slip",
+        })
+    }
 }

@@ -3,8 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::pairing::Pairing;
-use super::sliding::Status;
+use super::pairing::{Pairing, Status};
 use super::surface::Surfaces;
 use crate::quantities::ContactNode;
 use problem::model::{Model, NodeId};

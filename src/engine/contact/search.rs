@@ -15,7 +15,7 @@
 //!
 //! At a corner both edges are equally near. The edge whose line is farther from p is taken: its
 //! side has the right sign, because the sum of the two normals has it (Bærentzen and Aanæs, IEEE
-//! TVCG 11:243, 2005). The rule past the end of a surface belongs to the caller: `admits`.
+//! TVCG 11:243, 2005).
 //!
 //! No square root is taken: distances are compared as squares, so that exact numbers can be used.
 
@@ -56,10 +56,13 @@ impl<T: Scalar> Segment<T> {
     pub fn closest(&self, p: [T; 2]) -> Closest<T> {
         let xi = dot(self.along, minus(p, self.ends[0])) / self.square;
         let side = self.side(p);
-        let distance_square = match () {
-            _ if xi < T::zero() => square(minus(p, self.ends[0])),
-            _ if xi > T::one() => square(minus(p, self.ends[1])),
-            _ => side * side / self.square,
+        let square = |a: [T; 2]| dot(a, a);
+        let distance_square = if xi < T::zero() {
+            square(minus(p, self.ends[0]))
+        } else if xi > T::one() {
+            square(minus(p, self.ends[1]))
+        } else {
+            side * side / self.square
         };
         Closest { xi, side, square: self.square, distance_square }
     }
@@ -101,15 +104,10 @@ impl<T: Scalar> Closest<T> {
     }
 }
 
-/// Returns the closest point to `p` on the segments that `admits` accepts, and its segment.
-pub fn closest<'a, T: Scalar>(
-    segments: impl IntoIterator<Item = (usize, &'a Segment<T>)>,
-    p: [T; 2],
-    admits: impl Fn(usize, &Closest<T>) -> bool,
-) -> Option<(usize, Closest<T>)> {
-    let points = segments.into_iter().map(|(k, segment)| (k, segment.closest(p)));
-    let admitted = points.filter(|(k, closest)| admits(*k, closest));
-    admitted.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
+/// Returns the index of the segment that is closest to `p`, and its closest point.
+pub fn closest<T: Scalar>(segments: &[Segment<T>], p: [T; 2]) -> Option<(usize, Closest<T>)> {
+    let points = segments.iter().map(|segment| segment.closest(p)).enumerate();
+    points.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
 }
 
 pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
@@ -118,8 +116,4 @@ pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {
 
 pub(super) fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[0] + a[1] * b[1]
-}
-
-fn square<T: Scalar>(a: [T; 2]) -> T {
-    dot(a, a)
 }

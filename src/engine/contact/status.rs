@@ -186,7 +186,7 @@ impl<T: Scalar> Target<T> {
 
     /// Returns the edge nearest to `p` and its closest point; None where the surface has no edge.
     pub fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
-        let (k, closest) = closest(self.segments.iter().enumerate(), p, |_, _| true)?;
+        let (k, closest) = closest(&self.segments, p)?;
         Some((&self.edges[k], closest))
     }
 }

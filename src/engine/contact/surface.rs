@@ -18,27 +18,23 @@ pub(super) const FACING: f64 = 0.1;
 pub struct Surfaces {
     /// The entries of the contact surface.
     pub(super) nodes: Vec<NodeId>,
-    /// The edges of the contact surface, each once.
-    pub(super) contact: Vec<Edge>,
-    /// The edges of the target surface, in the order of the model.
-    pub(super) target: Vec<Edge>,
-    /// Which edges of the contact surface meet, and which of the target surface.
-    pub(super) meet: [Meeting; 2],
-    /// The normals of the undeformed shape. An intermediate shape of the iterations may be folded,
-    /// so that its normals do not decide which surfaces face each other.
-    pub(super) undeformed: Normals,
+    pub(super) contact: Surface,
+    pub(super) target: Surface,
 }
 
-/// The unit normals of edges, and the mean normals of their nodes, out of the body.
-pub(super) struct Normals {
-    /// By contact edge.
-    pub(super) contact: Vec<Vector>,
-    /// By target edge.
-    pub(super) target: Vec<Vector>,
-    /// By contact node that bounds an edge.
-    pub(super) contact_nodes: FxHashMap<NodeId, Vector>,
-    /// By target node.
-    pub(super) target_nodes: FxHashMap<NodeId, Vector>,
+/// The edges of the contact surface, each once, or those of the target surface, in the order of the model.
+pub(super) struct Surface {
+    pub(super) edges: Vec<Edge>,
+    /// The indices of the edges, of one that is listed twice the first.
+    pub(super) once: Vec<usize>,
+    /// Those at each node.
+    pub(super) at: FxHashMap<NodeId, Vec<usize>>,
+    /// The unit normals of the edges out of the body in the undeformed shape. An intermediate shape of the
+    /// iterations may be folded, so that its normals do not decide which surfaces face each other.
+    pub(super) normals: Vec<Vector>,
+    /// The mean normal at each node over its edges, weighted by length. It is no unit vector where they meet
+    /// in a corner.
+    pub(super) node_normals: FxHashMap<NodeId, Vector>,
 }
 
 /// An edge of a body's surface.
@@ -50,16 +46,8 @@ pub(super) struct Edge {
     pub(super) nodes: [NodeId; 2],
 }
 
-/// Which edges of a surface meet at its nodes.
-pub(super) struct Meeting {
-    /// The edges, one that is listed twice once.
-    pub(super) once: Vec<usize>,
-    /// Those at each node.
-    pub(super) at: FxHashMap<NodeId, Vec<usize>>,
-}
-
-impl Meeting {
-    fn of(edges: &[Edge]) -> Self {
+impl Surface {
+    fn new(model: &Model, edges: Vec<Edge>) -> Self {
         let mut listed = HashSet::new();
         let once: Vec<usize> =
             (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
@@ -67,7 +55,19 @@ impl Meeting {
         for &k in &once {
             edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
         }
-        Meeting { once, at }
+        let mut sums: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
+        let mut normals = Vec::new();
+        for edge in &edges {
+            let Placed { normal, length, .. } = edge.place(&model.nodes);
+            normals.push(normal);
+            for n in edge.nodes {
+                let (sum, total) = sums.entry(n).or_default();
+                *total += length;
+                (0..2).for_each(|d| sum[d] += length * normal[d]);
+            }
+        }
+        let means = sums.into_iter().map(|(n, (sum, total))| (n, sum.map(|x| x / total)));
+        Surface { edges, once, at, normals, node_normals: means.collect() }
     }
 }
 
@@ -108,7 +108,9 @@ impl<T: Scalar> Placed<T> {
 
 impl Surfaces {
     /// Finds the surfaces of a model.
-    /// Errors: a target edge bounds no triangle, so that its outer side is unknown.
+    ///
+    /// # Errors
+    /// A target edge bounds no triangle, so that its outer side is unknown.
     pub fn new(model: &Model) -> Result<Self, InputError> {
         let nodes = model.contact.nodes.clone();
         let boundary = |pair: [NodeId; 2]| model.sides.boundary(pair).map(|one| one.nodes);
@@ -128,16 +130,8 @@ impl Surfaces {
         };
         let target: Vec<Edge> =
             model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
-        let normals =
-            |edges: &[Edge]| edges.iter().map(|edge| edge.place(&model.nodes).normal).collect();
-        let undeformed = Normals {
-            contact: normals(&contact),
-            target: normals(&target),
-            contact_nodes: normals_at_nodes(&contact, &model.nodes),
-            target_nodes: normals_at_nodes(&target, &model.nodes),
-        };
-        let meet = [&contact, &target].map(|edges| Meeting::of(edges));
-        Ok(Surfaces { nodes, contact, target, meet, undeformed })
+        let [contact, target] = [contact, target].map(|edges| Surface::new(model, edges));
+        Ok(Surfaces { nodes, contact, target })
     }
 
     /// Returns the entries of the contact surface, in order.
@@ -148,7 +142,7 @@ impl Surfaces {
     /// Returns the largest change of a coordinate of a node of either surface from one shape to another,
     /// length.
     pub fn farthest(&self, [one, other]: [&[Vector]; 2]) -> f64 {
-        let nodes = self.contact.iter().chain(&self.target).flat_map(|edge| edge.nodes);
+        let nodes = self.contact.edges.iter().chain(&self.target.edges).flat_map(|edge| edge.nodes);
         let change = |node: NodeId| {
             let [a, b] = [one, other].map(|shape| shape[node.index()]);
             (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
@@ -160,28 +154,12 @@ impl Surfaces {
     /// bounds in a shape, length; 0 for a node's second entry.
     pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
         let mut of_node: FxHashMap<NodeId, T> = FxHashMap::default();
-        for edge in &self.contact {
+        for edge in &self.contact.edges {
             let half = edge.place(shape).length / T::from_f64(2.0);
             edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
         }
         self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(T::zero())).collect()
     }
-}
-
-/// Returns the normal of each node of `edges`, out of its body: the mean over its edges, weighted
-/// by length. It is no unit vector where the edges meet in a corner.
-fn normals_at_nodes(edges: &[Edge], shape: &[Vector]) -> FxHashMap<NodeId, Vector> {
-    let mut of_node: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
-    for edge in edges {
-        let Placed { normal, length, .. } = edge.place(shape);
-        for n in edge.nodes {
-            let (sum, total) = of_node.entry(n).or_default();
-            *total += length;
-            (0..2).for_each(|d| sum[d] += length * normal[d]);
-        }
-    }
-    let mean = |(n, (sum, total)): (NodeId, (Vector, f64))| (n, sum.map(|x| x / total));
-    of_node.into_iter().map(mean).collect()
 }
 
 /// Returns each pair of successive `nodes` once, the lower node first, and the pair that closes a

@@ -9,10 +9,12 @@
 
 use nalgebra::{DVector, SVector};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::ties::{Looking, State};
-use crate::held::Held;
-use crate::not_finite::finite;
+use super::factors::StateFactors;
+use super::ties::{BoundedState, StateCheck};
+use crate::distance::finite;
 use crate::residual::error_of_solution;
 use crate::{
     Decision, Detail, Elimination, Request, Session, Solution, Step, StepBounds, Stiffness,
@@ -39,16 +41,48 @@ pub struct Rounding {
     pub steps: Vec<Option<StepBounds>>,
 }
 
+/// Whether rounding decides who is in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Certainty {
+    /// It decides nothing.
+    Certain,
+    /// It may decide in the numbers asked for, and decides nothing in the double-doubles in which
+    /// the run was repeated.
+    InDoubleDouble,
+    /// It may decide, or whether it does is not known.
+    Unknown,
+}
+
 /// Returns what rounding may do to a solution.
 pub fn rounding(solution: &Solution, session: &Session) -> Rounding {
     rounding_while(solution, session, &mut |_| true)
 }
 
-/// Returns whether rounding decides nothing in a solution. Of a variant that the paper describes the run
-/// is repeated up to its first doubt only.
-pub(super) fn decides_nothing(solution: &Solution, session: &Session) -> bool {
-    // There is no bound where rounding may have decided.
-    rounding_while(solution, session, &mut Step::is_certain).displacement.is_some()
+/// Returns the solution itself where rounding decides nothing in it, else that of the same request in
+/// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
+/// which has no other numbers, the solution stays as it is.
+pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
+    // The run is repeated up to its first doubt only; there is no bound where rounding may have decided.
+    if rounding_while(&solution, session, &mut Step::is_certain).displacement.is_some() {
+        return (solution, Certainty::Certain);
+    }
+    if solution.request.variant == Variant::Unilateral {
+        return (solution, Certainty::Unknown);
+    }
+    let arithmetic = Arithmetic {
+        scalar: ScalarName::BoundedDouble,
+        solver: None,
+        tol: None,
+        ..solution.request.arithmetic
+    };
+    let request = Request { arithmetic, ..solution.request.clone() };
+    match session.solve_while(&request, &mut Step::is_certain) {
+        Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
+            (again, Certainty::InDoubleDouble)
+        }
+        _ => (solution, Certainty::Unknown),
+    }
 }
 
 /// Returns what rounding may do, by the run repeated for as long as it `goes_on` where it is repeated.
@@ -58,8 +92,8 @@ fn rounding_while(
     goes_on: &mut dyn FnMut(&Step) -> bool,
 ) -> Rounding {
     of_published(solution, session, goes_on).unwrap_or_else(|| {
-        let held = Held::new(solution, session);
-        of_equilibrium(solution, held.as_ref(), session, &bounded(&solution.model))
+        let factors = StateFactors::new(solution, session);
+        of_equilibrium(solution, factors.as_ref(), session, &bounded(&solution.model))
     })
 }
 
@@ -91,12 +125,12 @@ pub(super) fn of_published(
 /// are not.
 pub(super) fn of_equilibrium(
     solution: &Solution,
-    held: Option<&Held>,
+    factors: Option<&StateFactors>,
     session: &Session,
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
-    let looked = held.and_then(|held| looked_at(solution, held, session, stiffness));
-    let Some((u, Looking { decisions, only_ties, .. })) = looked else {
+    let checked = factors.and_then(|factors| checked_states(solution, factors, session, stiffness));
+    let Some((u, StateCheck { decisions, only_ties, .. })) = checked else {
         return Rounding::unknown(solution);
     };
     // What is left of the change of shape is no rounding, but no less an error of the displacements.
@@ -108,15 +142,15 @@ pub(super) fn of_equilibrium(
 /// Looks at the decisions of the last contact state, and where the way to it counts at those of each
 /// iteration; returns the last displacements within their bounds too. None where a state does not
 /// hold the bodies.
-fn looked_at<'a>(
+fn checked_states<'a>(
     solution: &'a Solution,
-    held: &Held,
+    factors: &StateFactors,
     session: &Session,
     stiffness: &'a Stiffness<Bounded>,
-) -> Option<(DVector<Bounded>, Looking<'a>)> {
+) -> Option<(DVector<Bounded>, StateCheck<'a>)> {
     let model = &*solution.model;
-    let mut looking = Looking::new(solution, stiffness);
-    looking.searches();
+    let mut check = StateCheck::new(solution, stiffness);
+    check.check_searches();
     let (last, way) = solution.steps.split_last()?;
     let part = |step: &Step| match &step.detail {
         Detail::Unilateral(detail) => detail.load,
@@ -125,32 +159,32 @@ fn looked_at<'a>(
     // From its displacements count the slips of the last step of the load.
     let from = way.iter().rposition(|step| part(step) < part(last));
     let counts = if solution.way_counts() { way.len() } else { 0 };
-    let groups = looking.groups(&way[..counts]);
+    let groups = check.groups(&way[..counts]);
     let far: Vec<bool> =
-        groups.into_par_iter().flat_map_iter(|steps| looking.are_far(steps)).collect();
+        groups.into_par_iter().flat_map_iter(|steps| check.are_far(steps)).collect();
     let near = (0..counts).filter(|i| Some(*i) == from || !far[*i]);
     // The displacements before the step of the load, and after the last iteration.
     let mut before = DVector::zeros(model.dofs());
     let mut reached: Option<(f64, DVector<Bounded>)> = None;
-    let mut look = |step: &Step, held: &Held, load: DVector<Bounded>| {
+    let mut look = |step: &Step, factors: &StateFactors, load: DVector<Bounded>| {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         if let Some((at, u)) = reached.take()
             && at < detail.load
         {
             before = u;
         }
-        let u = state(model, step, held, &load, stiffness)?;
-        looking.at(&State { step, load, before: &before, u: &u });
+        let u = state(model, step, factors, &load, stiffness)?;
+        check.check(&BoundedState { step, load, before: &before, u: &u });
         reached = Some((detail.load, u));
         Some(())
     };
     for step in near.map(|i| &way[i]) {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
-        look(step, &Held::at(solution, step, session)?, load)?;
+        look(step, &StateFactors::of_step(solution, step, session)?, load)?;
     }
-    look(last, held, model.load_in(Bounded::from_f64))?;
-    Some((reached?.1, looking))
+    look(last, factors, model.load_in(Bounded::from_f64))?;
+    Some((reached?.1, check))
 }
 
 fn of_run(
@@ -263,7 +297,7 @@ fn bounded_run(
 fn state(
     model: &Model,
     step: &Step,
-    held: &Held,
+    factors: &StateFactors,
     load: &DVector<Bounded>,
     stiffness: &Stiffness<Bounded>,
 ) -> Option<DVector<Bounded>> {
@@ -274,8 +308,8 @@ fn state(
     let friction = detail.friction(load.len()).map(Bounded::from_f64);
     let load = model.free_part(&(load + friction));
     let b = t.load(&(load - stiffness.times(t.shift())));
-    let x = held.refined(&b.map(Scalar::to_f64));
-    let bound = error_of_solution((stiffness, &t), &*held.factors, &b, &x);
+    let x = factors.refined(&b.map(Scalar::to_f64));
+    let bound = error_of_solution((stiffness, &t), &*factors.factors, &b, &x);
     // Friction follows the normal forces, whose errors are taken to be those of the displacements.
     let bound = (1.0 + detail.feedback) * bound;
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))

@@ -18,33 +18,33 @@
 use nalgebra::DVector;
 
 use super::discretisation::{Discretisation, SAFETY, compliance};
+use super::factors::StateFactors;
 use super::recovery::Stress;
 use crate::Solution;
-use crate::held::Held;
 use problem::element::{self, State};
 use problem::model::{Model, NodeId, TriangleId};
 
-/// The bodies as they are held at the end of a run, ready to be pushed by one more force.
+/// The bodies at the end of a run, to which one more force is applied.
 pub struct Dual<'a> {
     model: &'a Model,
     /// σ* − σ_h at the corners of each triangle, stress; None where a triangle's is unknown.
     errors: Option<Vec<[Stress; 3]>>,
     mesh: &'a Discretisation,
-    held: Held,
+    state: StateFactors,
 }
 
 impl<'a> Dual<'a> {
     /// Takes the bodies at the end of a run; `mesh` is its estimate.
-    pub fn new(solution: &'a Solution, held: Held, mesh: &'a Discretisation) -> Self {
+    pub fn new(solution: &'a Solution, state: StateFactors, mesh: &'a Discretisation) -> Self {
         let errors = stress_errors(mesh, &solution.elements);
-        Dual { model: &solution.model, errors, mesh, held }
+        Dual { model: &solution.model, errors, mesh, state }
     }
 
     /// Returns the estimated error of the displacement in whose place and direction `force`, by
     /// degree of freedom, is a unit force, length; infinite where the error of a triangle is
     /// unknown.
     pub fn error(&self, force: &DVector<f64>) -> f64 {
-        let z = self.held.stiffness.states(&self.held.under(self.model, force));
+        let z = self.state.stiffness.states(&self.state.under(self.model, force));
         let of_z = stress_errors(&self.mesh.of_other(self.model, &z), &z);
         let Some((of_u, of_z)) = self.errors.as_ref().zip(of_z) else { return f64::INFINITY };
         let pairs = self.model.triangle_ids().zip(of_u.iter().zip(&of_z));

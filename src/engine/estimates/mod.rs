@@ -9,9 +9,9 @@
 //! ```
 
 pub mod arithmetic;
-mod certain;
 pub mod discretisation;
 mod dual;
+mod factors;
 mod patches;
 mod recovery;
 mod singular;
@@ -21,13 +21,13 @@ use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::held::Held;
-use super::not_finite::finite;
+use super::distance::finite;
 use super::solution::{Solution, max_displacement};
 use crate::{Decision, Session};
-pub use certain::{Certainty, certain};
+pub use arithmetic::{Certainty, certain};
 use discretisation::Discretisation;
 pub(super) use dual::Dual;
+pub(super) use factors::StateFactors;
 use numbers::largest::is_as_large;
 use problem::model::{Body, NodeId, TriangleId};
 pub use singular::{Cause, Singular, singular};
@@ -96,14 +96,14 @@ impl Estimates {
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
             let of_run = arithmetic::of_published(solution, session, &mut |_| true);
-            let (held, bounded) = (Held::new(solution, session), arithmetic::bounded(model));
-            let of_last = || arithmetic::of_equilibrium(solution, held.as_ref(), session, &bounded);
+            let (state, bounded) = (StateFactors::new(solution, session), arithmetic::bounded(model));
+            let of_last = || arithmetic::of_equilibrium(solution, state.as_ref(), session, &bounded);
             let rounding = of_run.unwrap_or_else(of_last);
             let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
-            (held, rounding, stress)
+            (state, rounding, stress)
         };
         let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let ((held, rounding, stress), (mesh, points)) = rayon::join(of_rounding, of_mesh);
+        let ((state, rounding, stress), (mesh, points)) = rayon::join(of_rounding, of_mesh);
         let bodies = model.bodies.iter().map(|body| {
             let states = &solution.elements;
             let largest = mesh.largest_von_mises(model, states, &body.triangles);
@@ -128,8 +128,8 @@ impl Estimates {
         });
         let bodies = bodies.collect();
         let displacement_no_limit = unlimited(solution, &points);
-        let displacement_mesh = held.filter(|_| displacement_no_limit.is_none()).and_then(|held| {
-            finite(Dual::new(solution, held, &mesh).error_of_largest(&solution.u))
+        let displacement_mesh = state.filter(|_| displacement_no_limit.is_none()).and_then(|state| {
+            finite(Dual::new(solution, state, &mesh).error_of_largest(&solution.u))
         });
         let errors = ErrorEstimates {
             displacement_arithmetic: rounding.displacement,

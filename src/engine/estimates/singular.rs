@@ -197,7 +197,7 @@ impl Around {
 
 /// How a side of the outline is held.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Held {
+enum SideSupport {
     Free,
     Roller,
     Fixed,
@@ -236,15 +236,15 @@ impl Outline {
         (ax * by - ay * bx).atan2(ax * bx + ay * by).rem_euclid(TAU)
     }
 
-    fn held(model: &Model, side: Beside) -> Held {
+    fn held(model: &Model, side: Beside) -> SideSupport {
         let [a, b] = side.nodes.map(|node| model.restraints_of(node));
         let ([ax, ay], [bx, by]) = (model.at(side.nodes[0]), model.at(side.nodes[1]));
         let along = [(bx - ax).abs(), (by - ay).abs()];
         match [a[0] && b[0], a[1] && b[1]] {
-            [false, false] => Held::Free,
-            [true, false] if along[0] < CHORD * along[1] => Held::Roller,
-            [false, true] if along[1] < CHORD * along[0] => Held::Roller,
-            _ => Held::Fixed,
+            [false, false] => SideSupport::Free,
+            [true, false] if along[0] < CHORD * along[1] => SideSupport::Roller,
+            [false, true] if along[1] < CHORD * along[0] => SideSupport::Roller,
+            _ => SideSupport::Fixed,
         }
     }
 
@@ -344,14 +344,14 @@ fn flush(model: &Model, k: usize) -> bool {
 
 /// Returns the widest angle between two sides at which the stress has a limit, rad, and what an
 /// outline of chords may add to it.
-fn widest(held: [Held; 2], plane: Plane, nu: f64) -> f64 {
+fn widest(held: [SideSupport; 2], plane: Plane, nu: f64) -> f64 {
     let kappa = match plane {
         Plane::Strain => 3.0 - 4.0 * nu,
         Plane::Stress => (3.0 - nu) / (1.0 + nu),
     };
     match held {
         [a, b] if a == b => PI + CHORD,
-        held if held.contains(&Held::Roller) => FRAC_PI_2 + CHORD / 2.0,
+        held if held.contains(&SideSupport::Roller) => FRAC_PI_2 + CHORD / 2.0,
         _ => ((kappa + 1.0) / 4.0).sqrt().min(1.0).asin(),
     }
 }

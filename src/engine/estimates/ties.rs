@@ -41,7 +41,7 @@ const FAR: f64 = 1e-6;
 const NEAR: f64 = 1e-5;
 
 /// A contact state, with displacements and loads within bounds on their errors.
-pub struct State<'a> {
+pub struct BoundedState<'a> {
     pub step: &'a Step,
     /// The load by degree of freedom, restrained ones included, without friction, force.
     pub load: DVector<Bounded>,
@@ -60,7 +60,7 @@ enum Elsewhere {
 }
 
 /// Looks at the contact states of a solution.
-pub struct Looking<'a> {
+pub struct StateCheck<'a> {
     solution: &'a Solution,
     stiffness: &'a Stiffness<Bounded>,
     surfaces: Option<Surfaces>,
@@ -74,7 +74,7 @@ pub struct Looking<'a> {
     pub only_ties: bool,
 }
 
-impl<'a> Looking<'a> {
+impl<'a> StateCheck<'a> {
     pub fn new(solution: &'a Solution, stiffness: &'a Stiffness<Bounded>) -> Self {
         let model = &*solution.model;
         let surfaces = Surfaces::new(model).ok();
@@ -85,7 +85,7 @@ impl<'a> Looking<'a> {
         let moved = solution.steps.iter().filter_map(|step| step.max_displacement);
         let largest = moved.fold(0.0, f64::max);
         let (decisions, only_ties) = (Vec::new(), true);
-        Looking { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }
+        StateCheck { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }
     }
 
     /// Returns the states on the way in groups of shapes that are nearly the same, each of consecutive ones.
@@ -106,7 +106,7 @@ impl<'a> Looking<'a> {
         });
         let is_far = |step: &Step| {
             let Detail::Unilateral(detail) = &step.detail else { return true };
-            let rests_on_shared = self.rubs() && detail.undetermined.contains(&true);
+            let rests_on_shared = self.has_friction() && detail.undetermined.contains(&true);
             let by_forces = step.k > 1 && detail.margin > FAR && !rests_on_shared;
             by_forces && (*all_face_surely || self.faces_surely(step, FAR * self.largest))
         };
@@ -125,7 +125,7 @@ impl<'a> Looking<'a> {
     }
 
     /// Returns whether friction depends on the normal forces.
-    fn rubs(&self) -> bool {
+    fn has_friction(&self) -> bool {
         let coefficient = self.solution.request.contact.friction.coefficient();
         coefficient > 0.0 && coefficient.is_finite()
     }
@@ -155,40 +155,39 @@ impl<'a> Looking<'a> {
     }
 
     /// Looks at how the contact states were found: by the active set alone, or in other ways too.
-    pub fn searches(&mut self) {
-        let path = self.solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
-        if self.rubs() && path.is_some_and(|path| path.halved > 0) {
-            self.decide(1, "whether a step of the load finds an equilibrium, or is halved");
+    pub fn check_searches(&mut self) {
+        let solution = self.solution;
+        let node = solution.model.contact.nodes[0];
+        let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+        if self.has_friction() && path.is_some_and(|path| path.halved > 0) {
+            let condition = "whether a step of the load finds an equilibrium, or is halved";
+            self.decide(node, 1, condition);
         }
-        if self.rubs() && path.is_some_and(|path| path.start == Start::Overlapping) {
-            self.decide(1, "whether nodes that overlap the target close without load");
+        if self.has_friction() && path.is_some_and(|path| path.start == Start::Overlapping) {
+            self.decide(node, 1, "whether nodes that overlap the target close without load");
         }
-        let own = |step: &'a Step| Some((step.k, step.unilateral()?));
-        let steps = || self.solution.steps.iter().filter_map(own);
-        let on_springs = steps().find(|(_, own)| own.springs > 0.0);
-        let otherwise = steps().find(|(_, own)| own.choice != Choice::Asked);
-        if let Some((k, _)) = on_springs {
-            self.decide(k, "to which shape springs lead");
+        let first = |wanted: fn(&Unilateral) -> bool| {
+            solution.steps.iter().find(|step| step.unilateral().is_some_and(wanted))
+        };
+        if let Some(step) = first(|detail| detail.springs > 0.0) {
+            self.decide(node, step.k, "to which shape springs lead");
         }
-        if let Some((k, _)) = otherwise.filter(|_| self.rubs()) {
-            self.decide(k, "which of the contact states in equilibrium is found");
+        if let Some(step) =
+            first(|detail| detail.choice != Choice::Asked).filter(|_| self.has_friction())
+        {
+            self.decide(node, step.k, "which of the contact states in equilibrium is found");
         }
-    }
-
-    /// Keeps that rounding may decide in an iteration how the search goes on.
-    fn decide(&mut self, iteration: usize, condition: &str) {
-        self.decide_at(self.solution.model.contact.nodes[0], iteration, condition);
     }
 
     /// Keeps that rounding may decide at a node, by a margin that is not known.
-    fn decide_at(&mut self, node: NodeId, iteration: usize, condition: &str) {
+    fn decide(&mut self, node: NodeId, iteration: usize, condition: &str) {
         self.only_ties = false;
         let condition = condition.into();
         self.decisions.push(Decision { iteration, node, condition, margin: None, bound: None });
     }
 
     /// Looks at a contact state.
-    pub fn at(&mut self, state: &State) {
+    pub fn check(&mut self, state: &BoundedState) {
         let Detail::Unilateral(detail) = &state.step.detail else { return };
         if detail.springs > 0.0 {
             // Their forces are not among those of the bodies.
@@ -200,39 +199,40 @@ impl<'a> Looking<'a> {
         for (i, pairing) in detail.pairings.iter().enumerate() {
             match (detail.statuses[i], pairing) {
                 (_, None) => (),
-                (Status::Open, Some(pairing)) => self.open(state, pairing, detail.violation),
-                (_, Some(pairing)) if detail.undetermined[i] && self.rubs() => {
-                    self.shared(state, pairing)
+                (Status::Open, Some(pairing)) => self.check_open(state, pairing, detail.violation),
+                (_, Some(pairing)) if detail.undetermined[i] && self.has_friction() => {
+                    let condition = "its friction rests on a force that its restraints share";
+                    self.decide(pairing.node, state.step.k, condition);
                 }
-                (status, Some(pairing)) => self.closed(state, status, pairing, &reaction),
+                (status, Some(pairing)) => self.check_closed(state, status, pairing, &reaction),
             }
         }
-        self.parts(state, detail);
+        self.check_parts(state, detail);
     }
 
     /// Looks at a node that is open, where `violation` is the deepest penetration of one, length.
-    fn open(&mut self, state: &State, pairing: &Pairing, violation: f64) {
+    fn check_open(&mut self, state: &BoundedState, pairing: &Pairing, violation: f64) {
         let gap = self.gap(pairing, state.u);
         let deep = FIRST_GROWTH * violation;
         if state.step.k == 1 && deep > gap.error() {
             let beyond = gap + Bounded::from_f64(deep);
             let condition = || format!("gap > -{FIRST_GROWTH} of the deepest penetration");
-            self.leave(state, pairing, condition, beyond, false);
+            self.add_if_unsure(state, pairing, condition, beyond, false);
         } else {
-            self.leave(state, pairing, || "touches without force: gap > 0".into(), gap, true);
+            self.add_if_unsure(
+                state,
+                pairing,
+                || "touches without force: gap > 0".into(),
+                gap,
+                true,
+            );
         }
     }
 
-    /// Keeps that the friction of a node rests on a force that its restraints share.
-    fn shared(&mut self, state: &State, pairing: &Pairing) {
-        let condition = "its friction rests on a force that its restraints share";
-        self.decide_at(pairing.node, state.step.k, condition);
-    }
-
     /// Looks at a node in contact.
-    fn closed(
+    fn check_closed(
         &mut self,
-        state: &State,
+        state: &BoundedState,
         status: Status,
         pairing: &Pairing,
         reaction: &DVector<Bounded>,
@@ -248,35 +248,34 @@ impl<'a> Looking<'a> {
             _ => return,
         };
         let no_shear = shear.to_f64().abs() <= shear.error();
-        if is_left(pressed) && no_shear {
+        if is_unsure(pressed) && no_shear {
             let condition = || "touches without force: force >= 0".into();
-            return self.leave(state, pairing, condition, pressed, true);
+            return self.add_if_unsure(state, pairing, condition, pressed, true);
         }
-        self.leave(state, pairing, || "force >= 0".into(), pressed, false);
+        self.add_if_unsure(state, pairing, || "force >= 0".into(), pressed, false);
         let coefficient = self.solution.request.contact.friction.coefficient();
         match status {
             Status::Stick if coefficient.is_finite() => {
                 let limit = Bounded::from_f64(coefficient) * pressed - Scalar::abs(shear);
                 let condition = || "friction * force >= |shear|".into();
-                self.leave(state, pairing, condition, limit, false);
+                self.add_if_unsure(state, pairing, condition, limit, false);
             }
             Status::Slip(sense) if sense.sign() != 0.0 => {
-                let moved = |node: NodeId| {
+                let [sx, sy] = pairing.map(Bounded::from_f64).motion(|node| {
                     let [[ux, uy], [bx, by]] = [state.u, state.before].map(|u| node.of(u));
                     [ux - bx, uy - by]
-                };
-                let [sx, sy] = motion(pairing, moved);
+                });
                 let condition = || "slips without slip: slip > 0".into();
-                self.leave(state, pairing, condition, nx * sy - ny * sx, true);
+                self.add_if_unsure(state, pairing, condition, nx * sy - ny * sx, true);
             }
             _ => (),
         }
     }
 
     /// Keeps a decision of which rounding may have taken the sign of `x`.
-    fn leave(
+    fn add_if_unsure(
         &mut self,
-        state: &State,
+        state: &BoundedState,
         pairing: &Pairing,
         condition: impl Fn() -> String,
         x: Bounded,
@@ -284,7 +283,7 @@ impl<'a> Looking<'a> {
     ) {
         // On the way such a tie changes nothing: a path is divided where a node closes, without force.
         let counts = !is_tie || state.step.k == self.solution.last().k;
-        if counts && is_left(x) {
+        if counts && is_unsure(x) {
             let by = Unsure { margin: x.to_f64().abs(), bound: x.error() };
             self.only_ties &= is_tie;
             self.decisions.push(Decision::unsure(state.step.k, pairing.node, condition(), by));
@@ -293,13 +292,15 @@ impl<'a> Looking<'a> {
 
     /// Returns the gap of a pairing under displacements, length.
     fn gap(&self, pairing: &Pairing, u: &DVector<Bounded>) -> Bounded {
-        let from = |node: NodeId| self.solution.model.at(node).map(Bounded::from_f64);
-        opening(pairing, |node| node.of(u)) + opening(pairing, from)
+        let pairing = pairing.map(Bounded::from_f64);
+        let model = &self.solution.model;
+        pairing.opening(|node| node.of(u))
+            + pairing.opening(|node| model.at(node).map(Bounded::from_f64))
     }
 
     /// Looks at which part of the target a node faces: of a node in contact, or of one that would touch
     /// the other part.
-    fn parts(&mut self, state: &State, detail: &Unilateral) {
+    fn check_parts(&mut self, state: &BoundedState, detail: &Unilateral) {
         let Some(surfaces) = &self.surfaces else { return };
         let (model, contact) = (&*self.solution.model, &self.solution.request.contact);
         let is_current = contact.geometry == Geometry::Current;
@@ -344,23 +345,6 @@ impl<'a> Looking<'a> {
 }
 
 /// Returns whether the sign of a number is left to rounding.
-fn is_left(x: Bounded) -> bool {
+fn is_unsure(x: Bounded) -> bool {
     x.to_f64().abs() <= x.error() && x.error() > 0.0
-}
-
-/// Returns v_c − Σ w v_t of a field, as [`Pairing::motion`] does.
-fn motion(pairing: &Pairing, of_node: impl Fn(NodeId) -> [Bounded; 2]) -> [Bounded; 2] {
-    let at = of_node(pairing.node);
-    [0, 1].map(|axis| {
-        pairing.masters.iter().fold(Bounded::from_f64(0.0), |sum, &(master, w)| {
-            sum + Bounded::from_f64(w) * (at[axis] - of_node(master)[axis])
-        })
-    })
-}
-
-/// Returns n·(v_c − Σ w v_t) of a field, as [`Pairing::opening`] does.
-fn opening(pairing: &Pairing, of_node: impl Fn(NodeId) -> [Bounded; 2]) -> Bounded {
-    let [x, y] = motion(pairing, of_node);
-    let [nx, ny] = pairing.normal.map(Bounded::from_f64);
-    nx * x + ny * y
 }

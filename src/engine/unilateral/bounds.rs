@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
 use super::nonnegative::least;
-use super::problem::{Place, Problem, Setting, Solved};
+use super::problem::{Configuration, Outcome, Problem, Setting};
 use crate::contact::{Pairing, Sense, Status};
 use crate::elimination::{Constraint, Motion};
 
@@ -99,11 +99,15 @@ impl Problem<'_> {
     /// Looks for statuses in equilibrium by a fixed point on the bounds of friction. None where it finds
     /// none, and where the problem is not of its kind: with nodes that never slide, of more than 150
     /// nodes, or with a contact node that is restrained.
-    pub(super) fn by_bounds(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
+    pub(super) fn by_bounds(
+        &self,
+        config: &Configuration,
+        setting: &Setting,
+    ) -> Option<Vec<Status>> {
         let entries: Vec<usize> =
-            (0..place.pairings.len()).filter(|i| place.pairings[*i].is_some()).collect();
+            (0..config.pairings.len()).filter(|i| config.pairings[*i].is_some()).collect();
         let pairing =
-            |i: usize| place.pairings[i].as_ref().expect("only entries that face a target");
+            |i: usize| config.pairings[i].as_ref().expect("only entries that face a target");
         let restrained = |i: &usize| self.model.restraints_of(pairing(*i).node).contains(&true);
         let mu = self.friction;
         if mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
@@ -111,15 +115,15 @@ impl Problem<'_> {
         }
         let n = entries.len();
         let (stiffness, at_rest) =
-            self.scaled(place, &entries, setting, if mu == 0.0 { n } else { 2 * n })?;
+            self.scaled(config, &entries, setting, if mu == 0.0 { n } else { 2 * n })?;
         let convex = Convex::new(stiffness, at_rest, n);
         let mut slid = convex.stuck()?;
         let mut bounds = mu * &slid.normal;
         let mut statuses = Vec::new();
         for k in 0..BOUNDS {
             slid = convex.under(&bounds, slid.x)?;
-            let last = std::mem::replace(&mut statuses, self.statuses(place, &entries, &slid));
-            if statuses == last && self.try_statuses(place, &statuses, setting).is_some() {
+            let last = std::mem::replace(&mut statuses, self.statuses(config, &entries, &slid));
+            if statuses == last && self.try_statuses(config, &statuses, setting).is_some() {
                 return Some(statuses);
             }
             let next = mu * &slid.normal;
@@ -132,16 +136,16 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses of a solution.
-    fn statuses(&self, place: &Place, entries: &[usize], slid: &Slid) -> Vec<Status> {
+    fn statuses(&self, config: &Configuration, entries: &[usize], slid: &Slid) -> Vec<Status> {
         let n = entries.len();
-        let mut statuses = vec![Status::Open; place.pairings.len()];
+        let mut statuses = vec![Status::Open; config.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
             let slip = slid.apart.get(n + k).copied().unwrap_or(0.0);
             statuses[*i] = match () {
                 () if slid.apart[k] > STILL || slid.normal[k] == 0.0 => Status::Open,
                 () if slip > STILL => Status::Slip(Sense::Forward),
                 () if slip < -STILL => Status::Slip(Sense::Backward),
-                () => self.closing(place, *i),
+                () => self.closing(config, *i),
             };
         }
         statuses
@@ -152,13 +156,13 @@ impl Problem<'_> {
     /// None where there are no forces.
     fn scaled(
         &self,
-        place: &Place,
+        config: &Configuration,
         entries: &[usize],
         setting: &Setting,
         size: usize,
     ) -> Option<(DMatrix<f64>, DVector<f64>)> {
         let forces = |apart: &DVector<f64>, loaded: bool| {
-            let all = self.held(place, entries, setting, apart, loaded)?;
+            let all = self.held(config, entries, setting, apart, loaded)?;
             Some(all.rows(0, size).into_owned())
         };
         let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
@@ -176,30 +180,31 @@ impl Problem<'_> {
     /// from its place on the target: gaps, then slips; `loaded` or by that alone.
     fn held(
         &self,
-        place: &Place,
+        config: &Configuration,
         entries: &[usize],
         setting: &Setting,
         apart: &DVector<f64>,
         loaded: bool,
     ) -> Option<DVector<f64>> {
         let n = entries.len();
-        let mut statuses = vec![Status::Open; place.pairings.len()];
+        let mut statuses = vec![Status::Open; config.pairings.len()];
         let held = if self.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
         entries.iter().for_each(|i| statuses[*i] = held);
-        let mut constraints = self.constraints(place, &statuses, setting);
+        let mut constraints = self.constraints(config, &statuses, setting);
         let mut own = Setting { load: setting.load.clone(), ..*setting };
         if !loaded {
             own.load.fill(0.0);
         }
         for (k, (constraint, i)) in constraints.iter_mut().zip(entries).enumerate() {
-            let pairing = place.pairings[*i].as_ref()?;
+            let pairing = config.pairings[*i].as_ref()?;
             shift(constraint, pairing, [apart[k], apart[n + k]], loaded);
         }
-        let Ok(Solved::Moved(moved)) = self.solve(place, &statuses, &constraints, &own) else {
+        let Ok(Outcome::Solved(solution)) = self.solve(config, &statuses, &constraints, &own)
+        else {
             return None;
         };
         let force = |row: usize| {
-            let force = moved.forces[entries[row % n]];
+            let force = solution.forces[entries[row % n]];
             if row < n { force.normal } else { force.tangent }
         };
         Some(DVector::from_fn(2 * n, |row, _| force(row)))

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::problem::{Equilibrium, Moved, Place, Problem, Setting};
+use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
 use crate::contact::{Sense, Status};
 use crate::solution::{Other, Uniqueness};
 use problem::model::NodeId;
@@ -27,7 +27,7 @@ pub(super) struct Taken {
     pub(super) to: f64,
     /// The displacements before it, length.
     pub(super) before: DVector<f64>,
-    pub(super) place: Place,
+    pub(super) config: Configuration,
     pub(super) statuses: Vec<Status>,
     /// The displacements at its end, length.
     pub(super) u: DVector<f64>,
@@ -42,7 +42,7 @@ pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]
     }
     if found.springs.is_some() {
         let setting = setting(problem, last);
-        let free = problem.unrestrained_node(&found.place, &found.last.statuses, &setting);
+        let free = problem.unrestrained_node(&found.config, &found.last.statuses, &setting);
         match (problem.is_current(), free) {
             (true, node) => return Uniqueness::Unknown { node },
             (false, Some(node)) => return Uniqueness::Indifferent { node },
@@ -53,12 +53,12 @@ pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]
         return Uniqueness::Unique;
     }
     let numbers: Option<Vec<usize>> =
-        taken.iter().map(|step| problem.number_of_states(&step.place)).collect();
+        taken.iter().map(|step| problem.number_of_states(&step.config)).collect();
     let all = numbers.is_some_and(|numbers| numbers.iter().sum::<usize>() <= problem.most_states());
     let steps = if all { taken } else { std::slice::from_ref(last) };
     let (mut number, mut others) = (0, Vec::new());
     for step in steps {
-        let states = if all { problem.every(&step.place) } else { problem.neighbours(step) };
+        let states = if all { problem.every(&step.config) } else { problem.neighbours(step) };
         number += states.len();
         others.extend(problem.others(step, &states));
     }
@@ -74,7 +74,7 @@ fn setting<'a>(problem: &Problem, step: &'a Taken) -> Setting<'a> {
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing
 /// restrains it.
 fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Option<NodeId> {
-    let Moved { forces, .. } = &found.last.moved;
+    let StateSolution { forces, .. } = &found.last.solution;
     let largest = forces.iter().map(|f| f.normal).fold(setting.load.amax(), f64::max);
     let mut statuses = found.last.statuses.clone();
     let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
@@ -84,7 +84,7 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
         return None;
     }
     weak.into_iter().for_each(|i| statuses[i] = Status::Open);
-    problem.unrestrained_node(&found.place, &statuses, setting)
+    problem.unrestrained_node(&found.config, &statuses, setting)
 }
 
 fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Other {
@@ -103,15 +103,19 @@ fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Othe
 impl Problem<'_> {
     /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
     /// there are too many to be tried.
-    pub(super) fn enumerated(&self, place: &Place, setting: &Setting) -> Option<Vec<Status>> {
-        let all = self.can_enumerate(place, 1).then(|| self.every(place))?;
-        all.into_iter().find(|statuses| self.try_statuses(place, statuses, setting).is_some())
+    pub(super) fn enumerated(
+        &self,
+        config: &Configuration,
+        setting: &Setting,
+    ) -> Option<Vec<Status>> {
+        let all = self.can_enumerate(config, 1).then(|| self.every(config))?;
+        all.into_iter().find(|statuses| self.try_statuses(config, statuses, setting).is_some())
     }
 
     /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
     /// tried.
-    pub(super) fn can_enumerate(&self, place: &Place, steps: usize) -> bool {
-        self.number_of_states(place).is_some_and(|number| number * steps <= self.most_states())
+    pub(super) fn can_enumerate(&self, config: &Configuration, steps: usize) -> bool {
+        self.number_of_states(config).is_some_and(|number| number * steps <= self.most_states())
     }
 
     /// Returns the number of contact states that are tried at most: fewer of a large model.
@@ -120,16 +124,16 @@ impl Problem<'_> {
     }
 
     /// Returns the number of all contact states in a place; None of more than [`ALL`].
-    fn number_of_states(&self, place: &Place) -> Option<usize> {
-        let mut choices = (0..place.pairings.len()).map(|i| self.choices(place, i).len());
+    fn number_of_states(&self, config: &Configuration) -> Option<usize> {
+        let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
         let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
         number.filter(|n| *n <= ALL)
     }
 
     /// Returns every contact state in a place.
-    fn every(&self, place: &Place) -> Vec<Vec<Status>> {
-        (0..place.pairings.len()).fold(vec![Vec::new()], |states, i| {
-            let choices = self.choices(place, i);
+    fn every(&self, config: &Configuration) -> Vec<Vec<Status>> {
+        (0..config.pairings.len()).fold(vec![Vec::new()], |states, i| {
+            let choices = self.choices(config, i);
             let with = |state: &Vec<Status>| {
                 choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
             };
@@ -143,12 +147,14 @@ impl Problem<'_> {
         let scale = step.u.amax();
         let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
         for statuses in states {
-            let Some(moved) = self.try_statuses(&step.place, statuses, &setting) else { continue };
-            let apart = |u: &DVector<f64>| (&moved.u - u).amax();
+            let Some(solution) = self.try_statuses(&step.config, statuses, &setting) else {
+                continue;
+            };
+            let apart = |u: &DVector<f64>| (&solution.u - u).amax();
             let change = apart(&step.u);
             if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale)
             {
-                others.push((moved.u, other(self, statuses, step.to, change)));
+                others.push((solution.u, other(self, statuses, step.to, change)));
             }
         }
         others.into_iter().map(|(_, other)| other).collect()
@@ -157,12 +163,12 @@ impl Problem<'_> {
     /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
     /// many as are tried.
     fn neighbours(&self, step: &Taken) -> Vec<Vec<Status>> {
-        let Taken { place, statuses, .. } = step;
+        let Taken { config, statuses, .. } = step;
         let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
         let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
         let with = |i: usize| {
             let other =
-                self.choices(place, i).into_iter().filter(move |other| *other != statuses[i]);
+                self.choices(config, i).into_iter().filter(move |other| *other != statuses[i]);
             other.map(move |other| {
                 let mut state = statuses.clone();
                 state[i] = other;
@@ -173,9 +179,9 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses that an entry can have.
-    fn choices(&self, place: &Place, i: usize) -> Vec<Status> {
+    fn choices(&self, config: &Configuration, i: usize) -> Vec<Status> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
-        match (&place.pairings[i], self.closing(place, i)) {
+        match (&config.pairings[i], self.closing(config, i)) {
             (None, _) => vec![Status::Open],
             (_, Status::Stick) if self.friction.is_finite() => {
                 [&[Status::Open, Status::Stick][..], &slips].concat()

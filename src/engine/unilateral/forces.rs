@@ -20,7 +20,7 @@ const UNDETERMINED: f64 = 1e-9;
 
 /// The forces on a contact node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Force {
+pub(super) struct ContactForce {
     /// Whether restraints leave them undetermined: then they are the least of those that hold the
     /// bodies in equilibrium.
     pub(super) undetermined: bool,
@@ -45,9 +45,13 @@ pub(super) fn tangent(pairing: &Pairing) -> [f64; 2] {
 
 /// Returns the forces on each contact from `reaction`, which is K u − F − friction by degree of
 /// freedom.
-pub(super) fn forces(model: &Model, contacts: &[Contact], reaction: &DVector<f64>) -> Vec<Force> {
+pub(super) fn forces(
+    model: &Model,
+    contacts: &[Contact],
+    reaction: &DVector<f64>,
+) -> Vec<ContactForce> {
     let mut rest = reaction.clone();
-    let direct: Vec<Option<Force>> =
+    let direct: Vec<Option<ContactForce>> =
         contacts.iter().map(|contact| direct(model, *contact, reaction)).collect();
     let mut hard = Vec::new();
     for (i, (contact, force)) in contacts.iter().zip(&direct).enumerate() {
@@ -56,7 +60,7 @@ pub(super) fn forces(model: &Model, contacts: &[Contact], reaction: &DVector<f64
             None => hard.push(i),
         }
     }
-    let mut found: Vec<Force> = direct.into_iter().map(Option::unwrap_or_default).collect();
+    let mut found: Vec<ContactForce> = direct.into_iter().map(Option::unwrap_or_default).collect();
     if !hard.is_empty() {
         let unknown: Vec<Contact> = hard.iter().map(|i| contacts[*i]).collect();
         for (i, force) in hard.into_iter().zip(by_target(model, &unknown, &rest)) {
@@ -67,7 +71,7 @@ pub(super) fn forces(model: &Model, contacts: &[Contact], reaction: &DVector<f64
 }
 
 /// Adds `factor` times the forces of a contact, on its node and reversed on its target, to `load`.
-pub(super) fn add(pairing: &Pairing, force: Force, factor: f64, load: &mut DVector<f64>) {
+pub(super) fn add(pairing: &Pairing, force: ContactForce, factor: f64, load: &mut DVector<f64>) {
     let (normal, tangent) = (pairing.normal, tangent(pairing));
     let force = [0, 1].map(|d| factor * (force.normal * normal[d] + force.tangent * tangent[d]));
     let mut on = |node: NodeId, weight: f64| {
@@ -80,16 +84,17 @@ pub(super) fn add(pairing: &Pairing, force: Force, factor: f64, load: &mut DVect
 }
 
 /// Returns the forces on a contact node from its own equations; None where restraints take them.
-fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Force> {
+fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<ContactForce> {
     let Contact { pairing, sticks } = contact;
     let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.of(reaction));
     let along = |n: f64, r: f64| {
-        (!sticks && n.abs() >= STEEP).then(|| Force { normal: r / n, ..Force::default() })
+        (!sticks && n.abs() >= STEEP)
+            .then(|| ContactForce { normal: r / n, ..ContactForce::default() })
     };
     match model.restraints_of(pairing.node) {
         [false, false] => {
             let tangent = if sticks { nx * ry - ny * rx } else { 0.0 };
-            Some(Force { normal: nx * rx + ny * ry, tangent, undetermined: false })
+            Some(ContactForce { normal: nx * rx + ny * ry, tangent, undetermined: false })
         }
         [true, false] => along(ny, ry),
         [false, true] => along(nx, rx),
@@ -98,17 +103,17 @@ fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Fo
 }
 
 /// Returns the forces of contacts from all equations in which they occur, by least squares.
-fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Force> {
-    let columns: Vec<(usize, Force)> = (0..contacts.len())
+fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<ContactForce> {
+    let columns: Vec<(usize, ContactForce)> = (0..contacts.len())
         .flat_map(|i| {
-            let tangent = Force { tangent: 1.0, ..Force::default() };
+            let tangent = ContactForce { tangent: 1.0, ..ContactForce::default() };
             let tangent = contacts[i].sticks.then_some((i, tangent));
-            [Some((i, Force { normal: 1.0, ..Force::default() })), tangent].into_iter().flatten()
+            [Some((i, ContactForce { normal: 1.0, ..ContactForce::default() })), tangent]
+                .into_iter()
+                .flatten()
         })
         .collect();
-    let nodes = contacts.iter().flat_map(|c| {
-        std::iter::once(c.pairing.node).chain(c.pairing.masters.iter().map(|(master, _)| *master))
-    });
+    let nodes = contacts.iter().flat_map(|contact| contact.pairing.nodes());
     let equations: BTreeSet<Dof> =
         nodes.flat_map(NodeId::dofs).filter(|dof| !model.is_restrained(*dof)).collect();
     let equations: Vec<Dof> = equations.into_iter().collect();
@@ -130,7 +135,7 @@ fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Fo
     let free: Vec<usize> =
         (0..columns.len()).filter(|&k| svd.singular_values[k] <= limit).collect();
     let value = svd.solve(&right, limit).expect("U and V were asked for");
-    let mut forces = vec![Force::default(); contacts.len()];
+    let mut forces = vec![ContactForce::default(); contacts.len()];
     for (column, (i, unit)) in columns.iter().enumerate() {
         let open = free.iter().any(|&k| v[(column, k)].abs() > UNDETERMINED.sqrt());
         forces[*i].undetermined |= open;
@@ -143,7 +148,11 @@ fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Fo
 }
 
 /// Returns the contact forces by degree of freedom, force.
-pub(super) fn load_of(pairings: &[Option<Pairing>], forces: &[Force], dofs: usize) -> DVector<f64> {
+pub(super) fn load_of(
+    pairings: &[Option<Pairing>],
+    forces: &[ContactForce],
+    dofs: usize,
+) -> DVector<f64> {
     let mut load = DVector::zeros(dofs);
     for (pairing, force) in pairings.iter().zip(forces) {
         pairing.iter().for_each(|pairing| add(pairing, *force, 1.0, &mut load));

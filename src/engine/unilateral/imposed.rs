@@ -3,71 +3,79 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{self, Contact, Force, forces};
-use super::problem::{Moved, Place, Problem, Setting, Solved};
-use super::reduced::{Elastic, OnSurface, Reduced, Responds};
+use super::forces::{self, Contact, ContactForce, forces};
+use super::problem::{Configuration, Outcome, Problem, Setting, StateSolution};
+use super::reduced::{OnSurface, OnWhole, Response};
 use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, Error, NoEquilibrium};
-use numbers::solve::{Singular, SparseCholesky, SparseSymmetric};
+use numbers::solve::{Singular, SparseCholesky};
 use problem::model::Dof;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
 
 impl Problem<'_> {
-    /// Solves for the displacements and forces under imposed statuses.
+    /// Solves for the displacements and forces under imposed statuses: on the condensed bodies, or where
+    /// that cannot be, or `setting` asks for it, on the whole ones.
+    ///
+    /// # Errors
+    /// No friction agrees with its own normal forces.
     pub(super) fn solve(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         constraints: &[Constraint],
         setting: &Setting,
-    ) -> Result<Solved, Error> {
+    ) -> Result<Outcome, Error> {
         let load = &setting.load;
-        let on_surface = match setting.whole {
-            true => None,
-            false => OnSurface::new(self.elastic(), constraints, load),
-        };
-        if let Some(surface) = on_surface
-            && let Ok(solved) = surface.displacements()
+        if !setting.whole
+            && let Some(state) = self.bodies.state(&self.stiffness, constraints)
         {
-            return self.moved(place, statuses, solved, &surface);
+            let load = self.bodies.eliminated(&state, load);
+            if let Some(solved) = state.displacements(&load) {
+                return self.solved(config, statuses, solved, &OnSurface { state, load });
+            }
         }
         let t = Elimination::closing(&self.model.restrained, constraints);
-        let reduced = match Reduced::new(self.elastic(), &t, constraints, load) {
-            Ok(reduced) => reduced,
-            Err(singular) => return Ok(self.free(&t, singular, load)),
-        };
-        match reduced.displacements() {
-            Ok(solved) => self.moved(place, statuses, solved, &reduced),
-            Err(singular) => Ok(self.free(&t, singular, load)),
+        let whole = OnWhole::new(self, &t, constraints, load);
+        match whole.and_then(|whole| Ok((whole.displacements()?, whole))) {
+            Ok((solved, whole)) => self.solved(config, statuses, solved, &whole),
+            Err(singular) => {
+                let soft = self.stiffness.reduced(&t).with_diagonal(SOFT);
+                let load = t.load(&self.model.free_part(load));
+                let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
+                Ok(Outcome::Free { dof: t.dof(singular.column), motion })
+            }
         }
     }
 
     /// Adds the forces of contact, and what friction does, to the bodies' own displacements.
-    fn moved(
+    fn solved(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         (mut u, residual): (DVector<f64>, f64),
-        bodies: &dyn Responds,
-    ) -> Result<Solved, Error> {
+        bodies: &dyn Response,
+    ) -> Result<Outcome, Error> {
         let mut reaction = bodies.reaction(&u);
-        let mut forces = self.forces(place, statuses, &reaction);
+        let mut forces = self.forces(config, statuses, &reaction);
         let (mut friction, mut feedback) = (Vec::new(), 0.0);
-        if let Some(slide) = self.slide(place, statuses, &forces, bodies)? {
-            let [more, force] = bodies.under(&slide.friction).map_err(|_| jammed())?;
+        if let Some(slide) = self.slide(config, statuses, &forces, bodies)? {
+            let [more, force] = bodies.unshifted(&slide.friction).map_err(|_| jammed())?;
             u += more;
             reaction += force;
-            forces = self.forces(place, statuses, &(&reaction - &slide.friction));
+            forces = self.forces(config, statuses, &(&reaction - &slide.friction));
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
-            (friction, feedback) = (acting(&slide.friction), slide.feedback);
+            let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
+            friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
+            feedback = slide.feedback;
         }
-        let ((u, inside), whole) = (bodies.all(u), bodies.are_whole());
-        Ok(Solved::Moved(Moved {
+        let (u, interior) = bodies.all(u);
+        let whole = interior.is_none();
+        Ok(Outcome::Solved(StateSolution {
             u,
-            inside,
+            interior,
             forces,
             friction,
             feedback,
@@ -77,16 +85,6 @@ impl Problem<'_> {
         }))
     }
 
-    fn elastic(&self) -> Elastic<'_> {
-        let Problem { model, stiffness, bodies, .. } = self;
-        Elastic { model, stiffness, bodies }
-    }
-
-    fn free(&self, t: &Elimination, singular: Singular, load: &DVector<f64>) -> Solved {
-        let motion = free_motion(t, &self.stiffness.reduced(t), &self.model.free_part(load));
-        Solved::Free { dof: t.dof(singular.column), motion }
-    }
-
     /// Returns the friction of sliding nodes, whose size is μ times the normal forces that it leads to,
     /// from the `forces` without it; None where no node slides against friction.
     ///
@@ -94,15 +92,15 @@ impl Problem<'_> {
     /// No size of the friction agrees with its normal forces.
     fn slide(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
-        forces: &[Force],
-        bodies: &dyn Responds,
+        forces: &[ContactForce],
+        bodies: &dyn Response,
     ) -> Result<Option<Slide>, NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
                 Status::Slip(sense) if sense.sign() != 0.0 => {
-                    Some((i, sense.sign(), place.pairings[i].as_ref()?))
+                    Some((i, sense.sign(), config.pairings[i].as_ref()?))
                 }
                 _ => None,
             })
@@ -111,7 +109,7 @@ impl Problem<'_> {
             return Ok(None);
         }
         let dofs = self.model.dofs();
-        let unit = Force { tangent: 1.0, ..Force::default() };
+        let unit = ContactForce { tangent: 1.0, ..ContactForce::default() };
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(dofs);
             forces::add(pairing, unit, 1.0, &mut load);
@@ -123,7 +121,7 @@ impl Problem<'_> {
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
         for (column, (_, reaction)) in responses.iter().enumerate() {
-            let response = self.forces(place, statuses, reaction);
+            let response = self.forces(config, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
                 matrix[(row, column)] += sign * self.friction * response[*i].normal;
             }
@@ -148,19 +146,19 @@ impl Problem<'_> {
     /// Returns the forces of all entries; 0 where an entry is open.
     pub(super) fn forces(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         reaction: &DVector<f64>,
-    ) -> Vec<Force> {
+    ) -> Vec<ContactForce> {
         let closed: Vec<usize> = (0..statuses.len())
-            .filter(|&i| statuses[i].is_closed() && place.pairings[i].is_some())
+            .filter(|&i| statuses[i].is_closed() && config.pairings[i].is_some())
             .collect();
         let contact = |i: &usize| Contact {
-            pairing: place.pairings[*i].as_ref().expect("closed entries face the target"),
+            pairing: config.pairings[*i].as_ref().expect("closed entries face the target"),
             sticks: statuses[*i] == Status::Stick,
         };
         let contacts: Vec<Contact> = closed.iter().map(contact).collect();
-        let mut all = vec![Force::default(); statuses.len()];
+        let mut all = vec![ContactForce::default(); statuses.len()];
         for (i, force) in closed.into_iter().zip(forces(self.model, &contacts, reaction)) {
             all[i] = force;
         }
@@ -174,23 +172,11 @@ struct Slide {
     friction: DVector<f64>,
     /// The entries that slide, each with its force along the tangent.
     sizes: Vec<(usize, f64)>,
-    /// See [`Moved::feedback`].
+    /// See [`StateSolution::feedback`].
     feedback: f64,
-}
-
-/// Returns each degree of freedom on which a force acts, with it.
-fn acting(force: &DVector<f64>) -> Vec<(Dof, f64)> {
-    let of_dof = Dof::all(force.len()).zip(force.iter().copied());
-    of_dof.filter(|(_, force)| *force != 0.0).collect()
 }
 
 fn jammed() -> NoEquilibrium {
     let what = "the sliding nodes jam: no friction agrees with its own normal forces".into();
     NoEquilibrium { cause: Cause::NotFound, what }
-}
-
-/// Returns the motion that constraints leave free where only soft springs oppose the load.
-fn free_motion(t: &Elimination, k: &SparseSymmetric, load: &DVector<f64>) -> Option<DVector<f64>> {
-    let q = SparseCholesky::new(k.with_diagonal(SOFT)).ok()?.solve(&t.load(load));
-    Some(t.motion(&q))
 }

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::equilibria::{Taken, uniqueness};
 use super::forces::load_of;
-use super::problem::{Equilibrium, Iteration, Place, Problem, Setting, Watch};
+use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use crate::contact::{ContactNode, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::memory::{FEWER_STEPS, HELD, bytes_of_path};
@@ -39,91 +39,63 @@ struct Point {
 
 impl Point {
     fn after(load: f64, Equilibrium { last, .. }: Equilibrium) -> Self {
-        Point { load, u: last.moved.u, statuses: Some(last.statuses) }
+        Point { load, u: last.solution.u, statuses: Some(last.statuses) }
     }
 }
 
-/// The end of a path.
-struct End {
-    equilibrium: Equilibrium,
-    /// The last step of the load, and of small problems all before it.
-    taken: Vec<Taken>,
-    /// The iterations on the path, without those of steps that were divided.
-    steps: Vec<Step>,
-    /// The number of all contact states that were solved.
-    factored: usize,
-    halved: usize,
-    start: Start,
-}
-
-/// Follows the path of the load to its end.
+/// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one.
+/// Under friction nodes that overlap at the start close in a step of their own, before any load: they would
+/// slip with its first part otherwise.
 ///
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     let with_friction = problem.friction > 0.0;
-    let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
-    let end = follow(problem, per_stage, watch)?;
-    let path = with_friction.then(|| Path {
-        steps: per_stage,
-        stages: problem.model.stages.len(),
-        halved: end.halved,
-        start: end.start,
-        changes: changes(&end.steps),
-    });
-    let uniqueness = uniqueness(problem, &end.equilibrium, &end.taken);
-    Ok(solution(problem, end, path, uniqueness))
-}
-
-/// Follows the path in `per_stage` steps a stage. Under friction nodes that overlap at the start close in a
-/// step of their own, before any load: they would slip with its first part otherwise.
-fn follow(problem: &Problem, per_stage: usize, watch: &mut dyn FnMut(&Step)) -> Result<End, Error> {
-    let with_friction = problem.friction > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
-    let zero = DVector::zeros(problem.model.dofs());
-    let mut point = Point { load: 0.0, u: zero, statuses: None };
+    let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
     let total = stages * per_stage;
-    let mut walk = Walk::new(problem, watch);
+    let mut point = Point { load: 0.0, u: DVector::zeros(problem.model.dofs()), statuses: None };
+    let mut run = Run::new(problem, watch);
     if with_friction {
-        let place = problem.place(&point.u);
-        walk.keeps_all = problem.can_enumerate(&place, total);
-        let closed = problem.overlaps(&place).then(|| walk.advance(&point, 0.0, 0));
-        (walk.start, point) = match closed {
-            Some(Ok(closed)) => (Start::Closed, Point::after(0.0, closed)),
-            Some(Err(_)) => {
-                walk.steps.clear();
-                (Start::Overlapping, point)
+        let config = problem.configuration(&point.u);
+        run.keeps_all = problem.can_enumerate(&config, total);
+        if problem.overlaps(&config) {
+            match run.advance(&point, 0.0, 0) {
+                Ok(closed) => (run.start, point) = (Start::Closed, Point::after(0.0, closed)),
+                Err(_) => {
+                    run.steps.clear();
+                    run.start = Start::Overlapping;
+                }
             }
-            None if problem.is_held(&place) => (Start::Held, point),
-            None => (Start::Loose, point),
-        };
+        } else if !problem.is_held(&config) {
+            run.start = Start::Loose;
+        }
     }
-    for step in 1.. {
+    for step in 1..=total {
         let to = step as f64 / per_stage as f64;
-        let placed = |why| placed(why, to, stages, step == total);
-        walk.closings = if with_friction { CLOSINGS } else { 0 };
-        let slides = |why| match why {
-            Error::Equilibrium(_) if with_friction => {
-                let slides = problem.slides(&point.u, [point.load, to]);
-                slides.map_or_else(|| placed(why), Error::from)
-            }
-            other => placed(other),
-        };
-        let halvings = if with_friction { HALVINGS } else { 0 };
-        let equilibrium = match walk.advance(&point, to, halvings) {
-            Err(Error::Equilibrium(why)) if why.cause == Cause::NotFound => {
-                let on_springs = walk.step(&point, to, Problem::on_springs);
-                let found = on_springs.map_err(|more| more.told(&format!("{}; ", why.what)));
-                found.inspect(|found| walk.take(&point, to, found))
-            }
-            found => found,
-        };
-        let equilibrium = equilibrium.map_err(slides)?;
-        problem.in_range([&point.u, &equilibrium.last.moved.u], [point.load, to])?;
-        walk.check_memory(step, total)?;
+        let equilibrium = run.step_of_path(&point, to).map_err(|why| {
+            let slides = match &why {
+                Error::Equilibrium(_) if with_friction => {
+                    problem.slides(&point.u, [point.load, to])
+                }
+                _ => None,
+            };
+            slides.map_or_else(|| with_load(why, to, stages, step == total), Error::from)
+        })?;
+        problem.in_range([&point.u, &equilibrium.last.solution.u], [point.load, to])?;
+        run.check_memory(step, total)?;
         if step == total {
-            return walk.confirmed(to, equilibrium).map_err(placed);
+            let confirmed = run.confirmed(to, equilibrium);
+            let end = confirmed.map_err(|why| with_load(why, to, stages, true))?;
+            let path = with_friction.then(|| Path {
+                steps: per_stage,
+                stages,
+                halved: run.halved,
+                start: run.start,
+                changes: changes(&run.steps),
+            });
+            return Ok(run.solution(end, path));
         }
         point = Point::after(to, equilibrium);
     }
@@ -141,8 +113,8 @@ fn changes(steps: &[Step]) -> usize {
     ends.windows(2).filter(changed).count()
 }
 
-/// Says on the way to which load no equilibrium was found.
-fn placed(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
+/// Adds to an error on the way to which load no equilibrium was found.
+fn with_load(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
     match why {
         Error::Equilibrium(NoEquilibrium { cause, what }) if !at_the_end || stages > 1 => {
             let what = format!("{what} (on the way to {})", part_of_load(to, stages));
@@ -166,12 +138,15 @@ pub(super) fn part_of_load(part: f64, stages: usize) -> String {
 /// A search for the equilibrium of a setting.
 type Search<'a> = fn(&Problem<'a>, &Setting, &mut Watch) -> Result<Equilibrium, Error>;
 
-/// The way along a path so far.
-struct Walk<'a> {
+/// What was found along the path so far.
+struct Run<'a> {
     problem: &'a Problem<'a>,
     watch: &'a mut dyn FnMut(&Step),
+    /// The iterations on the path, without those of steps that were divided.
     steps: Vec<Step>,
+    /// The number of all contact states that were solved.
     factored: usize,
+    /// The number of steps that were halved.
     halved: usize,
     /// How often this step of the path may still be divided where nodes close.
     closings: usize,
@@ -181,9 +156,9 @@ struct Walk<'a> {
     taken: Vec<Taken>,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> Run<'a> {
     fn new(problem: &'a Problem<'a>, watch: &'a mut dyn FnMut(&Step)) -> Self {
-        Walk {
+        Run {
             problem,
             watch,
             steps: Vec::new(),
@@ -193,6 +168,23 @@ impl<'a> Walk<'a> {
             start: Start::Held,
             keeps_all: false,
             taken: Vec::new(),
+        }
+    }
+
+    /// Takes a step of the path from a point to the load `to`: on springs where no equilibrium is found
+    /// without.
+    fn step_of_path(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
+        let with_friction = self.problem.friction > 0.0;
+        self.closings = if with_friction { CLOSINGS } else { 0 };
+        match self.advance(from, to, if with_friction { HALVINGS } else { 0 }) {
+            Err(Error::Equilibrium(why)) if why.cause == Cause::NotFound => {
+                let found = self
+                    .step(from, to, Problem::on_springs)
+                    .map_err(|more| more.prefixed(&format!("{}; ", why.what)))?;
+                self.take(from, to, &found);
+                Ok(found)
+            }
+            found => found,
         }
     }
 
@@ -231,13 +223,13 @@ impl<'a> Walk<'a> {
         if !self.keeps_all {
             self.taken.clear();
         }
-        let Equilibrium { place, last, .. } = found;
+        let Equilibrium { config, last, .. } = found;
         self.taken.push(Taken {
             to,
             before: from.u.clone(),
-            place: place.clone(),
+            config: config.clone(),
             statuses: last.statuses.clone(),
-            u: last.moved.u.clone(),
+            u: last.solution.u.clone(),
         });
     }
 
@@ -267,46 +259,79 @@ impl<'a> Walk<'a> {
         let load = self.problem.load(to);
         let statuses = from.statuses.as_deref();
         let setting = Setting { load: load.clone(), before: &from.u, statuses, whole: false };
-        let found = search(self.problem, &setting, &mut |place, iteration| {
-            self.keep(to, &load, place, iteration);
+        let found = search(self.problem, &setting, &mut |config, iteration| {
+            self.keep(to, &load, config, iteration);
         })?;
         self.complete(to, &load, &found);
         Ok(found)
     }
 
-    /// Solves the last contact state, at the load `to`, on the whole bodies, and ends the path with it.
-    fn confirmed(mut self, to: f64, found: Equilibrium) -> Result<End, Error> {
+    /// Solves the last contact state, at the load `to`, on the whole bodies.
+    fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let mut last = self.taken.pop().expect("a path has a step");
         let setting =
             Setting { load: load.clone(), before: &last.before, statuses: None, whole: true };
-        let equilibrium = self.problem.confirmed(found, &setting, &mut |place, iteration| {
-            self.keep(to, &load, place, iteration);
+        let equilibrium = self.problem.confirmed(found, &setting, &mut |config, iteration| {
+            self.keep(to, &load, config, iteration);
         })?;
         self.complete(to, &load, &equilibrium);
-        last.place = equilibrium.place.clone();
+        last.config = equilibrium.config.clone();
         last.statuses = equilibrium.last.statuses.clone();
-        last.u = equilibrium.last.moved.u.clone();
+        last.u = equilibrium.last.solution.u.clone();
         self.taken.push(last);
-        let Walk { steps, factored, halved, start, taken, .. } = self;
-        Ok(End { equilibrium, taken, steps, factored, halved, start })
+        Ok(equilibrium)
     }
 
     /// Says of the last step what is known of the whole bodies in the equilibrium that it led to.
     fn complete(&mut self, to: f64, load: &DVector<f64>, found: &Equilibrium) {
         let k = self.steps.len();
         if let Some(last) = self.steps.last_mut() {
-            let Equilibrium { place, last: iteration, .. } = found;
-            *last = step(self.problem, (k, to), load, place, iteration);
+            let Equilibrium { config, last: iteration, .. } = found;
+            *last = step(self.problem, (k, to), load, config, iteration);
         }
     }
 
     /// Adds an iteration to the steps.
-    fn keep(&mut self, to: f64, load: &DVector<f64>, place: &Place, iteration: &Iteration) {
+    fn keep(
+        &mut self,
+        to: f64,
+        load: &DVector<f64>,
+        config: &Configuration,
+        iteration: &Iteration,
+    ) {
         self.factored += usize::from(!iteration.returned);
-        let step = step(self.problem, (self.steps.len() + 1, to), load, place, iteration);
+        let step = step(self.problem, (self.steps.len() + 1, to), load, config, iteration);
         (self.watch)(&step);
         self.steps.push(step);
+    }
+
+    /// Returns the solution, which is the end of the path.
+    fn solution(self, end: Equilibrium, path: Option<Path>) -> Solution {
+        let Run { problem, steps, factored, taken, .. } = self;
+        let uniqueness = uniqueness(problem, &end, &taken);
+        let Equilibrium { config, last, shape_change, springs, .. } = end;
+        let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
+        Solution {
+            request: problem.request.clone(),
+            model: problem.model.clone(),
+            contact: contact(problem, &config, &last),
+            elements: problem.stiffness.states(&last.solution.u),
+            factored,
+            steps,
+            digits: None,
+            error_bound: None,
+            kept: problem.bodies.kept(),
+            equilibrium: Some(solution::Equilibrium {
+                path,
+                uniqueness,
+                unseen,
+                inside,
+                shape_change,
+                springs,
+            }),
+            u: last.solution.u,
+        }
     }
 }
 
@@ -315,34 +340,34 @@ fn step(
     problem: &Problem,
     (k, to): (usize, f64),
     load: &DVector<f64>,
-    place: &Place,
+    config: &Configuration,
     iteration: &Iteration,
 ) -> Step {
-    let Iteration { statuses, constraints, cycle, moved, violation, .. } = iteration;
+    let Iteration { statuses, constraints, cycle, solution, violation, .. } = iteration;
     let target_force = || {
-        let contact = load_of(&place.pairings, &moved.forces, moved.u.len());
+        let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
         let at_supports = problem.supports.iter().copied();
-        let reaction = problem.stiffness.times_of(at_supports, &moved.u) - load - contact;
+        let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
         passed_on(problem.model, held(problem.model, &problem.model.restrained, &reaction, load))
     };
-    let is_known = moved.inside.is_none();
+    let is_known = solution.interior.is_none();
     Step {
         k,
-        shape: Arc::clone(&place.shape),
+        shape: Arc::clone(&config.shape),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
-        max_displacement: is_known.then(|| max_displacement(&moved.u)),
+        max_displacement: is_known.then(|| max_displacement(&solution.u)),
         cycle: cycle.clone(),
         target_force: is_known.then(target_force),
-        solve_residual: moved.residual,
+        solve_residual: solution.residual,
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
             statuses: statuses.clone(),
-            pairings: Arc::clone(&place.pairings),
-            friction: moved.friction.clone(),
-            feedback: moved.feedback,
+            pairings: Arc::clone(&config.pairings),
+            friction: solution.friction.clone(),
+            feedback: solution.feedback,
             margin: problem.margin(iteration),
-            undetermined: moved.forces.iter().map(|force| force.undetermined).collect(),
+            undetermined: solution.forces.iter().map(|force| force.undetermined).collect(),
             violation: *violation,
             springs: iteration.springs,
             choice: iteration.choice,
@@ -350,53 +375,18 @@ fn step(
     }
 }
 
-/// Returns the solution, which is the end of the path.
-fn solution(
-    problem: &Problem,
-    end: End,
-    path: Option<Path>,
-    uniqueness: solution::Uniqueness,
-) -> Solution {
-    let Equilibrium { place, last, shape_change, springs, .. } = end.equilibrium;
-    let unseen = problem.unseen(&last);
-    let inside = problem.inside(&last);
-    Solution {
-        request: problem.request.clone(),
-        model: problem.model.clone(),
-        contact: contact(problem, &place, &last),
-        elements: problem.stiffness.states(&last.moved.u),
-        factored: end.factored,
-        steps: end.steps,
-        u: last.moved.u,
-        digits: None,
-        error_bound: None,
-        kept: problem.bodies.kept(),
-        equilibrium: Some(solution::Equilibrium {
-            path,
-            uniqueness,
-            unseen,
-            inside,
-            shape_change,
-            springs,
-        }),
-    }
-}
-
 /// Returns the contact surface at the end.
-fn contact(problem: &Problem, place: &Place, last: &Iteration) -> Vec<ContactNode> {
-    let measured = if problem.is_current() { &*place.shape } else { &problem.model.nodes };
-    let open = problem.undetermined(place, last);
-    let forces = last
-        .moved
-        .forces
-        .iter()
-        .zip(&open)
-        .map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
+fn contact(problem: &Problem, config: &Configuration, last: &Iteration) -> Vec<ContactNode> {
+    let measured = if problem.is_current() { &*config.shape } else { &problem.model.nodes };
+    let open = problem.undetermined(config, last);
+    let forces = last.solution.forces.iter().zip(&open);
+    let forces =
+        forces.map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
     let traction = Traction {
         model: problem.model,
         surfaces: &problem.surfaces,
         measured_in: measured,
-        pairings: &place.pairings,
+        pairings: &config.pairings,
         gaps: &last.gaps,
         in_contact: &last.statuses.iter().map(|status| status.is_closed()).collect::<Vec<_>>(),
         statuses: Some(&last.statuses),

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::forces::{Force, tangent};
+use super::forces::{ContactForce, tangent};
 use super::rigid;
-use super::status::Memory;
+use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
-use crate::fast::condensation::{Bodies, Inside};
+use crate::fast::condensation::{Bodies, Interior};
 use crate::request::Request;
 use crate::session::Session;
 use crate::solution::{Choice, Cycle};
@@ -67,7 +67,7 @@ pub(super) struct Setting<'a> {
 
 /// A shape and the target that each contact node faces in it.
 #[derive(Clone)]
-pub(super) struct Place {
+pub(super) struct Configuration {
     /// The coordinates of each node, length.
     pub(super) shape: Arc<Vec<[f64; 2]>>,
     /// The pairing of each entry of the contact surface.
@@ -83,7 +83,7 @@ pub(super) struct Iteration {
     /// The earlier iterations with these statuses; None where they are new.
     pub(super) cycle: Option<Cycle>,
     /// What the statuses lead to.
-    pub(super) moved: Moved,
+    pub(super) solution: StateSolution,
     /// The gap of each entry afterwards, length; None where it faces nothing, and where it stands open
     /// inside the bodies as long as displacements there are unknown.
     pub(super) gaps: Vec<Option<f64>>,
@@ -100,25 +100,25 @@ pub(super) struct Iteration {
 impl Iteration {
     /// Returns whether the displacements of both surfaces are known.
     pub(super) fn knows_surfaces(&self) -> bool {
-        self.moved.inside.as_ref().is_none_or(Inside::knows_surfaces)
+        self.solution.interior.as_ref().is_none_or(Interior::knows_surfaces)
     }
 
     /// Returns the next iteration, to which the statuses of this one return.
-    pub(super) fn again(&self, memory: &mut Memory) -> Self {
-        let cycle = memory.keep(&self.statuses);
+    pub(super) fn again(&self, history: &mut History) -> Self {
+        let cycle = history.keep(&self.statuses);
         Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
     }
 }
 
 /// The displacements and forces under imposed statuses.
 #[derive(Clone)]
-pub(super) struct Moved {
+pub(super) struct StateSolution {
     /// The displacements by degree of freedom, length; 0 inside the bodies as long as `inside` is there.
     pub(super) u: DVector<f64>,
     /// What gives the displacements inside; None once they are known.
-    pub(super) inside: Option<Inside>,
+    pub(super) interior: Option<Interior>,
     /// The forces on each entry of the contact surface, force.
-    pub(super) forces: Vec<Force>,
+    pub(super) forces: Vec<ContactForce>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub(super) friction: Vec<(Dof, f64)>,
     /// The largest change of a sliding node's friction over that of μ times the normal forces which
@@ -132,18 +132,18 @@ pub(super) struct Moved {
     pub(super) whole: bool,
 }
 
-impl Moved {
+impl StateSolution {
     /// Finds the displacements inside the bodies, where they are not known.
     pub(super) fn complete(&mut self) {
-        if let Some(inside) = self.inside.take() {
-            self.u = inside.expand();
+        if let Some(interior) = self.interior.take() {
+            self.u = interior.expand();
         }
     }
 }
 
 /// The equilibrium under a load.
 pub(super) struct Equilibrium {
-    pub(super) place: Place,
+    pub(super) config: Configuration,
     pub(super) last: Iteration,
     /// The part of the step after which the first node closes that closed in it; None where none did.
     pub(super) closing: Option<f64>,
@@ -156,8 +156,8 @@ pub(super) struct Equilibrium {
 }
 
 /// The result of an attempt to solve.
-pub(super) enum Solved {
-    Moved(Moved),
+pub(super) enum Outcome {
+    Solved(StateSolution),
     /// A degree of freedom without restraint, and the motion under the load on soft springs.
     Free {
         dof: Dof,
@@ -166,7 +166,7 @@ pub(super) enum Solved {
 }
 
 /// Sees each iteration, and the place in which its contact was measured.
-pub(super) type Watch<'w> = dyn FnMut(&Place, &Iteration) + 'w;
+pub(super) type Watch<'w> = dyn FnMut(&Configuration, &Iteration) + 'w;
 
 impl<'a> Problem<'a> {
     pub(super) fn new(
@@ -219,13 +219,13 @@ impl<'a> Problem<'a> {
 
     /// Returns the target that each contact node faces: in the shape that displacements `u` lead to,
     /// or in the initial shape.
-    pub(super) fn place(&self, u: &DVector<f64>) -> Place {
+    pub(super) fn configuration(&self, u: &DVector<f64>) -> Configuration {
         let shape = self.model.shape(u);
         let pairings = match self.is_current() {
             true => Arc::new(self.surfaces.pairings(self.request.contact.coupling, &shape)),
             false => Arc::clone(&self.initial),
         };
-        Place { shape: Arc::new(shape), pairings }
+        Configuration { shape: Arc::new(shape), pairings }
     }
 
     /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
@@ -234,24 +234,28 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
-    pub(super) fn gaps(&self, place: &Place, u: &DVector<f64>) -> Vec<Option<f64>> {
-        place.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
+    pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
+        config.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
     }
 
     /// Returns the gap of each entry afterwards as far as the displacements are known, length.
-    pub(super) fn known_gaps(&self, place: &Place, moved: &Moved) -> Vec<Option<f64>> {
-        let is_known = |p: &&Pairing| {
-            let mut nodes = std::iter::once(p.node).chain(p.masters.iter().map(|(m, _)| *m));
-            moved.inside.as_ref().is_none_or(|inside| nodes.all(|node| inside.knows(node)))
+    pub(super) fn known_gaps(
+        &self,
+        config: &Configuration,
+        solution: &StateSolution,
+    ) -> Vec<Option<f64>> {
+        let is_known = |p: &&Pairing| match &solution.interior {
+            Some(interior) => p.nodes().all(|node| interior.knows(node)),
+            None => true,
         };
         let known =
-            |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &moved.u));
-        place.pairings.iter().map(known).collect()
+            |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &solution.u));
+        config.pairings.iter().map(known).collect()
     }
 
     /// Returns the status with which an entry closes.
-    pub(super) fn closing(&self, place: &Place, i: usize) -> Status {
-        let transmits = place.pairings[i].as_ref().is_some_and(|p| self.transmits_shear(p));
+    pub(super) fn closing(&self, config: &Configuration, i: usize) -> Status {
+        let transmits = config.pairings[i].as_ref().is_some_and(|p| self.transmits_shear(p));
         if transmits { Status::Stick } else { Status::Slip(Sense::Free) }
     }
 
@@ -270,61 +274,55 @@ impl<'a> Problem<'a> {
 
     /// Returns whether restraints leave the forces of each entry undetermined, with the open nodes
     /// that touch counted as closed: they could carry a part as well.
-    pub(super) fn undetermined(&self, place: &Place, last: &Iteration) -> Vec<bool> {
+    pub(super) fn undetermined(&self, config: &Configuration, last: &Iteration) -> Vec<bool> {
         let touching = |i: usize| match (last.statuses[i], last.gaps[i]) {
             (Status::Open, Some(gap)) if gap <= self.closed => Status::Slip(Sense::Free),
             (status, _) => status,
         };
         let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
         // Whether they are determined does not depend on how large they are.
-        let forces = self.forces(place, &statuses, &last.moved.reaction);
+        let forces = self.forces(config, &statuses, &last.solution.reaction);
         forces.iter().map(|force| force.undetermined).collect()
     }
 
     /// Returns whether a node stands inside the target before any load.
-    pub(super) fn overlaps(&self, place: &Place) -> bool {
-        self.at_the_start(place).iter().flatten().any(|gap| *gap < -self.closed)
+    pub(super) fn overlaps(&self, config: &Configuration) -> bool {
+        self.at_the_start(config).iter().flatten().any(|gap| *gap < -self.closed)
     }
 
     /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
-    pub(super) fn is_held(&self, place: &Place) -> bool {
-        let gaps = self.at_the_start(place);
+    pub(super) fn is_held(&self, config: &Configuration) -> bool {
+        let gaps = self.at_the_start(config);
         let touches = |i: usize| gaps[i].is_some_and(|gap| gap <= self.closed);
-        let status = |i: usize| if touches(i) { self.closing(place, i) } else { Status::Open };
+        let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
         let before = DVector::zeros(self.model.dofs());
         let setting =
             Setting { load: before.clone(), before: &before, statuses: None, whole: false };
-        rigid::holds(self.model, &self.constraints(place, &statuses, &setting))
+        rigid::holds(self.model, &self.constraints(config, &statuses, &setting))
     }
 
     /// Returns the gap of each entry before any load, length.
-    pub(super) fn at_the_start(&self, place: &Place) -> Vec<Option<f64>> {
-        self.gaps(place, &DVector::zeros(self.model.dofs()))
+    pub(super) fn at_the_start(&self, config: &Configuration) -> Vec<Option<f64>> {
+        self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
-    /// Returns the target node that lies deepest inside the contact surface under node to segment;
-    /// None where none lies deeper than [`UNSEEN`].
-    pub(super) fn unseen(&self, last: &Iteration) -> Option<(NodeId, f64)> {
-        if self.request.contact.coupling != Coupling::Nts {
-            return None;
-        }
-        let deepest = self.surfaces.deepest_target_node(&self.model.shape(&last.moved.u))?;
-        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
-    }
-
-    /// Returns the contact node that lies deepest inside the target's body in the shape reached, whatever
-    /// edges it faces; None where none lies deeper than [`UNSEEN`].
-    pub(super) fn inside(&self, last: &Iteration) -> Option<(NodeId, f64)> {
-        let shape = self.model.shape(&last.moved.u);
-        let deepest = self.surfaces.deepest_contact_node(self.model, &shape)?;
-        (deepest.1 > UNSEEN * size(self.model)).then_some(deepest)
+    /// Returns the target node that lies deepest inside the contact surface, under node to segment, and the
+    /// contact node that lies deepest inside the target's body in the shape reached, whatever edges it faces,
+    /// each with its depth, length; None where none lies deeper than [`UNSEEN`].
+    pub(super) fn deepest_nodes(&self, u: &DVector<f64>) -> [Option<(NodeId, f64)>; 2] {
+        let shape = self.model.shape(u);
+        let is_nts = self.request.contact.coupling == Coupling::Nts;
+        let unseen = is_nts.then(|| self.surfaces.deepest_target_node(&shape)).flatten();
+        let inside = self.surfaces.deepest_contact_node(self.model, &shape);
+        let least = UNSEEN * size(self.model);
+        [unseen, inside].map(|deepest| deepest.filter(|(_, depth)| *depth > least))
     }
 
     /// Returns the constraints that impose statuses.
     pub(super) fn constraints(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         setting: &Setting,
     ) -> Vec<Constraint> {
@@ -343,7 +341,7 @@ impl<'a> Problem<'a> {
             };
             Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
         };
-        place.pairings.iter().zip(statuses).filter_map(constraint).collect()
+        config.pairings.iter().zip(statuses).filter_map(constraint).collect()
     }
 }
 

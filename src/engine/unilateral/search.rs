@@ -5,11 +5,12 @@ use std::collections::VecDeque;
 
 use nalgebra::DVector;
 
-use super::forces::{Force, tangent};
+use super::forces::{ContactForce, tangent};
 use super::problem::{
-    CONE, Equilibrium, Iteration, Moved, Place, Problem, Setting, Solved, Watch, violation,
+    CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSolution, Watch,
+    violation,
 };
-use super::status::{Memory, first_closed, nearest_open, next_closed};
+use super::status::{History, first_closed, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
@@ -46,46 +47,47 @@ impl Problem<'_> {
     ) -> Result<Equilibrium, Error> {
         let mut gaps = Vec::new();
         let mut first: Option<Iteration> = None;
-        let mut keep_first = |place: &Place, iteration: &Iteration| {
+        let mut keep_first = |config: &Configuration, iteration: &Iteration| {
             first.get_or_insert_with(|| iteration.clone());
-            watch(place, iteration);
+            watch(config, iteration);
         };
         let mut start = setting.statuses.map(<[Status]>::to_vec);
-        let mut before: Option<(Moved, f64)> = None;
-        let mut memory = Memory::default();
+        let mut before: Option<(StateSolution, f64)> = None;
+        let mut history = History::default();
         for _ in 0..SHAPES {
-            memory.move_on();
-            let place = self.place(before.as_ref().map_or(setting.before, |(moved, _)| &moved.u));
+            history.move_on();
+            let config = self
+                .configuration(before.as_ref().map_or(setting.before, |(solution, _)| &solution.u));
             if before.is_none() {
-                gaps = self.gaps(&place, setting.before);
+                gaps = self.gaps(&config, setting.before);
             }
-            let mut last = self.settle(&place, start, setting, &mut memory, &mut keep_first)?;
-            let change = |last: &Iteration, before: &Option<(Moved, f64)>| match before {
+            let mut last = self.settle(&config, start, setting, &mut history, &mut keep_first)?;
+            let change = |last: &Iteration, before: &Option<(StateSolution, f64)>| match before {
                 _ if !self.is_current() => 0.0,
-                Some((moved, _)) => largest((&last.moved.u - &moved.u).as_slice()),
+                Some((solution, _)) => largest((&last.solution.u - &solution.u).as_slice()),
                 None => f64::INFINITY,
             };
             let of_surfaces = change(&last, &before);
             let stalled = before.as_ref().is_some_and(|(_, old)| of_surfaces > old / 2.0);
             let is_settled = |change: f64, last: &Iteration| {
-                let scale = largest(last.moved.u.as_slice());
+                let scale = largest(last.solution.u.as_slice());
                 change <= SETTLED * scale || (stalled && change <= STALLED * scale)
             };
             if is_settled(of_surfaces, &last) {
                 // Inside, the bodies may move more.
-                self.complete(&place, &mut last);
-                before.iter_mut().for_each(|(moved, _)| moved.complete());
+                self.complete(&config, &mut last);
+                before.iter_mut().for_each(|(solution, _)| solution.complete());
                 let shape_change = change(&last, &before);
                 if is_settled(shape_change, &last) {
                     let closing =
-                        first.and_then(|first| self.first_closing(&gaps, first, &place, &last));
-                    return Ok(Equilibrium { place, last, closing, shape_change, springs: None });
+                        first.and_then(|first| self.first_closing(&gaps, first, &config, &last));
+                    return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
                 }
             }
             start = Some(last.statuses);
-            before = Some((last.moved, of_surfaces));
+            before = Some((last.solution, of_surfaces));
         }
-        let strained = before.map_or(String::new(), |(moved, _)| self.strained(&moved.u));
+        let strained = before.map_or(String::new(), |(solution, _)| self.strained(&solution.u));
         let what = format!(
             "the shape did not settle when contact was measured in it {SHAPES} times{strained}"
         );
@@ -100,10 +102,10 @@ impl Problem<'_> {
         setting: &Setting,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
-        if found.last.moved.whole {
+        if found.last.solution.whole {
             return Ok(found);
         }
-        match self.confirm(&found.place, &found.last, setting)? {
+        match self.confirm(&found.config, &found.last, setting)? {
             Some(last) => Ok(Equilibrium { last, ..found }),
             None => {
                 let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
@@ -115,17 +117,18 @@ impl Problem<'_> {
     /// Solves a contact state again as `setting` says; None where it asks for other statuses then.
     pub(super) fn confirm(
         &self,
-        place: &Place,
+        config: &Configuration,
         found: &Iteration,
         setting: &Setting,
     ) -> Result<Option<Iteration>, Error> {
         let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
-        let Solved::Moved(moved) = self.solve(place, &statuses, &constraints, setting)? else {
+        let Outcome::Solved(solution) = self.solve(config, &statuses, &constraints, setting)?
+        else {
             return Ok(None);
         };
-        let reached = self.reached(place, (statuses, constraints), cycle, moved);
+        let reached = self.reached(config, (statuses, constraints), cycle, solution);
         let last = Iteration { choice, ..reached };
-        let wanted = self.wanted(place, &last, setting, false);
+        let wanted = self.wanted(config, &last, setting, false);
         Ok((wanted == last.statuses).then_some(last))
     }
 
@@ -136,14 +139,14 @@ impl Problem<'_> {
         &self,
         before: &[Option<f64>],
         mut first: Iteration,
-        place: &Place,
+        config: &Configuration,
         last: &Iteration,
     ) -> Option<f64> {
         let closes =
             |i: &usize| first.statuses[*i] == Status::Open && last.statuses[*i].is_closed();
         let closing: Vec<usize> = (0..before.len()).filter(closes).collect();
         if closing.iter().any(|i| first.gaps[*i].is_none()) {
-            self.complete(place, &mut first);
+            self.complete(config, &mut first);
         }
         let part = |i: usize| {
             let (from, to) = (before[i]?, first.gaps[i]?);
@@ -159,36 +162,37 @@ impl Problem<'_> {
     /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
     pub(super) fn settle(
         &self,
-        place: &Place,
+        config: &Configuration,
         start: Option<Vec<Status>>,
         setting: &Setting,
-        memory: &mut Memory,
+        history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let start = (start.unwrap_or_else(|| self.first(place, setting.before)), Choice::Asked);
-        let found = self.active_set(place, start, setting, memory, watch);
+        let start = (start.unwrap_or_else(|| self.first(config, setting.before)), Choice::Asked);
+        let found = self.active_set(config, start, setting, history, watch);
         let Err(Error::Equilibrium(why)) = found else { return found };
-        let escaping = || self.escape(place, &setting.load, self.friction);
+        let escaping = || self.escape(config, &setting.load, self.friction);
         if !self.is_current()
             && self.springs == 0.0
             && let Some(dof) = escaping()
         {
             return Err(self.escapes(dof).into());
         }
-        let bounds = self.by_bounds(place, setting).map(|statuses| (statuses, Choice::Bounds));
-        let all = || self.enumerated(place, setting).map(|statuses| (statuses, Choice::Enumerated));
+        let bounds = self.by_bounds(config, setting).map(|statuses| (statuses, Choice::Bounds));
+        let all =
+            || self.enumerated(config, setting).map(|statuses| (statuses, Choice::Enumerated));
         let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
-        memory.move_on();
-        self.active_set(place, start, setting, memory, watch)
+        history.move_on();
+        self.active_set(config, start, setting, history, watch)
     }
 
     /// Goes from statuses to those that they ask for, until they ask for themselves.
     fn active_set(
         &self,
-        place: &Place,
+        config: &Configuration,
         (mut statuses, choice): (Vec<Status>, Choice),
         setting: &Setting,
-        memory: &mut Memory,
+        history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
         let limit = PATIENCE + self.model.contact.nodes.len();
@@ -196,23 +200,24 @@ impl Problem<'_> {
         let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
             let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
-                Some(known) => known.again(memory),
-                None => self.iteration(place, statuses, setting, memory)?,
+                Some(known) => known.again(history),
+                None => self.iteration(config, statuses, setting, history)?,
             };
             if k == 1 {
                 iteration.choice = choice;
             }
-            let wanted = self.wanted_of_all(place, &mut iteration, setting, memory.iterations == 1);
-            watch(place, &iteration);
+            let wanted =
+                self.wanted_of_all(config, &mut iteration, setting, history.iterations == 1);
+            watch(config, &iteration);
             if wanted == iteration.statuses {
                 return Ok(iteration);
             }
             if k == limit {
-                self.complete(place, &mut iteration);
-                against = self.against(&iteration, &wanted) + &self.strained(&iteration.moved.u);
+                self.complete(config, &mut iteration);
+                against = self.against(&iteration, &wanted) + &self.strained(&iteration.solution.u);
             }
-            statuses = memory.next(&iteration.statuses, wanted);
-            if memory.one_at_a_time {
+            statuses = history.next(&iteration.statuses, wanted);
+            if history.one_at_a_time {
                 recent.push_front(iteration);
                 recent.truncate(RETURNING);
             }
@@ -223,7 +228,7 @@ impl Problem<'_> {
         };
         let what = format!(
             "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
-            memory.returned()
+            history.returned()
         );
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
@@ -240,9 +245,9 @@ impl Problem<'_> {
         format!("; in the last, node {} {why}", self.model.contact.nodes[i])
     }
 
-    fn first(&self, place: &Place, u: &DVector<f64>) -> Vec<Status> {
-        let closed = first_closed(&self.gaps(place, u), self.closed);
-        let status = |i: usize| if closed[i] { self.closing(place, i) } else { Status::Open };
+    fn first(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Status> {
+        let closed = first_closed(&self.gaps(config, u), self.closed);
+        let status = |i: usize| if closed[i] { self.closing(config, i) } else { Status::Open };
         (0..closed.len()).map(status).collect()
     }
 
@@ -250,49 +255,49 @@ impl Problem<'_> {
     /// surfaces are known, looks at the whole bodies too.
     fn wanted_of_all(
         &self,
-        place: &Place,
+        config: &Configuration,
         iteration: &mut Iteration,
         setting: &Setting,
         first: bool,
     ) -> Vec<Status> {
-        let wanted = self.wanted(place, iteration, setting, first);
+        let wanted = self.wanted(config, iteration, setting, first);
         if wanted == iteration.statuses && !iteration.knows_surfaces() {
-            self.complete(place, iteration);
-            return self.wanted(place, iteration, setting, first);
+            self.complete(config, iteration);
+            return self.wanted(config, iteration, setting, first);
         }
         wanted
     }
 
     /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
-    pub(super) fn complete(&self, place: &Place, iteration: &mut Iteration) {
-        if iteration.moved.inside.is_none() {
+    pub(super) fn complete(&self, config: &Configuration, iteration: &mut Iteration) {
+        if iteration.solution.interior.is_none() {
             return;
         }
-        iteration.moved.complete();
-        iteration.gaps = self.gaps(place, &iteration.moved.u);
+        iteration.solution.complete();
+        iteration.gaps = self.gaps(config, &iteration.solution.u);
         iteration.violation = violation(&iteration.gaps, &iteration.statuses);
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
     pub(super) fn wanted(
         &self,
-        place: &Place,
+        config: &Configuration,
         iteration: &Iteration,
         setting: &Setting,
         first: bool,
     ) -> Vec<Status> {
         let growth = first && setting.statuses.is_none();
         let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
-        let rounding = CONE * largest(iteration.moved.u.as_slice());
-        let forces = iteration.moved.forces.iter().map(|f| f.normal);
+        let rounding = CONE * largest(iteration.solution.u.as_slice());
+        let forces = iteration.solution.forces.iter().map(|f| f.normal);
         let most = forces.fold(largest(setting.load.as_slice()), f64::max);
         let status = |i: usize| {
-            let (Some(pairing), Some(gap)) = (&place.pairings[i], iteration.gaps[i]) else {
+            let (Some(pairing), Some(gap)) = (&config.pairings[i], iteration.gaps[i]) else {
                 return Status::Open;
             };
-            let Force { normal, tangent, undetermined } = iteration.moved.forces[i];
+            let ContactForce { normal, tangent, undetermined } = iteration.solution.forces[i];
             match iteration.statuses[i] {
-                Status::Open if gap < -deep => self.closing(place, i),
+                Status::Open if gap < -deep => self.closing(config, i),
                 Status::Open => Status::Open,
                 _ if normal < -ROUNDING_OF_A_FORCE * most => Status::Open,
                 _ if undetermined && gap > self.closed => Status::Open,
@@ -314,9 +319,9 @@ impl Problem<'_> {
     /// Returns the least force of a node in contact, and the least friction that one that sticks has
     /// left, over the largest force; infinite where nothing is in contact.
     pub(super) fn margin(&self, iteration: &Iteration) -> f64 {
-        let pairs = || iteration.statuses.iter().zip(&iteration.moved.forces);
+        let pairs = || iteration.statuses.iter().zip(&iteration.solution.forces);
         let largest = pairs().map(|(_, force)| force.normal.abs()).fold(0.0, f64::max);
-        let left = |(status, force): (&Status, &Force)| match status {
+        let left = |(status, force): (&Status, &ContactForce)| match status {
             Status::Open => f64::INFINITY,
             Status::Stick if self.friction.is_finite() => {
                 force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
@@ -328,7 +333,7 @@ impl Problem<'_> {
 
     /// Returns how far a node slipped along the tangent in a step of the load, length.
     fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
-        let [ux, uy] = pairing.motion(|n| n.of(&iteration.moved.u));
+        let [ux, uy] = pairing.motion(|n| n.of(&iteration.solution.u));
         let [bx, by] = pairing.motion(|n| n.of(setting.before));
         let [tx, ty] = tangent(pairing);
         tx * (ux - bx) + ty * (uy - by)
@@ -337,46 +342,46 @@ impl Problem<'_> {
     /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
     fn iteration(
         &self,
-        place: &Place,
+        config: &Configuration,
         mut statuses: Vec<Status>,
         setting: &Setting,
-        memory: &mut Memory,
+        history: &mut History,
     ) -> Result<Iteration, Error> {
-        for (status, pairing) in statuses.iter_mut().zip(&*place.pairings) {
+        for (status, pairing) in statuses.iter_mut().zip(&*config.pairings) {
             if pairing.is_none() {
                 *status = Status::Open;
             }
         }
-        let (constraints, moved) = loop {
-            let constraints = self.constraints(place, &statuses, setting);
-            match self.solve(place, &statuses, &constraints, setting)? {
-                Solved::Moved(moved) => break (constraints, moved),
-                Solved::Free { dof, motion } => {
-                    if !self.restrain_more(place, &mut statuses, setting, motion) {
-                        return Err(self.unrestrained(&place.pairings, &constraints, dof).into());
+        let (constraints, solution) = loop {
+            let constraints = self.constraints(config, &statuses, setting);
+            match self.solve(config, &statuses, &constraints, setting)? {
+                Outcome::Solved(solution) => break (constraints, solution),
+                Outcome::Free { dof, motion } => {
+                    if !self.restrain_more(config, &mut statuses, setting, motion) {
+                        return Err(self.unrestrained(&config.pairings, &constraints, dof).into());
                     }
                 }
             }
         };
-        let cycle = memory.keep(&statuses);
-        Ok(self.reached(place, (statuses, constraints), cycle, moved))
+        let cycle = history.keep(&statuses);
+        Ok(self.reached(config, (statuses, constraints), cycle, solution))
     }
 
-    /// Returns the iteration that imposed statuses by constraints and led to `moved`.
+    /// Returns the iteration that imposed statuses by constraints and led to `solution`.
     pub(super) fn reached(
         &self,
-        place: &Place,
+        config: &Configuration,
         (statuses, constraints): (Vec<Status>, Vec<Constraint>),
         cycle: Option<Cycle>,
-        moved: Moved,
+        solution: StateSolution,
     ) -> Iteration {
-        let gaps = self.known_gaps(place, &moved);
+        let gaps = self.known_gaps(config, &solution);
         let violation = violation(&gaps, &statuses);
         Iteration {
             statuses,
             constraints,
             cycle,
-            moved,
+            solution,
             gaps,
             violation,
             returned: false,
@@ -388,15 +393,15 @@ impl Problem<'_> {
     /// Closes more nodes, or lets one stick; false where there is none.
     fn restrain_more(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &mut [Status],
         setting: &Setting,
         motion: Option<DVector<f64>>,
     ) -> bool {
-        let gaps = self.gaps(place, setting.before);
-        let first = motion.and_then(|u| next_closed(statuses, &gaps, &place.pairings, &u));
+        let gaps = self.gaps(config, setting.before);
+        let first = motion.and_then(|u| next_closed(statuses, &gaps, &config.pairings, &u));
         let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
-        more.iter().for_each(|&i| statuses[i] = self.closing(place, i));
+        more.iter().for_each(|&i| statuses[i] = self.closing(config, i));
         if !more.is_empty() {
             return true;
         }
@@ -407,19 +412,20 @@ impl Problem<'_> {
     /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
     pub(super) fn try_statuses(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         setting: &Setting,
-    ) -> Option<Moved> {
-        let constraints = self.constraints(place, statuses, setting);
-        let Ok(Solved::Moved(moved)) = self.solve(place, statuses, &constraints, setting) else {
+    ) -> Option<StateSolution> {
+        let constraints = self.constraints(config, statuses, setting);
+        let Ok(Outcome::Solved(solution)) = self.solve(config, statuses, &constraints, setting)
+        else {
             return None;
         };
-        let mut iteration = self.reached(place, (statuses.to_vec(), constraints), None, moved);
-        let wanted = self.wanted_of_all(place, &mut iteration, setting, false);
+        let mut iteration = self.reached(config, (statuses.to_vec(), constraints), None, solution);
+        let wanted = self.wanted_of_all(config, &mut iteration, setting, false);
         (wanted == iteration.statuses).then(|| {
-            self.complete(place, &mut iteration);
-            iteration.moved
+            self.complete(config, &mut iteration);
+            iteration.solution
         })
     }
 }

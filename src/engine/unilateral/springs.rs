@@ -15,7 +15,7 @@ use nalgebra::DVector;
 
 use super::problem::{Equilibrium, Iteration, Problem, Setting, Watch};
 use super::search::{SETTLED, STALLED};
-use super::status::Memory;
+use super::status::History;
 use crate::contact::Status;
 use crate::error::{Cause, Error, NoEquilibrium};
 use numbers::solve::largest;
@@ -52,40 +52,46 @@ impl Problem<'_> {
         let mut u = setting.before.clone();
         let mut statuses = setting.statuses.map(<[Status]>::to_vec);
         let mut last_move = DVector::zeros(u.len());
-        let mut memory = Memory::default();
-        let mut place = self.place(&u);
+        let mut history = History::default();
+        let mut config = self.configuration(&u);
         let (mut most, mut least, mut shapes) = (0.0_f64, f64::INFINITY, 0);
         while shapes < SHAPES && largest(u.as_slice()) < AWAY * self.model.bounds().larger_side() {
             shapes += 1;
-            memory.move_on();
-            place = self.place(&u);
+            history.move_on();
+            config = self.configuration(&u);
             let load = &setting.load + self.force_of(&springs, &u);
             let own = Setting { load, ..*setting };
-            let settled = springs.settle(&place, statuses, &own, &mut memory, watch);
-            let mut last = settled.map_err(|why| why.told("on springs "))?;
-            springs.complete(&place, &mut last);
-            let moved = &last.moved.u - &u;
+            let settled = springs.settle(&config, statuses, &own, &mut history, watch);
+            let mut last = settled.map_err(|why| why.prefixed("on springs "))?;
+            springs.complete(&config, &mut last);
+            let moved = &last.solution.u - &u;
             let change = largest(moved.as_slice());
             // Without load the forces of contact vanish with those of the springs, to rounding.
-            let whole = self.force_of(&springs, &last.moved.u) / springs.springs;
+            let whole = self.force_of(&springs, &last.solution.u) / springs.springs;
             let rounding = f64::EPSILON / SETTLED * largest(whole.as_slice());
             most = most.max(last.most(setting)).max(rounding);
             let pushing = largest(self.force_of(&springs, &moved).as_slice());
             let carried = if pushing == 0.0 { 0.0 } else { pushing / most };
             least = least.min(carried);
-            if carried <= SETTLED && change <= STALLED * largest(last.moved.u.as_slice()) {
+            if carried <= SETTLED && change <= STALLED * largest(last.solution.u.as_slice()) {
                 let setting = Setting { whole: true, ..own };
-                if let Some(last) = springs.confirm(&place, &last, &setting)? {
+                if let Some(last) = springs.confirm(&config, &last, &setting)? {
                     let (closing, springs) = (None, Some(carried));
-                    return Ok(Equilibrium { place, last, closing, shape_change: change, springs });
+                    return Ok(Equilibrium {
+                        config,
+                        last,
+                        closing,
+                        shape_change: change,
+                        springs,
+                    });
                 }
             }
             let softer = if moved.dot(&last_move) < 0.0 { BACK } else { ONWARDS };
             let [softest, stiffest] = RANGE;
             springs = self.with_springs((springs.springs * softer).clamp(softest, stiffest));
-            (u, statuses, last_move) = (last.moved.u, Some(last.statuses), moved);
+            (u, statuses, last_move) = (last.solution.u, Some(last.statuses), moved);
         }
-        let escaping = self.escape(&place, &setting.load, self.friction);
+        let escaping = self.escape(&config, &setting.load, self.friction);
         let escapes = escaping.map(|dof| format!("; in the last {}", self.escapes(dof).what));
         let what = format!(
             "on springs the bodies do not come to rest in {shapes} shapes, {least:.1e} of the largest force is \
@@ -104,7 +110,7 @@ impl Problem<'_> {
 impl Iteration {
     /// Returns the largest force of a load or of contact, force.
     fn most(&self, setting: &Setting) -> f64 {
-        let forces = self.moved.forces.iter().map(|f| f.normal.hypot(f.tangent));
+        let forces = self.solution.forces.iter().map(|f| f.normal.hypot(f.tangent));
         forces.fold(largest(setting.load.as_slice()), f64::max)
     }
 }

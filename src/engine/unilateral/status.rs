@@ -15,7 +15,7 @@ const STANDING: f64 = 1e-9;
 /// The statuses that were imposed under one load, each with its last iteration, and whether any
 /// returned in the place in which contact is measured now.
 #[derive(Default)]
-pub(super) struct Memory {
+pub(super) struct History {
     /// The number of iterations.
     pub(super) iterations: usize,
     visited: HashMap<Vec<Status>, usize>,
@@ -26,7 +26,7 @@ pub(super) struct Memory {
     last_cycle: Option<Cycle>,
 }
 
-impl Memory {
+impl History {
     /// Keeps that one more iteration imposed `statuses`; says where the same were imposed before.
     pub(super) fn keep(&mut self, statuses: &[Status]) -> Option<Cycle> {
         self.iterations += 1;

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::path::part_of_load;
-use super::problem::{Place, Problem, Setting};
+use super::problem::{Configuration, Problem, Setting};
 use super::rigid;
 use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
@@ -21,7 +21,7 @@ impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
     pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
-        let start = self.place(&DVector::zeros(self.model.dofs()));
+        let start = self.configuration(&DVector::zeros(self.model.dofs()));
         let gaps = self.at_the_start(&start).into_iter().flatten();
         let apart = match gaps.reduce(f64::min).filter(|least| *least > self.closed) {
             Some(least) => {
@@ -75,21 +75,26 @@ impl Problem<'_> {
 
     /// Returns the degree of freedom that moves most where contact in a place does not oppose a motion of
     /// the bodies as rigid ones under a load; None where there is no such motion.
-    pub(super) fn escape(&self, place: &Place, load: &DVector<f64>, friction: f64) -> Option<Dof> {
-        let shape = if self.is_current() { &*place.shape } else { &self.model.nodes };
+    pub(super) fn escape(
+        &self,
+        config: &Configuration,
+        load: &DVector<f64>,
+        friction: f64,
+    ) -> Option<Dof> {
+        let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
         let friction = |pairing: &Pairing| match self.transmits_shear(pairing) {
             true => friction,
             false => 0.0,
         };
-        rigid::escape((self.model, shape), &place.pairings, friction, load)
+        rigid::escape((self.model, shape), &config.pairings, friction, load)
     }
 
     /// Says of a step of the path between two loads that friction does not hold the bodies as rigid ones:
     /// from where on, and which coefficient would. None where it can, and where that is not known.
     pub(super) fn slides(&self, u: &DVector<f64>, [from, to]: [f64; 2]) -> Option<NoEquilibrium> {
-        let place = self.place(u);
+        let config = self.configuration(u);
         let free =
-            |part: f64, friction: f64| self.escape(&place, &self.model.load_after(part), friction);
+            |part: f64, friction: f64| self.escape(&config, &self.model.load_after(part), friction);
         let dof = free(to, self.friction)?;
         let stages = self.model.stages.len();
         let [last, _] = bisected([from, to], |part| free(part, self.friction).is_none());
@@ -172,11 +177,11 @@ impl Problem<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(
         &self,
-        place: &Place,
+        config: &Configuration,
         statuses: &[Status],
         setting: &Setting,
     ) -> Option<NodeId> {
-        let constraints = self.constraints(place, statuses, setting);
+        let constraints = self.constraints(config, statuses, setting);
         let t = Elimination::closing(&self.model.restrained, &constraints);
         let singular = SparseCholesky::new(self.stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())

@@ -270,7 +270,7 @@ fn mates(step: &Step) -> (Vec<String>, Vec<f64>) {
     let (mut mates, mut weights) = (Vec::new(), Vec::new());
     match &step.detail {
         Detail::Published(own) => {
-            for (node, row) in &own.pairs.mates {
+            for (node, row) in &own.pairs.masters {
                 mates.push(format!("{node}: {} {}", row[0], row[2]));
                 weights.extend([row[1], row[3]]);
             }

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::rows::{Row, Rows};
 use super::schur::{Condensation, holds};
+use super::state::{Row, Rows};
 use crate::contact::{Pairing, STEEP};
 use crate::elimination::{Constraint, Motion};
 use numbers::solve::{DenseCholesky, DenseCondensed, Factors};
@@ -39,7 +39,7 @@ struct Candidate {
 }
 
 /// A state: the columns of M that it leaves free, and the rest of the displacements.
-pub struct Held {
+pub struct HeldGaps {
     /// The columns of M that are free.
     pub(super) t: Rows,
     /// The displacements of the kept equations where all that is free is 0, length.
@@ -112,7 +112,7 @@ impl Gaps {
 
     /// Factors the state that `constraints` impose; None where it is singular or nearly so, and where
     /// it holds something else.
-    pub fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<Held> {
+    pub fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<HeldGaps> {
         let mut values = vec![None; self.m.columns];
         for constraint in constraints {
             let Candidate { pairing, gap, slip } = self.candidates.get(&constraint.node)?;
@@ -138,7 +138,7 @@ impl Gaps {
         free.iter().enumerate().for_each(|(new, k)| place[first + k] = Some(first + new));
         let t = self.m.left(&place, first + free.len());
         let factors = FreeGaps::new(Arc::clone(self), free)?;
-        Some(Held { t, shift: self.m.expand(&shift), factors })
+        Some(HeldGaps { t, shift: self.m.expand(&shift), factors })
     }
 }
 
@@ -174,8 +174,7 @@ fn candidates<'a>(
 ) -> Option<Vec<(&'a Pairing, Own)>> {
     let is_free = |dof: Dof| condensation.kept.binary_search(&dof).is_ok();
     let masters = |p: &'a Pairing| p.masters.iter().map(|(master, _)| *master);
-    let is_kept =
-        |p: &&'a Pairing| std::iter::once(p.node).chain(masters(p)).all(|n| condensation.keeps(n));
+    let is_kept = |p: &&Pairing| p.nodes().all(|n| condensation.keeps(n));
     let kept = pairings.iter().flatten().filter(is_kept);
     let own = |p: &'a Pairing| Some((p, own(p, p.node.dofs().map(is_free))?));
     let found: Vec<(&Pairing, Own)> = kept.filter_map(own).collect();

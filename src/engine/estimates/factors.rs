@@ -1,21 +1,18 @@
-//! The bodies as contact holds them in a step of a run, ready for one more load: condensed as the run
-//! condensed them at its end, or whole.
+//! The equations of a step's contact state, factored, ready for one more load: on the bodies condensed as the
+//! run condensed them at its end, or on the whole ones.
 
 use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::elimination::Elimination;
-use super::fast::condensation::{Bound, refined};
-use super::session::Session;
-use super::solution::{Solution, Step};
-use super::stiffness::Stiffness;
+use crate::fast::condensation::{WholeFactors, refined};
+use crate::{Elimination, Session, Solution, Step, Stiffness};
 use numbers::solve::{Normed, SparseCholesky};
 use problem::model::Model;
 use problem::modelling::Variant;
 
-/// The bodies as contact holds them in a step.
-pub(super) struct Held {
+/// The stiffness of the bodies, and Tᵀ K T of a step's contact state, factored.
+pub struct StateFactors {
     pub(super) stiffness: Arc<Stiffness>,
     /// T of the contact state.
     pub(super) t: Elimination,
@@ -23,15 +20,15 @@ pub(super) struct Held {
     pub(super) factors: Box<dyn Normed + Send>,
 }
 
-impl Held {
-    /// Takes the last contact state of a solution; None where it does not hold the bodies, and of
+impl StateFactors {
+    /// Factors the last contact state of a solution; None where it does not hold the bodies, and of
     /// `Km` as printed, which is the stiffness of no bodies in contact.
-    pub(super) fn new(solution: &Solution, session: &Session) -> Option<Self> {
-        Held::at(solution, solution.last(), session)
+    pub fn new(solution: &Solution, session: &Session) -> Option<Self> {
+        StateFactors::of_step(solution, solution.last(), session)
     }
 
-    /// Takes the contact state of one of the solution's steps.
-    pub(super) fn at(solution: &Solution, step: &Step, session: &Session) -> Option<Self> {
+    /// Factors the contact state of one of the solution's steps.
+    pub(super) fn of_step(solution: &Solution, step: &Step, session: &Session) -> Option<Self> {
         let (model, constraints) = (&solution.model, &step.constraints);
         let t = match solution.request.variant {
             Variant::Printed if model.has_contact() => return None,
@@ -43,12 +40,12 @@ impl Held {
         let bodies = kept.and_then(|nodes| session.condensed(&stiffness, model, nodes));
         let condensed = bodies
             .filter(|bodies| bodies.has(constraints))
-            .and_then(|bodies| Bound::new(bodies, &t));
+            .and_then(|bodies| WholeFactors::new(bodies, &t));
         let factors: Box<dyn Normed + Send> = match condensed {
-            Some(bound) => Box::new(bound),
+            Some(condensed) => Box::new(condensed),
             None => Box::new(SparseCholesky::new(stiffness.reduced(&t)).ok()?),
         };
-        Some(Held { stiffness, t, factors })
+        Some(StateFactors { stiffness, t, factors })
     }
 
     /// Returns q of Tᵀ K T q = `f`, refined as far as its factors allow.
