@@ -48,73 +48,28 @@ pub struct Measured<'a> {
     pub hertz: Option<Hertz>,
 }
 
-/// The other solutions beside which a solution is assessed.
-struct Others {
-    /// The reference solution; None without contact, and where that is what was asked for.
-    reference: Option<Result<Solution, Error>>,
-    /// The equilibrium under the scene's own friction and geometry; None too where that is the
-    /// reference solution.
-    equilibrium: Option<Result<Solution, Error>>,
-    /// The displacements at the end of a path of half as many steps of the load, length; None without
-    /// a path, where there is none such, and without estimates.
-    half: Option<DVector<f64>>,
-}
-
-impl Others {
-    /// Solves for what a solution of `request` is assessed beside, `with_estimates` or without.
-    fn new(request: &Request, session: &Session, with_estimates: bool) -> Self {
-        let model = &request.scene.model;
-        let (reference, equilibrium) = (request.reference(), request.equilibrium());
-        let is_wanted =
-            |wanted: &Request| model.target().is_some() && !request.is_same_equilibrium(wanted);
-        let own = Some(&equilibrium).filter(|own| !own.is_same_equilibrium(&reference));
-        let solved =
-            |wanted: &Request| is_wanted(wanted).then(|| session.solve(wanted, &mut |_| ()));
-        let half = || with_estimates.then(|| half_as_many_steps(request, session)).flatten();
-        let (reference, (equilibrium, half)) =
-            rayon::join(|| solved(&reference), || rayon::join(|| own.and_then(solved), half));
-        Others { reference, equilibrium, half }
-    }
-}
-
 impl<'a> Assessment<'a> {
     /// Assesses a solution, and solves in `session` for the reference solution and for the equilibrium
     /// under the scene's own friction and geometry, unless it is one of them.
     pub fn new(solution: &'a Solution, session: &Session) -> Self {
-        let (others, estimates) = rayon::join(
-            || Others::new(&solution.request, session, true),
+        let request = &solution.request;
+        let ((others, half), estimates) = rayon::join(
+            || rayon::join(|| others(solution, session), || half_as_many_steps(request, session)),
             || Estimates::new(solution, session),
         );
-        Self::beside(solution, others, Some(estimates))
+        let assessment = Assessment::beside(solution, others);
+        Assessment { estimates: Some(estimates), path_change: change(half, solution), ..assessment }
     }
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
     /// another run, are computed.
     pub fn without_estimates(solution: &'a Solution, session: &Session) -> Self {
-        Self::beside(solution, Others::new(&solution.request, session, false), None)
+        Assessment::beside(solution, others(solution, session))
     }
 
     /// Takes a solution as it is: only the largest values of its bodies are computed.
     pub fn none(solution: &'a Solution) -> Self {
-        Assessment::measured(solution, None, None)
-    }
-
-    /// Assesses a solution beside others that were solved for its request, and by `estimates` of its
-    /// errors.
-    fn beside(solution: &'a Solution, others: Others, estimates: Option<Estimates>) -> Self {
-        let request = &solution.request;
-        let Others { reference, equilibrium, half } = others;
-        let has_own = !request.equilibrium().is_same_equilibrium(&request.reference());
-        let known = |other: Option<Result<Solution, Error>>| match other {
-            Some(other) => other.map(Cow::Owned),
-            None => Ok(Cow::Borrowed(solution)),
-        };
-        let target = solution.model.target();
-        let reference = target.map(|_| known(reference));
-        let equilibrium = target.filter(|_| has_own).map(|_| known(equilibrium));
-        let path_change = change(half, solution);
-        let assessment = Assessment::measured(solution, reference, equilibrium);
-        Assessment { estimates, path_change, ..assessment }
+        Assessment::beside(solution, [None, None])
     }
 
     /// Assesses a solution against solutions that are already known: the reference solution, and
@@ -122,22 +77,22 @@ impl<'a> Assessment<'a> {
     pub fn against(
         solution: &'a Solution,
         session: &Session,
-        [reference, equilibrium]: [Option<&'a Solution>; 2],
+        others: [Option<&'a Solution>; 2],
     ) -> Self {
-        let known = |other: Option<&'a Solution>| other.map(|other| Ok(Cow::Borrowed(other)));
-        let estimates = Estimates::new(solution, session);
+        let estimates = Some(Estimates::new(solution, session));
         let path_change = change(half_as_many_steps(&solution.request, session), solution);
-        let assessment = Assessment::measured(solution, known(reference), known(equilibrium));
-        Assessment { estimates: Some(estimates), path_change, ..assessment }
+        let others = others.map(|other| other.map(|other| Ok(Cow::Borrowed(other))));
+        Assessment { estimates, path_change, ..Assessment::beside(solution, others) }
     }
 
-    fn measured(
-        solution: &'a Solution,
-        reference: Option<Result<Cow<'a, Solution>, Error>>,
-        equilibrium: Option<Result<Cow<'a, Solution>, Error>>,
-    ) -> Self {
-        let measured = |other: Option<Result<Cow<'a, Solution>, Error>>| {
-            other.map(|other| other.map(|other| Measured::new(solution, other)))
+    /// Assesses a solution without estimates beside the reference solution and the equilibrium.
+    fn beside(solution: &'a Solution, [reference, equilibrium]: [Option<Other<'a>>; 2]) -> Self {
+        let measured = |other: Option<Other<'a>>| {
+            Some(other?.map(|reference| Measured {
+                distance: distance(solution, &reference),
+                hertz: Hertz::of(&reference),
+                reference,
+            }))
         };
         let (reference, equilibrium) =
             rayon::join(|| measured(reference), || measured(equilibrium));
@@ -193,6 +148,28 @@ impl<'a> Assessment<'a> {
     }
 }
 
+/// Another solution, which may be the assessed one itself, or why there is none.
+type Other<'a> = Result<Cow<'a, Solution>, Error>;
+
+/// Returns the reference solution and the equilibrium under the scene's own friction and geometry; None without
+/// contact, and of an equilibrium that is the reference solution.
+fn others<'a>(solution: &'a Solution, session: &Session) -> [Option<Other<'a>>; 2] {
+    if solution.model.target().is_none() {
+        return [None, None];
+    }
+    let solved = |wanted: &Request| {
+        if solution.request.is_same_equilibrium(wanted) {
+            Ok(Cow::Borrowed(solution))
+        } else {
+            session.solve(wanted, &mut |_| ()).map(Cow::Owned)
+        }
+    };
+    let (reference, own) = (solution.request.reference(), solution.request.equilibrium());
+    let has_own = !own.is_same_equilibrium(&reference);
+    let (reference, own) = rayon::join(|| solved(&reference), || has_own.then(|| solved(&own)));
+    [Some(reference), own]
+}
+
 /// Returns the largest difference of displacements at the end of a path of half as many steps from those
 /// of a solution, length; None where it says nothing of the size of the steps, as the first of them brings
 /// the bodies into contact.
@@ -209,11 +186,4 @@ fn half_as_many_steps(request: &Request, session: &Session) -> Option<DVector<f6
     let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
     let contact = ContactModel { load_steps: steps, ..request.contact };
     Some(session.solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
-}
-
-impl<'a> Measured<'a> {
-    fn new(solution: &Solution, reference: Cow<'a, Solution>) -> Self {
-        let (distance, hertz) = (distance(solution, &reference), Hertz::of(&reference));
-        Measured { reference, distance, hertz }
-    }
 }

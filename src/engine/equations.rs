@@ -85,10 +85,13 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
             Schedule::Stepped => T::from_number(request.iterations),
         };
         let (load, restrained) = (model.load_in(number), restrained(model, request));
-        let f = DVector::from_fn(load.len(), |e, _| match restrained[e] {
-            true => T::zero(),
-            false => load[e] / share,
-        });
+        let f =
+            DVector::from_fn(
+                load.len(),
+                |e, _| {
+                    if restrained[e] { T::zero() } else { load[e] / share }
+                },
+            );
         let assembly = if request.variant == Variant::Printed {
             Assembly::Printed
         } else if takes_sparse(request.solver(), request.arithmetic.scalar) {

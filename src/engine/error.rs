@@ -6,7 +6,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use base::error::InputError;
-use mathcad;
 use paper::mirror::Failure;
 
 /// A value, or the reason why there is none.
@@ -104,9 +103,10 @@ impl fmt::Display for Cause {
 #[error(
     "variant {variant} stops: iteration {iteration}: the matrix is singular at node \
      {node}{body}, direction {direction} ({}); {} in contact, and {}",
-    match .pivot.is_nan() {
-        true => "no pivot: the matrix is not positive definite".into(),
-        false => format!("pivot {pivot:e}"),
+    if .pivot.is_nan() {
+        "no pivot: the matrix is not positive definite".into()
+    } else {
+        format!("pivot {pivot:e}")
     },
     match .in_contact {
         0 => "no node is".into(),

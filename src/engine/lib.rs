@@ -42,8 +42,8 @@ pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use session::Session;
 pub use solution::{
-    Choice, Cycle, Detail, Equilibrium, FoundPairs, Other, Path, Published, Solution, Start, Step, StepBounds,
-    Unilateral, Uniqueness, last_under_each_load, max_displacement,
+    Choice, Cycle, Detail, Equilibrium, FoundPairs, Other, Path, Published, Solution, Start, Step,
+    StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::dense_matrices;

@@ -270,19 +270,19 @@ impl<'a, T: SparseScalar> Run<'a, T> {
             let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
             door::pairs(self.model, self.sheet, reading, &node_n, &found)?
         };
-        let undecided = match (keeps_bound, by_listing) {
-            (false, _) => None,
-            (true, true) => Some(decisions(self.sheet, reading, &node_n, &pairs, k)),
-            (true, false) => {
-                let (model, sheet) = (self.model, self.sheet);
-                Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
-            }
+        let undecided = if !keeps_bound {
+            None
+        } else if by_listing {
+            Some(decisions(self.sheet, reading, &node_n, &pairs, k))
+        } else {
+            Some(status::decisions(rule, self.model, self.sheet, reading, &node_n, k)?)
         };
         let linked = door::linked(self.sheet, &pairs);
-        let places = match self.request.is_edited(Which::CCnt) {
+        let places = if self.request.is_edited(Which::CCnt) {
             // Its weights are its own, wherever it takes them from.
-            true => linked.clone(),
-            false => door::on_edges(self.sheet, &pairs, reading, &node_n)?,
+            linked.clone()
+        } else {
+            door::on_edges(self.sheet, &pairs, reading, &node_n)?
         };
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);

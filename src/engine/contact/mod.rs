@@ -1,4 +1,14 @@
 //! Contact: the target that each contact node faces, the nodes in contact, and their traction.
+//!
+//! | question | where |
+//! |---|---|
+//! | what does a contact node face, and how far is it? | `pairing.rs`: by `nts.rs` with `outline.rs`, or by `mortar.rs` |
+//! | is it in contact under `printed`, `tied`, `stepped`? | `c_cnt`, or [`status`], by the rule that is asked for |
+//! | is it open, does it stick or slide under `unilateral`? | `../unilateral/mod.rs` |
+//! | what is its traction? | `pressure.rs` |
+//!
+//! A gap is < 0 inside the target. The listing's `yt`, and what [`status`] gives in its place, is of the
+//! opposite sign: > 0 where the target's line is above the node.
 
 mod mortar;
 mod nts;

@@ -33,10 +33,8 @@ use std::sync::Arc;
 
 use nalgebra::Matrix3;
 
-use super::patches::Patches;
-use super::recovery::{Stress, recover};
+use super::recovery::{Patches, Stress, recover};
 use crate::range::locks;
-use numbers;
 use problem::element::{self, Plane, State};
 use problem::model::{Model, Triangle, TriangleId};
 
@@ -101,9 +99,8 @@ impl Discretisation {
         let triangles = || model.triangles.iter().enumerate();
         let recovered: Vec<[Stress; 3]> = (0..stresses.len()).map(corners).collect();
         let error = |k: usize| recovered[k].map(|s| s - stresses[k]);
-        let stress_error = |(k, triangle): (usize, &Triangle)| match known(k) {
-            true => largest(model.plane, triangle, &error(k)),
-            false => f64::INFINITY,
+        let stress_error = |(k, triangle): (usize, &Triangle)| {
+            if known(k) { largest(model.plane, triangle, &error(k)) } else { f64::INFINITY }
         };
         let norm = |k: usize, triangle: &Triangle, corners: &[Stress; 3]| {
             let volume = element::area(&model.corners(TriangleId::new(k))) * model.thickness;
@@ -149,7 +146,6 @@ impl Discretisation {
 
     /// Returns the largest von Mises stress of a body and its error estimate, from the state of
     /// each triangle of the model and the body's triangles, at least one.
-    ///
     pub fn largest_von_mises(
         &self,
         model: &Model,

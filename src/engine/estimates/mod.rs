@@ -2,7 +2,7 @@
 //! effect of rounding and for the effect of the mesh.
 //!
 //! ```text
-//!  Model, States --patches--> sites --recovery--> stresses --discretisation--> errors of the mesh
+//!  Model, States --recovery--> stresses ---------------discretisation-------> errors of the mesh
 //!  Solution ---------------------------------------- and these --dual--> errors of displacements
 //!  Solution ---------------------------------------------- arithmetic -----> errors of rounding
 //!  Solution ---------------------------------------------- singular -> where stress has no limit
@@ -12,7 +12,6 @@ pub mod arithmetic;
 pub mod discretisation;
 mod dual;
 mod factors;
-mod patches;
 mod recovery;
 mod singular;
 pub mod ties;
@@ -96,8 +95,10 @@ impl Estimates {
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
             let of_run = arithmetic::of_published(solution, session, &mut |_| true);
-            let (state, bounded) = (StateFactors::new(solution, session), arithmetic::bounded(model));
-            let of_last = || arithmetic::of_equilibrium(solution, state.as_ref(), session, &bounded);
+            let (state, bounded) =
+                (StateFactors::new(solution, session), arithmetic::bounded(model));
+            let of_last =
+                || arithmetic::of_equilibrium(solution, state.as_ref(), session, &bounded);
             let rounding = of_run.unwrap_or_else(of_last);
             let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
             (state, rounding, stress)
@@ -128,9 +129,10 @@ impl Estimates {
         });
         let bodies = bodies.collect();
         let displacement_no_limit = unlimited(solution, &points);
-        let displacement_mesh = state.filter(|_| displacement_no_limit.is_none()).and_then(|state| {
-            finite(Dual::new(solution, state, &mesh).error_of_largest(&solution.u))
-        });
+        let displacement_mesh =
+            state.filter(|_| displacement_no_limit.is_none()).and_then(|state| {
+                finite(Dual::new(solution, state, &mesh).error_of_largest(&solution.u))
+            });
         let errors = ErrorEstimates {
             displacement_arithmetic: rounding.displacement,
             decided_by_rounding: rounding.decisions,

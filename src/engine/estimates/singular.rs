@@ -93,36 +93,30 @@ pub struct Singular {
     pub triangles: BTreeSet<TriangleId>,
 }
 
-/// Returns the points of a solution where the stress has no limit, in the order of the causes.
+/// Returns the points of a solution where the stress has no limit, in the order of their nodes; of several
+/// causes the first.
 pub fn singular(solution: &Solution) -> Vec<Singular> {
     let model = &*solution.model;
     let outline = Outline::new(model);
-    let mut found: BTreeMap<NodeId, (Cause, Vec<NodeId>)> = BTreeMap::new();
-    for (node, cause) in outline.corners(model) {
-        found.entry(node).or_insert((cause, vec![node]));
-    }
     let around = Around::new(model);
-    for node in around.supports(solution) {
-        found.entry(node).or_insert((Cause::Support, vec![node]));
-    }
-    for node in around.loaded(model) {
-        found.entry(node).or_insert((Cause::Load, vec![node]));
-    }
-    for node in outline.material_corners(model) {
-        found.entry(node).or_insert((Cause::Interface, vec![node]));
-    }
-    for (node, cause) in outline.contact_ends(solution) {
-        let masters = solution.last().constraints.iter().find(|c| c.node == node);
-        let opposite = masters.and_then(|constraint| {
-            constraint.masters.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-        });
-        let nodes = [node].into_iter().chain(opposite.map(|master| master.0));
-        found.entry(node).or_insert((cause, nodes.collect()));
-    }
-    let point = |(node, (cause, nodes)): (NodeId, (Cause, Vec<NodeId>))| Singular {
-        node,
-        cause,
-        triangles: around.two_rings(model, &nodes),
+    let all = |nodes: Vec<NodeId>, cause: Cause| nodes.into_iter().map(move |node| (node, cause));
+    let points = outline.corners(model).into_iter();
+    let points = points
+        .chain(all(around.supports(solution), Cause::Support))
+        .chain(all(around.loaded(model), Cause::Load))
+        .chain(all(outline.material_corners(model), Cause::Interface))
+        .chain(outline.contact_ends(solution));
+    let mut found: BTreeMap<NodeId, Cause> = BTreeMap::new();
+    points.for_each(|(node, cause)| _ = found.entry(node).or_insert(cause));
+    let point = |(node, cause): (NodeId, Cause)| {
+        let mut nodes = vec![node];
+        if matches!(cause, Cause::Sticking | Cause::Edge) {
+            let constraint = solution.last().constraints.iter().find(|c| c.node == node);
+            let masters = constraint.into_iter().flat_map(|constraint| &constraint.masters);
+            let heaviest = masters.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            nodes.extend(heaviest.map(|master| master.0));
+        }
+        Singular { node, cause, triangles: around.two_rings(model, &nodes) }
     };
     found.into_iter().map(point).collect()
 }

@@ -141,11 +141,12 @@ impl Problem<'_> {
         let mut statuses = vec![Status::Open; config.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
             let slip = slid.apart.get(n + k).copied().unwrap_or(0.0);
-            statuses[*i] = match () {
-                () if slid.apart[k] > STILL || slid.normal[k] == 0.0 => Status::Open,
-                () if slip > STILL => Status::Slip(Sense::Forward),
-                () if slip < -STILL => Status::Slip(Sense::Backward),
-                () => self.closing(config, *i),
+            statuses[*i] = if slid.apart[k] > STILL || slid.normal[k] == 0.0 {
+                Status::Open
+            } else if slip.abs() > STILL {
+                Status::Slip(if slip > 0.0 { Sense::Forward } else { Sense::Backward })
+            } else {
+                self.closing(config, *i)
             };
         }
         statuses

@@ -12,7 +12,7 @@
 //! friction there is one step.
 //!
 //! In each step the statuses are looked for by these methods, in this order. What each of them finds is
-//! held against the same conditions, on the whole bodies in the end.
+//! checked against the same conditions, on the whole bodies in the end.
 //!
 //! 1. A primal-dual active set (`search`): each iteration imposes statuses, and takes as the next ones those
 //!    that the forces, gaps and slips ask for. Statuses that return, other than the last, would return
@@ -23,7 +23,7 @@
 //! 2. A fixed point on the bounds of friction (`bounds`), each step of which is a convex problem.
 //! 3. All statuses that there are (`equilibria`), where they are few.
 //! 4. Under friction, all of this for the step of the load in two halves (`path`).
-//! 5. The first three again with the bodies on springs, which let go as they come to rest (`springs`).
+//! 5. The first three again with the bodies on springs, which vanish as they come to rest (`springs`).
 //!
 //! In the initial geometry a motion of the bodies as rigid ones that nothing opposes proves that there is no
 //! equilibrium (`rigid`); without it, that none was found proves nothing. In the current geometry normals,
@@ -32,6 +32,19 @@
 //!
 //! The search goes on with the condensed bodies alone where they can be condensed; the contact state that it
 //! ends with is solved again on the whole bodies, refined, and must ask for itself there too.
+//!
+//! # Why has this node this status?
+//!
+//! | question | where |
+//! |---|---|
+//! | which status do its force, gap and slip ask for? | `search.rs`, `wanted` |
+//! | what is its force, and do its restraints leave it undetermined? | `forces.rs`, `direct` and `by_target` |
+//! | what is the friction of a node that slides? | `imposed.rs`, `slide` |
+//! | what does a status impose, and does friction act there at all? | `problem.rs`, `constraints` and `transmits_shear` |
+//! | which status comes next where statuses return? | `status.rs`, `History::next` |
+//!
+//! A node sticks beyond μ p in the result by rounding alone (`CONE` in `problem.rs`), or under `stick`, where
+//! no node slides. In an iteration on the way it may wait until other nodes have changed.
 //!
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
 //! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction).

@@ -221,9 +221,11 @@ impl<'a> Problem<'a> {
     /// or in the initial shape.
     pub(super) fn configuration(&self, u: &DVector<f64>) -> Configuration {
         let shape = self.model.shape(u);
-        let pairings = match self.is_current() {
-            true => Arc::new(self.surfaces.pairings(self.request.contact.coupling, &shape)),
-            false => Arc::clone(&self.initial),
+        let pairings = match self.request.contact.geometry {
+            Geometry::Current => {
+                Arc::new(self.surfaces.pairings(self.request.contact.coupling, &shape))
+            }
+            Geometry::Initial => Arc::clone(&self.initial),
         };
         Configuration { shape: Arc::new(shape), pairings }
     }

@@ -71,9 +71,10 @@ pub(super) fn escape(
         extreme_forces(pairing, friction(pairing)).into_iter().map(of_force).collect::<Vec<_>>()
     });
     let columns: Vec<DVector<f64>> = forces.map(|force| basis.tr_mul(&force)).collect();
-    let forces = match columns.is_empty() {
-        true => DMatrix::zeros(free.len(), 0),
-        false => DMatrix::from_columns(&columns),
+    let forces = if columns.is_empty() {
+        DMatrix::zeros(free.len(), 0)
+    } else {
+        DMatrix::from_columns(&columns)
     };
     let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
     let left = &f + forces * sizes;

@@ -222,9 +222,10 @@ impl Problem<'_> {
                 recent.truncate(RETURNING);
             }
         }
-        let never_slides = match self.friction.is_infinite() {
-            true => "; where no node may slide there may be none: give a finite coefficient",
-            false => "",
+        let never_slides = if self.friction.is_infinite() {
+            "; where no node may slide there may be none: give a finite coefficient"
+        } else {
+            ""
         };
         let what = format!(
             "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
@@ -296,11 +297,14 @@ impl Problem<'_> {
                 return Status::Open;
             };
             let ContactForce { normal, tangent, undetermined } = iteration.solution.forces[i];
+            let pulls = normal < -ROUNDING_OF_A_FORCE * most;
             match iteration.statuses[i] {
                 Status::Open if gap < -deep => self.closing(config, i),
                 Status::Open => Status::Open,
-                _ if normal < -ROUNDING_OF_A_FORCE * most => Status::Open,
-                _ if undetermined && gap > self.closed => Status::Open,
+                Status::Stick | Status::Slip(_) if pulls => Status::Open,
+                Status::Stick | Status::Slip(_) if undetermined && gap > self.closed => {
+                    Status::Open
+                }
                 // A normal force may be less than nothing by rounding.
                 Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {
                     Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
@@ -310,7 +314,7 @@ impl Problem<'_> {
                 {
                     Status::Stick
                 }
-                kept => kept,
+                kept @ (Status::Stick | Status::Slip(_)) => kept,
             }
         };
         (0..iteration.statuses.len()).map(status).collect()

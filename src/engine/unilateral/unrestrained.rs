@@ -23,12 +23,10 @@ impl Problem<'_> {
         let (node, direction) = (self.named(dof.node()), dof.axis());
         let start = self.configuration(&DVector::zeros(self.model.dofs()));
         let gaps = self.at_the_start(&start).into_iter().flatten();
-        let apart = match gaps.reduce(f64::min).filter(|least| *least > self.closed) {
-            Some(least) => {
-                format!(", whose surfaces are at least {} apart,", six_digits(least))
-            }
-            None => String::new(),
-        };
+        let least = gaps.reduce(f64::min).filter(|least| *least > self.closed);
+        let apart = least.map_or(String::new(), |least| {
+            format!(", whose surfaces are at least {} apart,", six_digits(least))
+        });
         let what = format!(
             "the load moves {node} in {direction} with the whole body, and neither restraints nor \
              contact{apart} oppose that motion; restrain it"
@@ -82,10 +80,8 @@ impl Problem<'_> {
         friction: f64,
     ) -> Option<Dof> {
         let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
-        let friction = |pairing: &Pairing| match self.transmits_shear(pairing) {
-            true => friction,
-            false => 0.0,
-        };
+        let friction =
+            |pairing: &Pairing| if self.transmits_shear(pairing) { friction } else { 0.0 };
         rigid::escape((self.model, shape), &config.pairings, friction, load)
     }
 
@@ -98,9 +94,10 @@ impl Problem<'_> {
         let dof = free(to, self.friction)?;
         let stages = self.model.stages.len();
         let [last, _] = bisected([from, to], |part| free(part, self.friction).is_none());
-        let when = match last > 0.0 {
-            true => format!("from {} on", part_of_load(last, stages)),
-            false => "under any part of the load".into(),
+        let when = if last > 0.0 {
+            format!("from {} on", part_of_load(last, stages))
+        } else {
+            "under any part of the load".into()
         };
         if free(to, f64::INFINITY).is_some() {
             let NoEquilibrium { cause, what } = self.escapes(dof);
@@ -151,18 +148,17 @@ impl Problem<'_> {
             let (least, most) =
                 moduli.fold((f64::MAX, 0.0), |(l, m): (f64, f64), e| (l.min(e), m.max(e)));
             let apart = most / least;
-            let ratio = match apart.is_finite() {
-                true => format!("{apart:.0e}"),
-                false => "more than 1e308".into(),
-            };
+            let ratio =
+                if apart.is_finite() { format!("{apart:.0e}") } else { "more than 1e308".into() };
             let what = format!(
                 "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
                  {node}, direction {direction}; the moduli are {ratio} apart"
             );
             let fix = "choose moduli that are closer, or restrain the stiff body itself";
-            return match apart > FAR_APART {
-                true => InputError::new("materials", what, fix),
-                false => InputError::new("mesh, materials", what, "choose other units"),
+            return if apart > FAR_APART {
+                InputError::new("materials", what, fix)
+            } else {
+                InputError::new("mesh, materials", what, "choose other units")
             };
         }
         let what = format!(
