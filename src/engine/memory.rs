@@ -30,7 +30,7 @@ const LU: f64 = 6500.0;
 pub(super) const FEWER_STEPS: &str = "ask for fewer load steps";
 
 /// The part of the bytes of a path that its steps take before they are written.
-pub(super) const HELD: f64 = 0.4;
+pub(super) const UNWRITTEN: f64 = 0.4;
 
 /// Returns the bytes of `steps` steps of the path of the load with `iterations` in all until the result is
 /// written, those of the path of half as many included; measured on 13 to 1,111 nodes and up to 230,000
@@ -61,7 +61,7 @@ fn bytes_of_own_path(request: &Request, model: &Model) -> f64 {
 /// Returns the same of the path of a run, or of what is held of the equilibrium beside it, whichever is
 /// more.
 pub(super) fn bytes_of_paths(request: &Request, model: &Model) -> f64 {
-    let beside = HELD * bytes_of_own_path(&request.equilibrium(), model);
+    let beside = UNWRITTEN * bytes_of_own_path(&request.equilibrium(), model);
     bytes_of_own_path(request, model).max(beside)
 }
 

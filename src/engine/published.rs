@@ -22,7 +22,7 @@ use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
 use super::sparse::{SparseScalar, dense_matrices};
-use super::support::passed_on;
+use super::support::transmitted_force;
 use base::error::InputError;
 use base::memory;
 use base::plain::six_digits;
@@ -47,7 +47,7 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
     iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
 }
 
-/// Solves a request for one of the variants that the paper describes, up to the step after which `goes_on`
+/// Solves a request for one of the variants that the paper describes, up to the step after which `continues`
 /// is false.
 ///
 /// # Errors
@@ -55,7 +55,7 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
 pub(super) fn published<T: SparseScalar>(
     request: &Request,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     let number = |x: f64| number_of(request, x);
@@ -68,7 +68,7 @@ pub(super) fn published<T: SparseScalar>(
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
-        let ends = !goes_on(&step);
+        let ends = !continues(&step);
         steps.push(step);
         if ends {
             break;
@@ -195,7 +195,7 @@ struct Visited<T> {
 }
 
 /// The contact state that an iteration found before it solved any equation.
-struct Found<T> {
+struct FoundState<T> {
     node_n: Table<T>,
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
@@ -249,7 +249,7 @@ impl<'a, T: SparseScalar> Run<'a, T> {
     }
 
     /// Finds the contact state in the current shape in iteration `k`.
-    fn search(&self, k: usize) -> Result<Found<T>, Error> {
+    fn search(&self, k: usize) -> Result<FoundState<T>, Error> {
         let node_n = door::moved(self.sheet, &self.u);
         let reading = &self.request.reading;
         let keeps_bound = T::zero().error_bound().is_some();
@@ -257,7 +257,13 @@ impl<'a, T: SparseScalar> Run<'a, T> {
             // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(self.sheet.R());
             let undecided = keeps_bound.then(Vec::new);
-            return Ok(Found { node_n, pairs, constraints: vec![], places: vec![], undecided });
+            return Ok(FoundState {
+                node_n,
+                pairs,
+                constraints: vec![],
+                places: vec![],
+                undecided,
+            });
         }
         let rule = self.request.contact.status;
         let by_listing = self.request.decides_by_listing();
@@ -288,7 +294,7 @@ impl<'a, T: SparseScalar> Run<'a, T> {
         let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
         let undecided =
             undecided.map(|own: Vec<Decision>| own.into_iter().chain(of_mortar).collect());
-        Ok(Found { node_n, pairs, constraints, places, undecided })
+        Ok(FoundState { node_n, pairs, constraints, places, undecided })
     }
 
     /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
@@ -327,11 +333,11 @@ impl<'a, T: SparseScalar> Run<'a, T> {
     fn step(
         &self,
         k: usize,
-        found: &Found<T>,
+        found: &FoundState<T>,
         cycle: Option<Cycle>,
         solved: &Increment<T>,
     ) -> Step {
-        let Found { node_n, pairs, constraints, places, undecided } = found;
+        let FoundState { node_n, pairs, constraints, places, undecided } = found;
         let bound: &[Constraint<T>] = match self.request.variant {
             Variant::Printed => &[],
             _ => constraints,
@@ -347,7 +353,7 @@ impl<'a, T: SparseScalar> Run<'a, T> {
             in_contact: pairs.dy.iter().sum(),
             max_displacement: Some(max_displacement(&self.u)),
             cycle,
-            target_force: Some(passed_on(self.model, self.support.map(T::to_f64))),
+            target_force: Some(transmitted_force(self.model, self.support.map(T::to_f64))),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),

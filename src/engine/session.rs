@@ -44,10 +44,10 @@ struct Shared {
 }
 
 /// What was made of the bodies of some models, for some nodes.
-struct Kept<N, T>(Mutex<Vec<Of<N, T>>>);
+struct Kept<N, T>(Mutex<Vec<Entry<N, T>>>);
 
 /// The model, the nodes, and what was made.
-type Of<N, T> = (Arc<Model>, N, Arc<T>);
+type Entry<N, T> = (Arc<Model>, N, Arc<T>);
 
 impl<N, T> Default for Kept<N, T> {
     fn default() -> Self {
@@ -58,9 +58,14 @@ impl<N, T> Default for Kept<N, T> {
 impl<N: PartialEq, T> Kept<N, T> {
     /// Returns what is kept of the bodies of `model` for `nodes`, or what `make` makes of them; None
     /// where that cannot be made.
-    fn of(&self, model: &Arc<Model>, nodes: N, make: impl FnOnce() -> Option<T>) -> Option<Arc<T>> {
+    fn get_or_make(
+        &self,
+        model: &Arc<Model>,
+        nodes: N,
+        make: impl FnOnce() -> Option<T>,
+    ) -> Option<Arc<T>> {
         let is_of = |kept: &Arc<Model>| Arc::ptr_eq(kept, model) || kept.has_bodies_of(model);
-        let known = |all: &[Of<N, T>]| {
+        let known = |all: &[Entry<N, T>]| {
             let found = all.iter().find(|kept| kept.1 == nodes && is_of(&kept.0));
             found.map(|kept| Arc::clone(&kept.2))
         };
@@ -88,7 +93,7 @@ impl Session {
     ///
     /// # Errors
     /// The error of `check`.
-    pub(super) fn room(
+    pub(super) fn check_room(
         &self,
         needed: f64,
         check: impl FnOnce() -> Result<(), InputError>,
@@ -104,7 +109,7 @@ impl Session {
     /// Returns the stiffness of the bodies of `model`.
     pub(super) fn stiffness(&self, model: &Arc<Model>) -> Arc<Stiffness> {
         let make = || Some(Stiffness::new(model, |x| x));
-        self.0.stiffness.of(model, (), make).expect("it can be made of all")
+        self.0.stiffness.get_or_make(model, (), make).expect("it can be made of all")
     }
 
     /// Returns the bodies of `model` condensed to `nodes`; None where they cannot be.
@@ -117,7 +122,7 @@ impl Session {
         // An edited listing may bind others.
         let for_all = few_surfaces(model).filter(|surfaces| surfaces.is_superset(&nodes));
         let wide = for_all.unwrap_or_else(|| nodes.clone());
-        self.0.condensed.of(model, [wide.clone(), nodes.clone()], || {
+        self.0.condensed.get_or_make(model, [wide.clone(), nodes.clone()], || {
             Condensation::new(&self.factored(stiffness, model, wide)?, &nodes)
         })
     }
@@ -129,7 +134,9 @@ impl Session {
         model: &Arc<Model>,
         nodes: Nodes,
     ) -> Option<Arc<Factored>> {
-        self.0.factored.of(model, nodes.clone(), || Factored::new(stiffness, model, &nodes))
+        self.0
+            .factored
+            .get_or_make(model, nodes.clone(), || Factored::new(stiffness, model, &nodes))
     }
 }
 

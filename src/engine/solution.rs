@@ -412,7 +412,7 @@ impl Solution {
 
     /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the
     /// path of the load, and where it is not known to be the only one.
-    pub fn way_counts(&self) -> bool {
+    pub fn depends_on_path(&self) -> bool {
         let uniqueness = self.equilibrium.as_ref().map(|found| &found.uniqueness);
         self.request.contact.friction.coefficient() > 0.0 || uniqueness != Some(&Uniqueness::Unique)
     }

@@ -59,17 +59,17 @@ impl Session {
     }
 
     /// Solves `request`; under a variant that the paper describes it ends with the step after which
-    /// `goes_on` is false.
+    /// `continues` is false.
     ///
     /// # Errors
     /// The errors of [`Session::solve`].
     pub(super) fn solve_while(
         &self,
         request: &Request,
-        goes_on: &mut dyn FnMut(&Step) -> bool,
+        continues: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Solution, Error> {
         check_in(request, self)?;
-        run(request, self, goes_on).map_err(|why| blamed(request, why))
+        run(request, self, continues).map_err(|why| blamed(request, why))
     }
 }
 
@@ -114,7 +114,7 @@ fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> 
     let equations = model.free_dofs();
     let needed = Bytes::of(request, model).total();
     let whose = format!("{equations} free equations");
-    session.room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
+    session.check_room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is
@@ -175,12 +175,12 @@ fn more_precise(request: &Request) -> Option<ScalarName> {
 fn run(
     request: &Request,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Solution, Error> {
     let solution = match request.variant {
-        Variant::Unilateral => unilateral(request, session, &mut |step| _ = goes_on(step))?,
+        Variant::Unilateral => unilateral(request, session, &mut |step| _ = continues(step))?,
         Variant::Printed | Variant::Tied | Variant::Stepped => {
-            in_scalar!(request.arithmetic.scalar, published(request, session, goes_on))?
+            in_scalar!(request.arithmetic.scalar, published(request, session, continues))?
         }
     };
     check_finite(&solution)?;

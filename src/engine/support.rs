@@ -31,10 +31,10 @@ pub fn support<T: Scalar>(
     force: &DVector<T>,
     load: &DVector<T>,
 ) -> [T; 2] {
-    let mut total = held(model, restrained, force, load);
+    let mut total = support_force(model, restrained, force, load);
     let Some(receiver) = receiver(model) else { return total };
     for constraint in constraints {
-        let passed = passed(constraint, restrained, force);
+        let passed = constraint_force(constraint, restrained, force);
         for direction in [0, 1] {
             let to_restrained = constraint.masters.iter().filter(|(master, _)| {
                 receiver.has(*master) && restrained[master.dofs()[direction].index()]
@@ -46,7 +46,7 @@ pub fn support<T: Scalar>(
 }
 
 /// Returns the contact force on a constrained node, force.
-fn passed<T: Scalar>(
+fn constraint_force<T: Scalar>(
     constraint: &Constraint<T>,
     restrained: &[bool],
     force: &DVector<T>,
@@ -63,7 +63,7 @@ fn passed<T: Scalar>(
 }
 
 /// Returns the sum of `force` over the restraints of the receiver, and of `load` over all of it, force.
-pub(super) fn held<T: Scalar>(
+pub(super) fn support_force<T: Scalar>(
     model: &Model,
     restrained: &[bool],
     force: &DVector<T>,
@@ -95,7 +95,7 @@ fn dofs(body: &Body) -> impl Iterator<Item = Dof> {
 
 /// Returns the force that contact passes on, force, where `held` holds the receiver: along the load
 /// where the load acts on one of the two bodies alone, else its size.
-pub fn passed_on(model: &Model, held: [f64; 2]) -> f64 {
+pub fn transmitted_force(model: &Model, held: [f64; 2]) -> f64 {
     let [rx, ry] = held;
     let [fx, fy] = model.total_load();
     let size = fx.hypot(fy);

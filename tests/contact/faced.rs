@@ -310,7 +310,7 @@ fn what_a_node_faces_otherwise_is_found_in_every_direction() {
             let mut model = model(&[&notch], &[p, [p[0] + 1.0, p[1]]]);
             model.contact.nodes.truncate(1);
             let surfaces = Surfaces::new(&model).expect("edges of the outline");
-            let found = surfaces.facing_otherwise(&model.nodes, radius);
+            let found = surfaces.pairings_nearby(&model.nodes, radius);
             assert_eq!(!found.is_empty(), is_found, "{degrees} degrees, {away} radii");
         }
     }
@@ -323,7 +323,7 @@ fn a_change_of_a_hundredth_is_not_another_part() {
         let mut model = model(&[target], &[[p[0] + 1.0, p[1]], p]);
         model.contact.nodes.remove(0);
         let surfaces = Surfaces::new(&model).expect("edges of the outline");
-        surfaces.facing_otherwise(&model.nodes, radius).len()
+        surfaces.pairings_nearby(&model.nodes, radius).len()
     };
     let (radius, outside) = (0.01, 0.01 / FRAC_PI_8.cos());
     // Along an edge, of whose weights the second changes by a hundredth and the first by less.

@@ -57,7 +57,7 @@ fn line(bodies: &Bodies, writing: &Writing, by: [f64; 2]) -> String {
         surfaces.mortar(&bounded).unsure.iter().map(|(node, _)| node.index()).collect();
     let around: Vec<Value> = [1e-9, 0.03, 0.6]
         .iter()
-        .flat_map(|radius| surfaces.facing_otherwise(shape, *radius))
+        .flat_map(|radius| surfaces.pairings_nearby(shape, *radius))
         .flat_map(|(node, other)| {
             let other = other.as_ref().map_or(json!(-1.5), |other| json!(other.gap));
             [json!(node.index()), other]

@@ -73,7 +73,7 @@ fn in_gaps(
 ) -> Option<bool> {
     let stiffness = Stiffness::new(model, |x| x);
     let new = || Condensing::new(model, &Session::default());
-    let (plain, facing) = (new(), new().facing(pairings, sticks));
+    let (plain, facing) = (new(), new().with_gaps(pairings, sticks));
     let condensed = facing.condensed(&stiffness, constraints).expect("its target is held");
     let gaps = Gaps::new(&condensed, pairings, sticks).map(Arc::new);
     let is_held = gaps.is_some_and(|gaps| gaps.held(constraints).is_some());

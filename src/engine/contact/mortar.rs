@@ -28,7 +28,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Pairing, unit};
 use super::search::dot;
-use super::surface::{Edge, FACING, Placed, Surfaces};
+use super::surface::{Edge, FACING, PlacedEdge, Surfaces};
 use numbers::scalar::{Scalar, Unsure, compared};
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
@@ -51,20 +51,20 @@ pub struct Mortar<T> {
 /// Averages the target over what the edges of each contact node cover in a shape, given as the
 /// coordinates of each node, length.
 pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
-    let target: Vec<Placed<T>> =
-        surfaces.target.edges.iter().map(|edge| edge.place(shape)).collect();
-    let mut gathered: FxHashMap<NodeId, Gathered<T>> = FxHashMap::default();
+    let target: Vec<PlacedEdge<T>> =
+        surfaces.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
+    let mut gathered: FxHashMap<NodeId, NodeIntegrals<T>> = FxHashMap::default();
     let at = |n: NodeId| shape[n.index()].map(T::to_f64);
     let tree = Tree::new(surfaces.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
     let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
     let search = Search { surfaces, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
     let mut unsure = Vec::new();
     for edge in &surfaces.contact.edges {
-        let (covered, left) = compared(|| search.cover(&edge.place(shape)));
+        let (covered, left) = compared(|| search.cover(&edge.in_shape(shape)));
         unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
         let Some(integrals) = Integrals::over(&covered) else { continue };
         for (k, node) in edge.nodes.into_iter().enumerate() {
-            let gathered = gathered.entry(node).or_insert_with(Gathered::new);
+            let gathered = gathered.entry(node).or_insert_with(NodeIntegrals::new);
             gathered.add(k, &integrals, &covered, &search);
         }
     }
@@ -97,7 +97,7 @@ struct Stretch<T> {
 /// The target in a shape, for the search of what contact edges cover.
 struct Search<'a, T> {
     surfaces: &'a Surfaces,
-    target: &'a [Placed<T>],
+    target: &'a [PlacedEdge<T>],
     tree: Tree,
     /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
     margin: f64,
@@ -110,7 +110,7 @@ impl<T: Scalar> Search<'_, T> {
     /// Which edges face each other is decided in the shape itself, other than under node to segment:
     /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
     /// still cover the target, and a folded shape would pass for an equilibrium.
-    fn cover(&self, contact: &Placed<T>) -> Vec<Stretch<T>> {
+    fn cover(&self, contact: &PlacedEdge<T>) -> Vec<Stretch<T>> {
         let mut facing: Vec<(T, Stretch<T>)> = Vec::new();
         let (start, tangent) = (contact.start.map(T::to_f64), contact.tangent.map(T::to_f64));
         let across = |b: Bounds| {
@@ -136,7 +136,7 @@ impl<T: Scalar> Search<'_, T> {
             }
         }
         facing.sort_by(|a, b| in_order(a.0, b.0).then(a.1.edge.cmp(&b.1.edge)));
-        self.look_at_order(&facing);
+        self.compare_distances(&facing);
         let mut covered: Vec<Stretch<T>> = Vec::new();
         for (_, stretch) in facing {
             for (from, to) in uncovered(&covered, stretch.from, stretch.to) {
@@ -148,7 +148,7 @@ impl<T: Scalar> Search<'_, T> {
 
     /// Compares the distances of target edges that may face the same stretch, for `compared` to see;
     /// two that share a node lie on either side of it.
-    fn look_at_order(&self, facing: &[(T, Stretch<T>)]) {
+    fn compare_distances(&self, facing: &[(T, Stretch<T>)]) {
         for (k, (distance, stretch)) in facing.iter().enumerate() {
             let nodes = self.surfaces.target.edges[stretch.edge].nodes;
             for (other_distance, other) in &facing[k + 1..] {
@@ -172,7 +172,7 @@ fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
 
 /// Returns the distance from the contact edge's point `xi` to the target edge's line along the
 /// contact edge's normal, length.
-fn distance<T: Scalar>(contact: &Placed<T>, target: &Placed<T>, xi: T) -> T {
+fn distance<T: Scalar>(contact: &PlacedEdge<T>, target: &PlacedEdge<T>, xi: T) -> T {
     let p = [0, 1].map(|d| contact.start[d] + xi * contact.length * contact.tangent[d]);
     Scalar::abs(target.outside(p) / dot(target.normal, contact.normal))
 }
@@ -236,7 +236,7 @@ impl<T: Scalar> Integrals<T> {
 }
 
 /// The sums of a contact node over its edges.
-struct Gathered<T> {
+struct NodeIntegrals<T> {
     /// The integral M_ij by target node, length.
     masters: BTreeMap<NodeId, T>,
     /// The integral D_i, length.
@@ -247,10 +247,10 @@ struct Gathered<T> {
     edges: BTreeMap<EdgeId, f64>,
 }
 
-impl<T: Scalar> Gathered<T> {
+impl<T: Scalar> NodeIntegrals<T> {
     fn new() -> Self {
         let zero = T::zero();
-        Gathered {
+        NodeIntegrals {
             masters: BTreeMap::new(),
             length: zero,
             normal: [zero; 2],

@@ -4,7 +4,7 @@
 use std::collections::{BTreeSet, HashSet};
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
-use super::outline::{Faced, Outline};
+use super::outline::{FacedPoint, Outline};
 use super::pairing::{Pairing, Vector, unit};
 use super::search::Segment;
 use super::surface::{Edge, Surfaces};
@@ -37,10 +37,10 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
     surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
 }
 
-impl Faced {
+impl FacedPoint {
     /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
     fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
-        let Faced { edge, masters, normal, gap, .. } = self;
+        let FacedPoint { edge, masters, normal, gap, .. } = self;
         let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
         Pairing { node, edge, masters, normal, gap, length }
     }
@@ -63,8 +63,8 @@ fn contact_node(
     outline: &Outline,
     shape: &[Vector],
     node: NodeId,
-) -> Option<Faced> {
-    outline.faced(shape[node.index()], surfaces.contact.node_normals.get(&node).copied())
+) -> Option<FacedPoint> {
+    outline.closest_point(shape[node.index()], surfaces.contact.node_normals.get(&node).copied())
 }
 
 impl Surfaces {
@@ -74,16 +74,12 @@ impl Surfaces {
     ///
     /// Tried are the corners of an octagon about the circle of that radius. A limit between two parts
     /// is a straight line on this scale: one that crosses the circle cuts off a corner.
-    pub fn facing_otherwise(
-        &self,
-        shape: &[Vector],
-        radius: f64,
-    ) -> Vec<(NodeId, Option<Pairing>)> {
+    pub fn pairings_nearby(&self, shape: &[Vector], radius: f64) -> Vec<(NodeId, Option<Pairing>)> {
         let outline = Outline::new(&self.target, shape);
         let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
         let faced = |node: NodeId, at: Vector| {
             let own = self.contact.node_normals.get(&node).copied();
-            Some(outline.faced(at, own)?.by(self, node, 0.0))
+            Some(outline.closest_point(at, own)?.by(self, node, 0.0))
         };
         let outside = radius / FRAC_PI_8.cos();
         let otherwise = |node: NodeId| {
@@ -111,7 +107,7 @@ impl Surfaces {
             self.target.edges.iter().flat_map(|edge| edge.nodes).collect();
         let depth = |node: NodeId| {
             let own = self.target.node_normals.get(&node).map(|normal| unit(*normal));
-            let faced = outline.faced(shape[node.index()], own)?;
+            let faced = outline.closest_point(shape[node.index()], own)?;
             (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
         };
         nodes.into_iter().filter_map(depth).max_by(|a, b| a.1.total_cmp(&b.1))
@@ -161,7 +157,7 @@ impl Surfaces {
         let longest = |node: NodeId| {
             let beside =
                 self.contact.edges.iter().filter(|edge: &&Edge| edge.nodes.contains(&node));
-            beside.map(|edge| edge.place(&model.nodes).length).fold(0.0, f64::max)
+            beside.map(|edge| edge.in_shape(&model.nodes).length).fold(0.0, f64::max)
         };
         let depth = |&node: &NodeId| {
             let faced = contact_node(self, &outline, &model.nodes, node)?;

@@ -35,7 +35,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{Edge, FACING, Placed, Surface};
+use super::surface::{Edge, FACING, PlacedEdge, Surface};
 use problem::model::NodeId;
 use problem::tree::{Bounds, Tree};
 
@@ -58,7 +58,7 @@ const HANGING: f64 = 0.05;
 /// The edges of a body's surface in a shape, for the search of what a node faces.
 pub(super) struct Outline<'a> {
     surface: &'a Surface,
-    placed: Vec<Placed>,
+    placed: Vec<PlacedEdge>,
     /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
     normals: Vec<[Vector; 2]>,
     tree: Tree,
@@ -67,7 +67,7 @@ pub(super) struct Outline<'a> {
 }
 
 /// What a node faces.
-pub(super) struct Faced {
+pub(super) struct FacedPoint {
     /// The index of the edge.
     pub(super) edge: usize,
     /// The nodes of the surface and their weights, which sum to 1.
@@ -93,7 +93,7 @@ impl<'a> Outline<'a> {
     /// Places the edges of a surface in `shape`.
     pub(super) fn new(surface: &'a Surface, shape: &[Vector]) -> Self {
         let Surface { edges, once, at, .. } = surface;
-        let placed: Vec<Placed> = edges.iter().map(|edge| edge.place(shape)).collect();
+        let placed: Vec<PlacedEdge> = edges.iter().map(|edge| edge.in_shape(shape)).collect();
         let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.iter().map(ends));
         let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
@@ -103,8 +103,8 @@ impl<'a> Outline<'a> {
 
     /// Returns what a node at `p` faces; `own` is the normal out of the node's own body in the
     /// undeformed shape, None where it bounds no edge and so faces every edge.
-    pub(super) fn faced(&self, p: Vector, own: Option<Vector>) -> Option<Faced> {
-        let node = Facing { outline: self, p, own };
+    pub(super) fn closest_point(&self, p: Vector, own: Option<Vector>) -> Option<FacedPoint> {
+        let node = FacingNode { outline: self, p, own };
         let best = Cell::new(f64::INFINITY);
         let near: RefCell<Vec<(f64, Part)>> = RefCell::default();
         let key = |b: Bounds| Some(b.distance(p)).filter(|d| *d <= best.get() + self.tie);
@@ -125,7 +125,7 @@ impl<'a> Outline<'a> {
     /// Returns the place of a vertex in the shape, length.
     fn vertex(&self, v: NodeId) -> Vector {
         let k = self.surface.at[&v][0];
-        let Placed { start, tangent, length, .. } = &self.placed[k];
+        let PlacedEdge { start, tangent, length, .. } = &self.placed[k];
         let end = self.surface.edges[k].nodes[1] == v;
         let far = if end { *length } else { 0.0 };
         [0, 1].map(|d| start[d] + far * tangent[d])
@@ -152,13 +152,13 @@ impl<'a> Outline<'a> {
 }
 
 /// A node in search of what it faces.
-struct Facing<'a> {
+struct FacingNode<'a> {
     outline: &'a Outline<'a>,
     p: Vector,
     own: Option<Vector>,
 }
 
-impl Facing<'_> {
+impl FacingNode<'_> {
     /// Returns whether the node faces a normal of the surface.
     fn faces(&self, normal: Vector) -> bool {
         self.own.is_none_or(|own| dot(own, normal) <= ROUNDING - FACING)
@@ -242,7 +242,7 @@ impl Facing<'_> {
     }
 
     /// Chooses among the nearest parts, which are equally near.
-    fn choose(&self, parts: &[Part]) -> Faced {
+    fn choose(&self, parts: &[Part]) -> FacedPoint {
         if let Some(v) = self.corner(parts) {
             return self.on_vertex(v, unit(self.outline.pseudo_normal(v)));
         }
@@ -300,12 +300,12 @@ impl Facing<'_> {
         best.expect("a vertex has an edge")
     }
 
-    fn on_vertex(&self, v: NodeId, normal: Vector) -> Faced {
+    fn on_vertex(&self, v: NodeId, normal: Vector) -> FacedPoint {
         let gap = dot(normal, minus(self.p, self.outline.vertex(v)));
-        Faced { edge: self.farther(v), masters: vec![(v, 1.0)], normal, gap, over: true }
+        FacedPoint { edge: self.farther(v), masters: vec![(v, 1.0)], normal, gap, over: true }
     }
 
-    fn on_edge(&self, k: usize) -> Faced {
+    fn on_edge(&self, k: usize) -> FacedPoint {
         let (edge, placed) = (&self.outline.surface.edges[k], &self.outline.placed[k]);
         let along = placed.along(self.p);
         let xi = along.clamp(0.0, 1.0);
@@ -314,14 +314,14 @@ impl Facing<'_> {
         let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
         let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
         let gap = placed.outside(self.p) * dot(normal, placed.normal);
-        Faced { edge: k, masters, normal, gap, over }
+        FacedPoint { edge: k, masters, normal, gap, over }
     }
 }
 
 /// Returns the normals at the nodes of each edge: the mean over edges that meet in a bend.
 fn normals(
     edges: &[Edge],
-    placed: &[Placed],
+    placed: &[PlacedEdge],
     at: &FxHashMap<NodeId, Vec<usize>>,
 ) -> Vec<[Vector; 2]> {
     let mean = |k: usize, node: NodeId| {

@@ -58,7 +58,7 @@ impl Surface {
         let mut sums: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
         let mut normals = Vec::new();
         for edge in &edges {
-            let Placed { normal, length, .. } = edge.place(&model.nodes);
+            let PlacedEdge { normal, length, .. } = edge.in_shape(&model.nodes);
             normals.push(normal);
             for n in edge.nodes {
                 let (sum, total) = sums.entry(n).or_default();
@@ -72,7 +72,7 @@ impl Surface {
 }
 
 /// An edge in a given shape.
-pub(super) struct Placed<T = f64> {
+pub(super) struct PlacedEdge<T = f64> {
     /// The coordinates of its first node, length.
     pub(super) start: [T; 2],
     /// The unit vector from its first node to its second.
@@ -85,16 +85,16 @@ pub(super) struct Placed<T = f64> {
 
 impl Edge {
     /// Places the edge in a shape, given as the coordinates of each node, length.
-    pub(super) fn place<T: Scalar>(&self, shape: &[[T; 2]]) -> Placed<T> {
+    pub(super) fn in_shape<T: Scalar>(&self, shape: &[[T; 2]]) -> PlacedEdge<T> {
         let [start, end] = self.nodes.map(|n| shape[n.index()]);
         let along = minus(end, start);
         let length = T::length(along[0], along[1]);
         let tangent = [along[0] / length, along[1] / length];
-        Placed { start, tangent, normal: [tangent[1], -tangent[0]], length }
+        PlacedEdge { start, tangent, normal: [tangent[1], -tangent[0]], length }
     }
 }
 
-impl<T: Scalar> Placed<T> {
+impl<T: Scalar> PlacedEdge<T> {
     /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
     pub(super) fn along(&self, p: [T; 2]) -> T {
         dot(minus(p, self.start), self.tangent) / self.length
@@ -155,7 +155,7 @@ impl Surfaces {
     pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {
         let mut of_node: FxHashMap<NodeId, T> = FxHashMap::default();
         for edge in &self.contact.edges {
-            let half = edge.place(shape).length / T::from_f64(2.0);
+            let half = edge.in_shape(shape).length / T::from_f64(2.0);
             edge.nodes.iter().for_each(|n| *of_node.entry(*n).or_insert(T::zero()) += half);
         }
         self.nodes.iter().map(|n| of_node.remove(n).unwrap_or(T::zero())).collect()

@@ -85,15 +85,15 @@ pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
     }
 }
 
-/// Returns what rounding may do, by the run repeated for as long as it `goes_on` where it is repeated.
+/// Returns what rounding may do, by the run repeated for as long as it `continues` where it is repeated.
 fn rounding_while(
     solution: &Solution,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Rounding {
-    of_published(solution, session, goes_on).unwrap_or_else(|| {
+    published_rounding(solution, session, continues).unwrap_or_else(|| {
         let factors = StateFactors::new(solution, session);
-        of_equilibrium(solution, factors.as_ref(), session, &bounded(&solution.model))
+        equilibrium_rounding(solution, factors.as_ref(), session, &bounded(&solution.model))
     })
 }
 
@@ -103,11 +103,11 @@ pub fn bounded(model: &Model) -> Stiffness<Bounded> {
 }
 
 /// Returns what rounding may do to a run of a variant that the paper describes, repeated for as long as
-/// it `goes_on`; None of another.
-pub(super) fn of_published(
+/// it `continues`; None of another.
+pub(super) fn published_rounding(
     solution: &Solution,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Option<Rounding> {
     let request = &solution.request;
     (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
@@ -117,13 +117,13 @@ pub(super) fn of_published(
             decisions: Some(Vec::new()),
             steps: solution.steps.iter().map(written).collect(),
         },
-        _ => of_run(solution, session, goes_on),
+        _ => repeated_run_rounding(solution, session, continues),
     })
 }
 
 /// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
 /// are not.
-pub(super) fn of_equilibrium(
+pub(super) fn equilibrium_rounding(
     solution: &Solution,
     factors: Option<&StateFactors>,
     session: &Session,
@@ -158,7 +158,7 @@ fn checked_states<'a>(
     };
     // From its displacements count the slips of the last step of the load.
     let from = way.iter().rposition(|step| part(step) < part(last));
-    let counts = if solution.way_counts() { way.len() } else { 0 };
+    let counts = if solution.depends_on_path() { way.len() } else { 0 };
     let groups = check.groups(&way[..counts]);
     let far: Vec<bool> =
         groups.into_par_iter().flat_map_iter(|steps| check.are_far(steps)).collect();
@@ -187,18 +187,22 @@ fn checked_states<'a>(
     Some((reached?.1, check))
 }
 
-fn of_run(
+fn repeated_run_rounding(
     solution: &Solution,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Rounding {
-    let Some(again) = bounded_run(solution, session, goes_on) else {
+    let Some(again) = bounded_run(solution, session, continues) else {
         return Rounding::unknown(solution);
     };
     let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
     let undecided: Option<Vec<Vec<Decision>>> = undecided.collect();
     let decisions = undecided.map(|undecided| {
-        undecided.into_iter().flatten().chain(other_turn(solution, &again)).collect::<Vec<_>>()
+        undecided
+            .into_iter()
+            .flatten()
+            .chain(first_divergence(solution, &again))
+            .collect::<Vec<_>>()
     });
     let is_certain = decisions.as_ref().is_some_and(Vec::is_empty);
     let bound = again.error_bound.filter(|_| is_certain).unwrap_or(f64::INFINITY);
@@ -254,7 +258,7 @@ impl Rounding {
 
 /// Returns the first iteration and node whose edge or status differs from that of the same run in
 /// numbers with a bound.
-fn other_turn(solution: &Solution, again: &Solution) -> Option<Decision> {
+fn first_divergence(solution: &Solution, again: &Solution) -> Option<Decision> {
     solution.steps.iter().zip(&again.steps).find_map(|(own, other)| {
         let (Detail::Published(a), Detail::Published(b)) = (&own.detail, &other.detail) else {
             return None;
@@ -273,11 +277,11 @@ fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
     (0..u.len()).map(error).fold(0.0, f64::max)
 }
 
-/// Repeats the run with a bound on each displacement, for as long as it `goes_on`.
+/// Repeats the run with a bound on each displacement, for as long as it `continues`.
 fn bounded_run(
     solution: &Solution,
     session: &Session,
-    goes_on: &mut dyn FnMut(&Step) -> bool,
+    continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Option<Solution> {
     let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {
@@ -289,7 +293,7 @@ fn bounded_run(
         ..Arithmetic::default()
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    session.solve_while(&request, goes_on).ok()
+    session.solve_while(&request, continues).ok()
 }
 
 /// Solves a contact state of `unilateral` again, under its friction, with a bound on each

@@ -94,11 +94,11 @@ impl Estimates {
         let model = &*solution.model;
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
-            let of_run = arithmetic::of_published(solution, session, &mut |_| true);
+            let of_run = arithmetic::published_rounding(solution, session, &mut |_| true);
             let (state, bounded) =
                 (StateFactors::new(solution, session), arithmetic::bounded(model));
             let of_last =
-                || arithmetic::of_equilibrium(solution, state.as_ref(), session, &bounded);
+                || arithmetic::equilibrium_rounding(solution, state.as_ref(), session, &bounded);
             let rounding = of_run.unwrap_or_else(of_last);
             let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
             (state, rounding, stress)

@@ -147,7 +147,7 @@ impl<'a> StateCheck<'a> {
     /// Returns what nodes that stand up to `radius` from their places in a shape face otherwise.
     fn elsewhere(&self, surfaces: &Surfaces, shape: &[[f64; 2]], radius: f64) -> Elsewhere {
         if self.solution.request.contact.coupling == Coupling::Nts {
-            return Elsewhere::Nts(surfaces.facing_otherwise(shape, radius));
+            return Elsewhere::Nts(surfaces.pairings_nearby(shape, radius));
         }
         let within = |x: f64| Bounded::new(x, radius);
         let shape: Vec<_> = shape.iter().map(|place| place.map(within)).collect();

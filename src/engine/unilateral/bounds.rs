@@ -44,7 +44,7 @@ struct Convex {
 }
 
 /// Its solution under some bounds.
-struct Slid {
+struct ConvexSolution {
     /// The gaps, the slips forward and the slips backward.
     x: DVector<f64>,
     /// The gaps, then the slips.
@@ -66,32 +66,32 @@ impl Convex {
     }
 
     /// Returns the solution under bounds, from `start`; None where nothing holds the bodies under them.
-    fn under(&self, bounds: &DVector<f64>, start: DVector<f64>) -> Option<Slid> {
+    fn under(&self, bounds: &DVector<f64>, start: DVector<f64>) -> Option<ConvexSolution> {
         let Convex { nodes, slips, at_rest, .. } = self;
         let right = DVector::from_fn(nodes + 2 * slips, |row, _| match row {
             _ if row < *nodes => at_rest[row],
             _ if row < nodes + slips => bounds[row - nodes] + at_rest[row],
             _ => bounds[row - nodes - slips] - at_rest[row - slips],
         });
-        Some(self.slid(least(&self.matrix, &right, start)?))
+        Some(self.solution(least(&self.matrix, &right, start)?))
     }
 
     /// Returns the solution in which nothing slides; None where nothing holds the bodies.
-    fn stuck(&self) -> Option<Slid> {
+    fn stuck(&self) -> Option<ConvexSolution> {
         let (n, size) = (self.nodes, self.matrix.nrows());
         let (normal, at_rest) = (self.stiffness.view((0, 0), (n, n)), self.at_rest.rows(0, n));
         let gaps = least(&normal.into(), &at_rest.into(), DVector::zeros(n))?;
-        Some(self.slid(gaps.resize_vertically(size, 0.0)))
+        Some(self.solution(gaps.resize_vertically(size, 0.0)))
     }
 
-    fn slid(&self, x: DVector<f64>) -> Slid {
+    fn solution(&self, x: DVector<f64>) -> ConvexSolution {
         let Convex { nodes, slips, .. } = self;
         let apart = DVector::from_fn(nodes + slips, |row, _| match row {
             _ if row < *nodes => x[row],
             _ => x[row] - x[row + slips],
         });
         let forces = &self.stiffness * &apart + &self.at_rest;
-        Slid { x, apart, normal: forces.rows(0, *nodes).map(|p| p.max(0.0)) }
+        ConvexSolution { x, apart, normal: forces.rows(0, *nodes).map(|p| p.max(0.0)) }
     }
 }
 
@@ -117,16 +117,16 @@ impl Problem<'_> {
         let (stiffness, at_rest) =
             self.scaled(config, &entries, setting, if mu == 0.0 { n } else { 2 * n })?;
         let convex = Convex::new(stiffness, at_rest, n);
-        let mut slid = convex.stuck()?;
-        let mut bounds = mu * &slid.normal;
+        let mut solution = convex.stuck()?;
+        let mut bounds = mu * &solution.normal;
         let mut statuses = Vec::new();
         for k in 0..BOUNDS {
-            slid = convex.under(&bounds, slid.x)?;
-            let last = std::mem::replace(&mut statuses, self.statuses(config, &entries, &slid));
+            solution = convex.under(&bounds, solution.x)?;
+            let last = std::mem::replace(&mut statuses, self.statuses(config, &entries, &solution));
             if statuses == last && self.try_statuses(config, &statuses, setting).is_some() {
                 return Some(statuses);
             }
-            let next = mu * &slid.normal;
+            let next = mu * &solution.normal;
             if (&next - &bounds).amax() <= STILL {
                 return Some(statuses);
             }
@@ -136,12 +136,17 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses of a solution.
-    fn statuses(&self, config: &Configuration, entries: &[usize], slid: &Slid) -> Vec<Status> {
+    fn statuses(
+        &self,
+        config: &Configuration,
+        entries: &[usize],
+        solution: &ConvexSolution,
+    ) -> Vec<Status> {
         let n = entries.len();
         let mut statuses = vec![Status::Open; config.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
-            let slip = slid.apart.get(n + k).copied().unwrap_or(0.0);
-            statuses[*i] = if slid.apart[k] > STILL || slid.normal[k] == 0.0 {
+            let slip = solution.apart.get(n + k).copied().unwrap_or(0.0);
+            statuses[*i] = if solution.apart[k] > STILL || solution.normal[k] == 0.0 {
                 Status::Open
             } else if slip.abs() > STILL {
                 Status::Slip(if slip > 0.0 { Sense::Forward } else { Sense::Backward })

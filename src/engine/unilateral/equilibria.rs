@@ -22,7 +22,7 @@ const WORK: usize = 500_000;
 const ALL: usize = 4096;
 
 /// A step of the load that was taken.
-pub(super) struct Taken {
+pub(super) struct TakenStep {
     /// The part of the path at its end.
     pub(super) to: f64,
     /// The displacements before it, length.
@@ -35,7 +35,11 @@ pub(super) struct Taken {
 
 /// Returns what is known of equilibria beside those of the steps that were `taken`, of which the last led to
 /// `found`: of small problems in every step, else in the last one alone.
-pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]) -> Uniqueness {
+pub(super) fn uniqueness(
+    problem: &Problem,
+    found: &Equilibrium,
+    taken: &[TakenStep],
+) -> Uniqueness {
     let last = taken.last().expect("a path has a step");
     if let Some(node) = indifferent(problem, found, &setting(problem, last)) {
         return Uniqueness::Indifferent { node };
@@ -66,7 +70,7 @@ pub(super) fn uniqueness(problem: &Problem, found: &Equilibrium, taken: &[Taken]
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 
-fn setting<'a>(problem: &Problem, step: &'a Taken) -> Setting<'a> {
+fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
     let load = problem.load(step.to);
     Setting { load, before: &step.before, statuses: None, whole: false }
 }
@@ -142,7 +146,7 @@ impl Problem<'_> {
     }
 
     /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
-    fn others(&self, step: &Taken, states: &[Vec<Status>]) -> Vec<Other> {
+    fn others(&self, step: &TakenStep, states: &[Vec<Status>]) -> Vec<Other> {
         let setting = setting(self, step);
         let scale = step.u.amax();
         let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
@@ -162,8 +166,8 @@ impl Problem<'_> {
 
     /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
     /// many as are tried.
-    fn neighbours(&self, step: &Taken) -> Vec<Vec<Status>> {
-        let Taken { config, statuses, .. } = step;
+    fn neighbours(&self, step: &TakenStep) -> Vec<Vec<Status>> {
+        let TakenStep { config, statuses, .. } = step;
         let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
         let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
         let with = |i: usize| {

@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::equilibria::{Taken, uniqueness};
+use super::equilibria::{TakenStep, uniqueness};
 use super::forces::load_of;
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use crate::contact::{ContactNode, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
-use crate::memory::{FEWER_STEPS, HELD, bytes_of_path};
+use crate::memory::{FEWER_STEPS, UNWRITTEN, bytes_of_path};
 use crate::solution::{
     self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
-use crate::support::{held, passed_on};
+use crate::support::{support_force, transmitted_force};
 use base::error::InputError;
 use base::memory;
 
@@ -68,7 +68,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
                     run.start = Start::Overlapping;
                 }
             }
-        } else if !problem.is_held(&config) {
+        } else if !problem.is_held_initially(&config) {
             run.start = Start::Loose;
         }
     }
@@ -153,7 +153,7 @@ struct Run<'a> {
     start: Start,
     /// Whether all steps are kept, or the last one alone.
     keeps_all: bool,
-    taken: Vec<Taken>,
+    taken: Vec<TakenStep>,
 }
 
 impl<'a> Run<'a> {
@@ -224,7 +224,7 @@ impl<'a> Run<'a> {
             self.taken.clear();
         }
         let Equilibrium { config, last, .. } = found;
-        self.taken.push(Taken {
+        self.taken.push(TakenStep {
             to,
             before: from.u.clone(),
             config: config.clone(),
@@ -248,7 +248,7 @@ impl<'a> Run<'a> {
             bytes_of_path(self.problem.model, steps as f64, iterations as f64)
         };
         let iterations = self.steps.len();
-        let held = HELD * bytes(step, iterations);
+        let held = UNWRITTEN * bytes(step, iterations);
         let needed = bytes(total, iterations * total / step) - held;
         let whose = format!("{total} steps of the load with {} iterations each", iterations / step);
         memory::check_bytes(needed, "contact.load_steps", &whose, FEWER_STEPS)
@@ -348,7 +348,10 @@ fn step(
         let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
         let at_supports = problem.supports.iter().copied();
         let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-        passed_on(problem.model, held(problem.model, &problem.model.restrained, &reaction, load))
+        transmitted_force(
+            problem.model,
+            support_force(problem.model, &problem.model.restrained, &reaction, load),
+        )
     };
     let is_known = solution.interior.is_none();
     Step {

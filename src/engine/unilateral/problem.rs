@@ -104,7 +104,7 @@ impl Iteration {
     }
 
     /// Returns the next iteration, to which the statuses of this one return.
-    pub(super) fn again(&self, history: &mut History) -> Self {
+    pub(super) fn repeated(&self, history: &mut History) -> Self {
         let cycle = history.keep(&self.statuses);
         Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
     }
@@ -289,12 +289,12 @@ impl<'a> Problem<'a> {
 
     /// Returns whether a node stands inside the target before any load.
     pub(super) fn overlaps(&self, config: &Configuration) -> bool {
-        self.at_the_start(config).iter().flatten().any(|gap| *gap < -self.closed)
+        self.initial_gaps(config).iter().flatten().any(|gap| *gap < -self.closed)
     }
 
     /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
-    pub(super) fn is_held(&self, config: &Configuration) -> bool {
-        let gaps = self.at_the_start(config);
+    pub(super) fn is_held_initially(&self, config: &Configuration) -> bool {
+        let gaps = self.initial_gaps(config);
         let touches = |i: usize| gaps[i].is_some_and(|gap| gap <= self.closed);
         let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
@@ -305,7 +305,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the gap of each entry before any load, length.
-    pub(super) fn at_the_start(&self, config: &Configuration) -> Vec<Option<f64>> {
+    pub(super) fn initial_gaps(&self, config: &Configuration) -> Vec<Option<f64>> {
         self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
@@ -356,7 +356,9 @@ fn bodies(
 ) -> Bodies {
     let bodies = Bodies::new(model, session).expecting(initial);
     match request.contact.geometry {
-        Geometry::Initial => bodies.facing(initial, request.contact.friction.coefficient() > 0.0),
+        Geometry::Initial => {
+            bodies.with_gaps(initial, request.contact.friction.coefficient() > 0.0)
+        }
         Geometry::Current => bodies,
     }
 }

@@ -20,7 +20,7 @@ const MOST: usize = 150;
 
 /// Returns whether no body can move as a rigid one under its restraints and `constraints`.
 pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
-    let motions = Motions::new(model, &model.nodes);
+    let motions = RigidMotions::new(model, &model.nodes);
     let mut gram = motions.restrained();
     for Constraint { node, masters, motion } in constraints {
         let directions = match motion {
@@ -54,7 +54,7 @@ pub(super) fn escape(
     friction: impl Fn(&Pairing) -> f64,
     load: &DVector<f64>,
 ) -> Option<Dof> {
-    let motions = Motions::new(model, shape);
+    let motions = RigidMotions::new(model, shape);
     let gaps: Vec<&Pairing> = pairings.iter().flatten().collect();
     let eigen = motions.restrained().symmetric_eigen();
     let limit = FREE * eigen.eigenvalues.amax();
@@ -98,7 +98,7 @@ fn extreme_forces(pairing: &Pairing, friction: f64) -> Vec<[f64; 2]> {
 }
 
 /// The rigid motions of all bodies in a shape: two translations and a rotation each.
-struct Motions<'a> {
+struct RigidMotions<'a> {
     model: &'a Model,
     /// The coordinates of each node, length.
     shape: &'a [[f64; 2]],
@@ -110,7 +110,7 @@ struct Motions<'a> {
     size: f64,
 }
 
-impl<'a> Motions<'a> {
+impl<'a> RigidMotions<'a> {
     fn new(model: &'a Model, shape: &'a [[f64; 2]]) -> Self {
         let mut body = vec![None; model.nodes.len()];
         let mut middle = Vec::new();
@@ -126,7 +126,7 @@ impl<'a> Motions<'a> {
         };
         let nodes = model.bodies.iter().flat_map(|body| &body.nodes);
         let size = nodes.map(far).fold(0.0, f64::max);
-        Motions { model, shape, body, middle, size }
+        RigidMotions { model, shape, body, middle, size }
     }
 
     fn count(&self) -> usize {

@@ -126,7 +126,7 @@ impl Problem<'_> {
         else {
             return Ok(None);
         };
-        let reached = self.reached(config, (statuses, constraints), cycle, solution);
+        let reached = self.completed_iteration(config, (statuses, constraints), cycle, solution);
         let last = Iteration { choice, ..reached };
         let wanted = self.wanted(config, &last, setting, false);
         Ok((wanted == last.statuses).then_some(last))
@@ -200,7 +200,7 @@ impl Problem<'_> {
         let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
             let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
-                Some(known) => known.again(history),
+                Some(known) => known.repeated(history),
                 None => self.iteration(config, statuses, setting, history)?,
             };
             if k == 1 {
@@ -368,11 +368,11 @@ impl Problem<'_> {
             }
         };
         let cycle = history.keep(&statuses);
-        Ok(self.reached(config, (statuses, constraints), cycle, solution))
+        Ok(self.completed_iteration(config, (statuses, constraints), cycle, solution))
     }
 
     /// Returns the iteration that imposed statuses by constraints and led to `solution`.
-    pub(super) fn reached(
+    pub(super) fn completed_iteration(
         &self,
         config: &Configuration,
         (statuses, constraints): (Vec<Status>, Vec<Constraint>),
@@ -425,7 +425,8 @@ impl Problem<'_> {
         else {
             return None;
         };
-        let mut iteration = self.reached(config, (statuses.to_vec(), constraints), None, solution);
+        let mut iteration =
+            self.completed_iteration(config, (statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted_of_all(config, &mut iteration, setting, false);
         (wanted == iteration.statuses).then(|| {
             self.complete(config, &mut iteration);

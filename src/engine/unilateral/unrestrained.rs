@@ -22,7 +22,7 @@ impl Problem<'_> {
     pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
         let start = self.configuration(&DVector::zeros(self.model.dofs()));
-        let gaps = self.at_the_start(&start).into_iter().flatten();
+        let gaps = self.initial_gaps(&start).into_iter().flatten();
         let least = gaps.reduce(f64::min).filter(|least| *least > self.closed);
         let apart = least.map_or(String::new(), |least| {
             format!(", whose surfaces are at least {} apart,", six_digits(least))

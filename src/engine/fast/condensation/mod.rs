@@ -127,7 +127,7 @@ impl Bodies {
 
     /// Takes it that in every state the contact nodes face what they do in `pairings`; whether states
     /// hold slips too.
-    pub fn facing(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
+    pub fn with_gaps(self, pairings: &[Option<Pairing>], stick: bool) -> Self {
         Bodies { facing: Some((pairings.to_vec(), stick)), ..self }
     }
 
