@@ -17,7 +17,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
 use super::nonnegative::least;
-use super::problem::{Configuration, Outcome, Problem, Setting};
+use super::problem::{Outcome, Setting};
+use super::search::StateSearch;
 use crate::contact::{Pairing, Sense, Status};
 use crate::elimination::{Constraint, Motion};
 
@@ -27,7 +28,7 @@ const MOST: usize = 150;
 /// The number of bounds that are tried. Where the last half goes back and forth, each is the mean of two.
 const BOUNDS: usize = 100;
 
-/// A gap, slip or force in the units of [`Problem::scaled`] up to which it is 0: rounding.
+/// A gap, slip or force in the units of [`StateSearch::scaled`] up to which it is 0: rounding.
 const STILL: f64 = 1e-10;
 
 /// The convex problem of one step on the contact surface.
@@ -95,35 +96,28 @@ impl Convex {
     }
 }
 
-impl Problem<'_> {
+impl StateSearch<'_> {
     /// Looks for statuses in equilibrium by a fixed point on the bounds of friction. None where it finds
     /// none, and where the problem is not of its kind: with nodes that never slide, of more than 150
     /// nodes, or with a contact node that is restrained.
-    pub(super) fn by_bounds(
-        &self,
-        config: &Configuration,
-        setting: &Setting,
-    ) -> Option<Vec<Status>> {
-        let entries: Vec<usize> =
-            (0..config.pairings.len()).filter(|i| config.pairings[*i].is_some()).collect();
-        let pairing =
-            |i: usize| config.pairings[i].as_ref().expect("only entries that face a target");
-        let restrained = |i: &usize| self.model.restraints_of(pairing(*i).node).contains(&true);
-        let mu = self.friction;
-        if mu.is_infinite() || entries.len() > MOST || entries.iter().any(restrained) {
+    pub(super) fn by_bounds(&self) -> Option<Vec<Status>> {
+        let pairings = &self.config.pairings;
+        let entries: Vec<usize> = (0..pairings.len()).filter(|i| pairings[*i].is_some()).collect();
+        let restrained =
+            |pairing: &Pairing| self.problem.model.restraints_of(pairing.node).contains(&true);
+        let (mu, n) = (self.problem.friction, entries.len());
+        if mu.is_infinite() || n > MOST || pairings.iter().flatten().any(restrained) {
             return None;
         }
-        let n = entries.len();
-        let (stiffness, at_rest) =
-            self.scaled(config, &entries, setting, if mu == 0.0 { n } else { 2 * n })?;
+        let (stiffness, at_rest) = self.scaled(&entries, if mu == 0.0 { n } else { 2 * n })?;
         let convex = Convex::new(stiffness, at_rest, n);
         let mut solution = convex.stuck()?;
         let mut bounds = mu * &solution.normal;
         let mut statuses = Vec::new();
         for k in 0..BOUNDS {
             solution = convex.under(&bounds, solution.x)?;
-            let last = std::mem::replace(&mut statuses, self.statuses(config, &entries, &solution));
-            if statuses == last && self.try_statuses(config, &statuses, setting).is_some() {
+            let last = std::mem::replace(&mut statuses, self.statuses(&entries, &solution));
+            if statuses == last && self.try_statuses(&statuses).is_some() {
                 return Some(statuses);
             }
             let next = mu * &solution.normal;
@@ -136,14 +130,9 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses of a solution.
-    fn statuses(
-        &self,
-        config: &Configuration,
-        entries: &[usize],
-        solution: &ConvexSolution,
-    ) -> Vec<Status> {
+    fn statuses(&self, entries: &[usize], solution: &ConvexSolution) -> Vec<Status> {
         let n = entries.len();
-        let mut statuses = vec![Status::Open; config.pairings.len()];
+        let mut statuses = vec![Status::Open; self.config.pairings.len()];
         for (k, i) in entries.iter().enumerate() {
             let slip = solution.apart.get(n + k).copied().unwrap_or(0.0);
             statuses[*i] = if solution.apart[k] > STILL || solution.normal[k] == 0.0 {
@@ -151,7 +140,7 @@ impl Problem<'_> {
             } else if slip.abs() > STILL {
                 Status::Slip(if slip > 0.0 { Sense::Forward } else { Sense::Backward })
             } else {
-                self.closing(config, *i)
+                self.problem.closing(self.config, *i)
             };
         }
         statuses
@@ -160,15 +149,9 @@ impl Problem<'_> {
     /// Returns the stiffness of the first `size` gaps and slips, and the forces with every node held to
     /// the target: gaps and slips in the unit in which stiffness is 1, forces in that of the largest.
     /// None where there are no forces.
-    fn scaled(
-        &self,
-        config: &Configuration,
-        entries: &[usize],
-        setting: &Setting,
-        size: usize,
-    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    fn scaled(&self, entries: &[usize], size: usize) -> Option<(DMatrix<f64>, DVector<f64>)> {
         let forces = |apart: &DVector<f64>, loaded: bool| {
-            let all = self.held(config, entries, setting, apart, loaded)?;
+            let all = self.held(entries, apart, loaded)?;
             Some(all.rows(0, size).into_owned())
         };
         let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
@@ -184,29 +167,23 @@ impl Problem<'_> {
 
     /// Returns the forces along all normals, then along all tangents, with every node held `apart`
     /// from its place on the target: gaps, then slips; `loaded` or by that alone.
-    fn held(
-        &self,
-        config: &Configuration,
-        entries: &[usize],
-        setting: &Setting,
-        apart: &DVector<f64>,
-        loaded: bool,
-    ) -> Option<DVector<f64>> {
+    fn held(&self, entries: &[usize], apart: &DVector<f64>, loaded: bool) -> Option<DVector<f64>> {
         let n = entries.len();
-        let mut statuses = vec![Status::Open; config.pairings.len()];
-        let held = if self.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
+        let mut statuses = vec![Status::Open; self.config.pairings.len()];
+        let held =
+            if self.problem.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
         entries.iter().for_each(|i| statuses[*i] = held);
-        let mut constraints = self.constraints(config, &statuses, setting);
-        let mut own = Setting { load: setting.load.clone(), ..*setting };
+        let mut constraints = self.constraints(&statuses);
+        let mut setting = Setting { load: self.setting.load.clone(), ..*self.setting };
         if !loaded {
-            own.load.fill(0.0);
+            setting.load.fill(0.0);
         }
+        let search = StateSearch { setting: &setting, ..*self };
         for (k, (constraint, i)) in constraints.iter_mut().zip(entries).enumerate() {
-            let pairing = config.pairings[*i].as_ref()?;
+            let pairing = self.config.pairings[*i].as_ref()?;
             shift(constraint, pairing, [apart[k], apart[n + k]], loaded);
         }
-        let Ok(Outcome::Solved(solution)) = self.solve(config, &statuses, &constraints, &own)
-        else {
+        let Ok(Outcome::Solved(solution)) = search.solve(&statuses, &constraints) else {
             return None;
         };
         let force = |row: usize| {

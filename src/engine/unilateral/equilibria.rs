@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
+use super::search::StateSearch;
 use crate::contact::{Sense, Status};
 use crate::solution::{Other, Uniqueness};
 use problem::model::NodeId;
@@ -46,7 +47,7 @@ pub(super) fn uniqueness(
     }
     if found.springs.is_some() {
         let setting = setting(problem, last);
-        let free = problem.unrestrained_node(&found.config, &found.last.statuses, &setting);
+        let free = problem.search(&found.config, &setting).unrestrained_node(&found.last.statuses);
         match (problem.is_current(), free) {
             (true, node) => return Uniqueness::Unknown { node },
             (false, Some(node)) => return Uniqueness::Indifferent { node },
@@ -88,7 +89,7 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
         return None;
     }
     weak.into_iter().for_each(|i| statuses[i] = Status::Open);
-    problem.unrestrained_node(&found.config, &statuses, setting)
+    problem.search(&found.config, setting).unrestrained_node(&statuses)
 }
 
 fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Other {
@@ -104,18 +105,17 @@ fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Othe
     }
 }
 
-impl Problem<'_> {
+impl StateSearch<'_> {
     /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
     /// there are too many to be tried.
-    pub(super) fn enumerated(
-        &self,
-        config: &Configuration,
-        setting: &Setting,
-    ) -> Option<Vec<Status>> {
-        let all = self.can_enumerate(config, 1).then(|| self.every(config))?;
-        all.into_iter().find(|statuses| self.try_statuses(config, statuses, setting).is_some())
+    pub(super) fn enumerated(&self) -> Option<Vec<Status>> {
+        let StateSearch { problem, config, .. } = self;
+        let all = problem.can_enumerate(config, 1).then(|| problem.every(config))?;
+        all.into_iter().find(|statuses| self.try_statuses(statuses).is_some())
     }
+}
 
+impl Problem<'_> {
     /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
     /// tried.
     pub(super) fn can_enumerate(&self, config: &Configuration, steps: usize) -> bool {
@@ -151,7 +151,7 @@ impl Problem<'_> {
         let scale = step.u.amax();
         let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
         for statuses in states {
-            let Some(solution) = self.try_statuses(&step.config, statuses, &setting) else {
+            let Some(solution) = self.search(&step.config, &setting).try_statuses(statuses) else {
                 continue;
             };
             let apart = |u: &DVector<f64>| (&solution.u - u).amax();

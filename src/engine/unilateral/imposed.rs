@@ -4,8 +4,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, ContactForce, forces};
-use super::problem::{Configuration, Outcome, Problem, Setting, StateSolution};
+use super::problem::{Configuration, Outcome, Problem, StateSolution};
 use super::reduced::{OnSurface, OnWhole, Response};
+use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, Error, NoEquilibrium};
@@ -15,35 +16,33 @@ use problem::model::Dof;
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
 
-impl Problem<'_> {
+impl StateSearch<'_> {
     /// Solves for the displacements and forces under imposed statuses: on the condensed bodies, or where
-    /// that cannot be, or `setting` asks for it, on the whole ones.
+    /// that cannot be, or `self.setting` asks for it, on the whole ones.
     ///
     /// # Errors
     /// No friction agrees with its own normal forces.
     pub(super) fn solve(
         &self,
-        config: &Configuration,
         statuses: &[Status],
         constraints: &[Constraint],
-        setting: &Setting,
     ) -> Result<Outcome, Error> {
-        let load = &setting.load;
-        if !setting.whole
-            && let Some(state) = self.bodies.state(&self.stiffness, constraints)
+        let load = &self.setting.load;
+        if !self.setting.whole
+            && let Some(state) = self.problem.bodies.state(&self.problem.stiffness, constraints)
         {
-            let load = self.bodies.eliminated(&state, load);
+            let load = self.problem.bodies.eliminated(&state, load);
             if let Some(solved) = state.displacements(&load) {
-                return self.solved(config, statuses, solved, &OnSurface { state, load });
+                return self.solved(statuses, solved, &OnSurface { state, load });
             }
         }
-        let t = Elimination::closing(&self.model.restrained, constraints);
-        let whole = OnWhole::new(self, &t, constraints, load);
+        let t = Elimination::closing(&self.problem.model.restrained, constraints);
+        let whole = OnWhole::new(self.problem, &t, constraints, load);
         match whole.and_then(|whole| Ok((whole.displacements()?, whole))) {
-            Ok((solved, whole)) => self.solved(config, statuses, solved, &whole),
+            Ok((solved, whole)) => self.solved(statuses, solved, &whole),
             Err(singular) => {
-                let soft = self.stiffness.reduced(&t).with_diagonal(SOFT);
-                let load = t.load(&self.model.free_part(load));
+                let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
+                let load = t.load(&self.problem.model.free_part(load));
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(Outcome::Free { dof: t.dof(singular.column), motion })
             }
@@ -53,19 +52,18 @@ impl Problem<'_> {
     /// Adds the forces of contact, and what friction does, to the bodies' own displacements.
     fn solved(
         &self,
-        config: &Configuration,
         statuses: &[Status],
         (mut u, residual): (DVector<f64>, f64),
         bodies: &dyn Response,
     ) -> Result<Outcome, Error> {
         let mut reaction = bodies.reaction(&u);
-        let mut forces = self.forces(config, statuses, &reaction);
+        let mut forces = self.problem.forces(self.config, statuses, &reaction);
         let (mut friction, mut feedback) = (Vec::new(), 0.0);
-        if let Some(slide) = self.slide(config, statuses, &forces, bodies)? {
+        if let Some(slide) = self.slide(statuses, &forces, bodies)? {
             let [more, force] = bodies.unshifted(&slide.friction).map_err(|_| jammed())?;
             u += more;
             reaction += force;
-            forces = self.forces(config, statuses, &(&reaction - &slide.friction));
+            forces = self.problem.forces(self.config, statuses, &(&reaction - &slide.friction));
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
@@ -92,7 +90,6 @@ impl Problem<'_> {
     /// No size of the friction agrees with its normal forces.
     fn slide(
         &self,
-        config: &Configuration,
         statuses: &[Status],
         forces: &[ContactForce],
         bodies: &dyn Response,
@@ -100,7 +97,7 @@ impl Problem<'_> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
                 Status::Slip(sense) if sense.sign() != 0.0 => {
-                    Some((i, sense.sign(), config.pairings[i].as_ref()?))
+                    Some((i, sense.sign(), self.config.pairings[i].as_ref()?))
                 }
                 _ => None,
             })
@@ -108,7 +105,7 @@ impl Problem<'_> {
         if sliding.is_empty() {
             return Ok(None);
         }
-        let dofs = self.model.dofs();
+        let dofs = self.problem.model.dofs();
         let unit = ContactForce { tangent: 1.0, ..ContactForce::default() };
         let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(dofs);
@@ -121,14 +118,14 @@ impl Problem<'_> {
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
         for (column, (_, reaction)) in responses.iter().enumerate() {
-            let response = self.forces(config, statuses, reaction);
+            let response = self.problem.forces(self.config, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
-                matrix[(row, column)] += sign * self.friction * response[*i].normal;
+                matrix[(row, column)] += sign * self.problem.friction * response[*i].normal;
             }
         }
         let right = DVector::from_fn(n, |row, _| {
             let (i, sign, _) = sliding[row];
-            -sign * self.friction * forces[i].normal
+            -sign * self.problem.friction * forces[i].normal
         });
         let matrix = matrix.lu();
         let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
@@ -142,7 +139,9 @@ impl Problem<'_> {
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
         Ok(Some(Slide { friction, sizes, feedback }))
     }
+}
 
+impl Problem<'_> {
     /// Returns the forces of all entries; 0 where an entry is open.
     pub(super) fn forces(
         &self,

@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use super::forces::{ContactForce, tangent};
 use super::rigid;
+use super::search::StateSearch;
 use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
@@ -301,7 +302,7 @@ impl<'a> Problem<'a> {
         let before = DVector::zeros(self.model.dofs());
         let setting =
             Setting { load: before.clone(), before: &before, statuses: None, whole: false };
-        rigid::holds(self.model, &self.constraints(config, &statuses, &setting))
+        rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 
     /// Returns the gap of each entry before any load, length.
@@ -320,17 +321,15 @@ impl<'a> Problem<'a> {
         let least = UNSEEN * size(self.model);
         [unseen, inside].map(|deepest| deepest.filter(|(_, depth)| *depth > least))
     }
+}
 
+impl StateSearch<'_> {
     /// Returns the constraints that impose statuses.
-    pub(super) fn constraints(
-        &self,
-        config: &Configuration,
-        statuses: &[Status],
-        setting: &Setting,
-    ) -> Vec<Constraint> {
+    pub(super) fn constraints(&self, statuses: &[Status]) -> Vec<Constraint> {
+        let StateSearch { problem, config, setting } = self;
         let constraint = |(pairing, status): (&Option<Pairing>, &Status)| {
             let pairing = pairing.as_ref().filter(|_| status.is_closed())?;
-            let closing = -pairing.opening(|n| self.model.at(n));
+            let closing = -pairing.opening(|n| problem.model.at(n));
             let motion = match status {
                 Status::Stick => {
                     let ([tx, ty], [bx, by]) =
@@ -339,7 +338,7 @@ impl<'a> Problem<'a> {
                     let [nx, ny] = pairing.normal;
                     Motion::Both([closing * nx + kept * tx, closing * ny + kept * ty])
                 }
-                _ => Motion::Along(pairing.normal, closing),
+                Status::Open | Status::Slip(_) => Motion::Along(pairing.normal, closing),
             };
             Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
         };

@@ -38,7 +38,23 @@ pub(super) const STALLED: f64 = 1e-8;
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
+/// The search for a contact state in one configuration and one setting.
+#[derive(Clone, Copy)]
+pub(super) struct StateSearch<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) config: &'a Configuration,
+    pub(super) setting: &'a Setting<'a>,
+}
+
 impl Problem<'_> {
+    pub(super) fn search<'s>(
+        &'s self,
+        config: &'s Configuration,
+        setting: &'s Setting<'s>,
+    ) -> StateSearch<'s> {
+        StateSearch { problem: self, config, setting }
+    }
+
     /// Finds the equilibrium of a setting in the shape that it leads to.
     pub(super) fn equilibrium(
         &self,
@@ -61,7 +77,8 @@ impl Problem<'_> {
             if before.is_none() {
                 gaps = self.gaps(&config, setting.before);
             }
-            let mut last = self.settle(&config, start, setting, &mut history, &mut keep_first)?;
+            let mut last =
+                self.search(&config, setting).settle(start, &mut history, &mut keep_first)?;
             let change = |last: &Iteration, before: &Option<(StateSolution, f64)>| match before {
                 _ if !self.is_current() => 0.0,
                 Some((solution, _)) => largest((&last.solution.u - &solution.u).as_slice()),
@@ -105,31 +122,13 @@ impl Problem<'_> {
         if found.last.solution.whole {
             return Ok(found);
         }
-        match self.confirm(&found.config, &found.last, setting)? {
+        match self.search(&found.config, setting).confirm(&found.last)? {
             Some(last) => Ok(Equilibrium { last, ..found }),
             None => {
                 let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
                 self.equilibrium(&Setting { load, statuses, ..*setting }, watch)
             }
         }
-    }
-
-    /// Solves a contact state again as `setting` says; None where it asks for other statuses then.
-    pub(super) fn confirm(
-        &self,
-        config: &Configuration,
-        found: &Iteration,
-        setting: &Setting,
-    ) -> Result<Option<Iteration>, Error> {
-        let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
-        let Outcome::Solved(solution) = self.solve(config, &statuses, &constraints, setting)?
-        else {
-            return Ok(None);
-        };
-        let reached = self.completed_iteration(config, (statuses, constraints), cycle, solution);
-        let last = Iteration { choice, ..reached };
-        let wanted = self.wanted(config, &last, setting, false);
-        Ok((wanted == last.statuses).then_some(last))
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
@@ -155,83 +154,14 @@ impl Problem<'_> {
         closing.into_iter().filter_map(part).reduce(f64::min)
     }
 
-    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
-    /// by a fixed point on the bounds of friction, or among all statuses that there are.
-    ///
-    /// # Errors
-    /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
-    pub(super) fn settle(
-        &self,
-        config: &Configuration,
-        start: Option<Vec<Status>>,
-        setting: &Setting,
-        history: &mut History,
-        watch: &mut Watch,
-    ) -> Result<Iteration, Error> {
-        let start = (start.unwrap_or_else(|| self.first(config, setting.before)), Choice::Asked);
-        let found = self.active_set(config, start, setting, history, watch);
-        let Err(Error::Equilibrium(why)) = found else { return found };
-        let escaping = || self.escape(config, &setting.load, self.friction);
-        if !self.is_current()
-            && self.springs == 0.0
-            && let Some(dof) = escaping()
-        {
-            return Err(self.escapes(dof).into());
+    /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
+    pub(super) fn complete(&self, config: &Configuration, iteration: &mut Iteration) {
+        if iteration.solution.interior.is_none() {
+            return;
         }
-        let bounds = self.by_bounds(config, setting).map(|statuses| (statuses, Choice::Bounds));
-        let all =
-            || self.enumerated(config, setting).map(|statuses| (statuses, Choice::Enumerated));
-        let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
-        history.move_on();
-        self.active_set(config, start, setting, history, watch)
-    }
-
-    /// Goes from statuses to those that they ask for, until they ask for themselves.
-    fn active_set(
-        &self,
-        config: &Configuration,
-        (mut statuses, choice): (Vec<Status>, Choice),
-        setting: &Setting,
-        history: &mut History,
-        watch: &mut Watch,
-    ) -> Result<Iteration, Error> {
-        let limit = PATIENCE + self.model.contact.nodes.len();
-        let mut against = String::new();
-        let mut recent: VecDeque<Iteration> = VecDeque::new();
-        for k in 1..=limit {
-            let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
-                Some(known) => known.repeated(history),
-                None => self.iteration(config, statuses, setting, history)?,
-            };
-            if k == 1 {
-                iteration.choice = choice;
-            }
-            let wanted =
-                self.wanted_of_all(config, &mut iteration, setting, history.iterations == 1);
-            watch(config, &iteration);
-            if wanted == iteration.statuses {
-                return Ok(iteration);
-            }
-            if k == limit {
-                self.complete(config, &mut iteration);
-                against = self.against(&iteration, &wanted) + &self.strained(&iteration.solution.u);
-            }
-            statuses = history.next(&iteration.statuses, wanted);
-            if history.one_at_a_time {
-                recent.push_front(iteration);
-                recent.truncate(RETURNING);
-            }
-        }
-        let never_slides = if self.friction.is_infinite() {
-            "; where no node may slide there may be none: give a finite coefficient"
-        } else {
-            ""
-        };
-        let what = format!(
-            "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
-            history.returned()
-        );
-        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
+        iteration.solution.complete();
+        iteration.gaps = self.gaps(config, &iteration.solution.u);
+        iteration.violation = violation(&iteration.gaps, &iteration.statuses);
     }
 
     /// Says why an iteration asks for other statuses, of the first node that is to change.
@@ -244,80 +174,6 @@ impl Problem<'_> {
             _ => "slides or sticks against its friction",
         };
         format!("; in the last, node {} {why}", self.model.contact.nodes[i])
-    }
-
-    fn first(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Status> {
-        let closed = first_closed(&self.gaps(config, u), self.closed);
-        let status = |i: usize| if closed[i] { self.closing(config, i) } else { Status::Open };
-        (0..closed.len()).map(status).collect()
-    }
-
-    /// Returns the statuses that an iteration asks for, and where these are its own as far as the
-    /// surfaces are known, looks at the whole bodies too.
-    fn wanted_of_all(
-        &self,
-        config: &Configuration,
-        iteration: &mut Iteration,
-        setting: &Setting,
-        first: bool,
-    ) -> Vec<Status> {
-        let wanted = self.wanted(config, iteration, setting, first);
-        if wanted == iteration.statuses && !iteration.knows_surfaces() {
-            self.complete(config, iteration);
-            return self.wanted(config, iteration, setting, first);
-        }
-        wanted
-    }
-
-    /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
-    pub(super) fn complete(&self, config: &Configuration, iteration: &mut Iteration) {
-        if iteration.solution.interior.is_none() {
-            return;
-        }
-        iteration.solution.complete();
-        iteration.gaps = self.gaps(config, &iteration.solution.u);
-        iteration.violation = violation(&iteration.gaps, &iteration.statuses);
-    }
-
-    /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
-    pub(super) fn wanted(
-        &self,
-        config: &Configuration,
-        iteration: &Iteration,
-        setting: &Setting,
-        first: bool,
-    ) -> Vec<Status> {
-        let growth = first && setting.statuses.is_none();
-        let deep = if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.closed);
-        let rounding = CONE * largest(iteration.solution.u.as_slice());
-        let forces = iteration.solution.forces.iter().map(|f| f.normal);
-        let most = forces.fold(largest(setting.load.as_slice()), f64::max);
-        let status = |i: usize| {
-            let (Some(pairing), Some(gap)) = (&config.pairings[i], iteration.gaps[i]) else {
-                return Status::Open;
-            };
-            let ContactForce { normal, tangent, undetermined } = iteration.solution.forces[i];
-            let pulls = normal < -ROUNDING_OF_A_FORCE * most;
-            match iteration.statuses[i] {
-                Status::Open if gap < -deep => self.closing(config, i),
-                Status::Open => Status::Open,
-                Status::Stick | Status::Slip(_) if pulls => Status::Open,
-                Status::Stick | Status::Slip(_) if undetermined && gap > self.closed => {
-                    Status::Open
-                }
-                // A normal force may be less than nothing by rounding.
-                Status::Stick if tangent.abs() > self.friction * normal.abs() * (1.0 + CONE) => {
-                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
-                }
-                Status::Slip(sense)
-                    if sense.sign() * self.slip(pairing, iteration, setting) < -rounding =>
-                {
-                    Status::Stick
-                }
-                kept @ (Status::Stick | Status::Slip(_)) => kept,
-            }
-        };
-        (0..iteration.statuses.len()).map(status).collect()
     }
 
     /// Returns the least force of a node in contact, and the least friction that one that sticks has
@@ -334,11 +190,154 @@ impl Problem<'_> {
         };
         pairs().map(left).fold(f64::INFINITY, f64::min) / largest
     }
+}
+
+impl StateSearch<'_> {
+    /// Solves a contact state again as the setting says; None where it asks for other statuses then.
+    pub(super) fn confirm(&self, found: &Iteration) -> Result<Option<Iteration>, Error> {
+        let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
+        let Outcome::Solved(solution) = self.solve(&statuses, &constraints)? else {
+            return Ok(None);
+        };
+        let reached = self.completed_iteration((statuses, constraints), cycle, solution);
+        let last = Iteration { choice, ..reached };
+        let wanted = self.wanted(&last, false);
+        Ok((wanted == last.statuses).then_some(last))
+    }
+
+    /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
+    /// by a fixed point on the bounds of friction, or among all statuses that there are.
+    ///
+    /// # Errors
+    /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
+    pub(super) fn settle(
+        &self,
+        start: Option<Vec<Status>>,
+        history: &mut History,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let start = (start.unwrap_or_else(|| self.first_statuses()), Choice::Asked);
+        let found = self.active_set(start, history, watch);
+        let Err(Error::Equilibrium(why)) = found else { return found };
+        let problem = self.problem;
+        if !problem.is_current()
+            && problem.springs == 0.0
+            && let Some(dof) = problem.escape(self.config, &self.setting.load, problem.friction)
+        {
+            return Err(problem.escapes(dof).into());
+        }
+        let bounds = self.by_bounds().map(|statuses| (statuses, Choice::Bounds));
+        let all = || self.enumerated().map(|statuses| (statuses, Choice::Enumerated));
+        let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
+        history.move_on();
+        self.active_set(start, history, watch)
+    }
+
+    /// Goes from statuses to those that they ask for, until they ask for themselves.
+    fn active_set(
+        &self,
+        (mut statuses, choice): (Vec<Status>, Choice),
+        history: &mut History,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let limit = PATIENCE + self.problem.model.contact.nodes.len();
+        let mut against = String::new();
+        let mut recent: VecDeque<Iteration> = VecDeque::new();
+        for k in 1..=limit {
+            let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
+                Some(known) => known.repeated(history),
+                None => self.iteration(statuses, history)?,
+            };
+            if k == 1 {
+                iteration.choice = choice;
+            }
+            let wanted = self.wanted_of_all(&mut iteration, history.iterations == 1);
+            watch(self.config, &iteration);
+            if wanted == iteration.statuses {
+                return Ok(iteration);
+            }
+            if k == limit {
+                self.problem.complete(self.config, &mut iteration);
+                against = self.problem.against(&iteration, &wanted)
+                    + &self.problem.strained(&iteration.solution.u);
+            }
+            statuses = history.next(&iteration.statuses, wanted);
+            if history.one_at_a_time {
+                recent.push_front(iteration);
+                recent.truncate(RETURNING);
+            }
+        }
+        let never_slides = if self.problem.friction.is_infinite() {
+            "; where no node may slide there may be none: give a finite coefficient"
+        } else {
+            ""
+        };
+        let what = format!(
+            "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
+            history.returned()
+        );
+        Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
+    }
+
+    fn first_statuses(&self) -> Vec<Status> {
+        let gaps = self.problem.gaps(self.config, self.setting.before);
+        let closed = first_closed(&gaps, self.problem.closed);
+        let status =
+            |i: usize| if closed[i] { self.problem.closing(self.config, i) } else { Status::Open };
+        (0..closed.len()).map(status).collect()
+    }
+
+    /// Returns the statuses that an iteration asks for, and where these are its own as far as the
+    /// surfaces are known, looks at the whole bodies too.
+    fn wanted_of_all(&self, iteration: &mut Iteration, first: bool) -> Vec<Status> {
+        let wanted = self.wanted(iteration, first);
+        if wanted == iteration.statuses && !iteration.knows_surfaces() {
+            self.problem.complete(self.config, iteration);
+            return self.wanted(iteration, first);
+        }
+        wanted
+    }
+
+    /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
+    pub(super) fn wanted(&self, iteration: &Iteration, first: bool) -> Vec<Status> {
+        let growth = first && self.setting.statuses.is_none();
+        let deep =
+            if growth { FIRST_GROWTH * iteration.violation } else { 0.0 }.max(self.problem.closed);
+        let rounding = CONE * largest(iteration.solution.u.as_slice());
+        let forces = iteration.solution.forces.iter().map(|f| f.normal);
+        let most = forces.fold(largest(self.setting.load.as_slice()), f64::max);
+        let status = |i: usize| {
+            let (Some(pairing), Some(gap)) = (&self.config.pairings[i], iteration.gaps[i]) else {
+                return Status::Open;
+            };
+            let ContactForce { normal, tangent, undetermined } = iteration.solution.forces[i];
+            let pulls = normal < -ROUNDING_OF_A_FORCE * most;
+            match iteration.statuses[i] {
+                Status::Open if gap < -deep => self.problem.closing(self.config, i),
+                Status::Open => Status::Open,
+                Status::Stick | Status::Slip(_) if pulls => Status::Open,
+                Status::Stick | Status::Slip(_) if undetermined && gap > self.problem.closed => {
+                    Status::Open
+                }
+                // A normal force may be less than nothing by rounding.
+                Status::Stick
+                    if tangent.abs() > self.problem.friction * normal.abs() * (1.0 + CONE) =>
+                {
+                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
+                }
+                Status::Slip(sense) if sense.sign() * self.slip(pairing, iteration) < -rounding => {
+                    Status::Stick
+                }
+                kept @ (Status::Stick | Status::Slip(_)) => kept,
+            }
+        };
+        (0..iteration.statuses.len()).map(status).collect()
+    }
 
     /// Returns how far a node slipped along the tangent in a step of the load, length.
-    fn slip(&self, pairing: &Pairing, iteration: &Iteration, setting: &Setting) -> f64 {
+    fn slip(&self, pairing: &Pairing, iteration: &Iteration) -> f64 {
         let [ux, uy] = pairing.motion(|n| n.of(&iteration.solution.u));
-        let [bx, by] = pairing.motion(|n| n.of(setting.before));
+        let [bx, by] = pairing.motion(|n| n.of(self.setting.before));
         let [tx, ty] = tangent(pairing);
         tx * (ux - bx) + ty * (uy - by)
     }
@@ -346,40 +345,40 @@ impl Problem<'_> {
     /// Imposes `statuses`, or more closed nodes where they do not restrain the bodies.
     fn iteration(
         &self,
-        config: &Configuration,
         mut statuses: Vec<Status>,
-        setting: &Setting,
         history: &mut History,
     ) -> Result<Iteration, Error> {
-        for (status, pairing) in statuses.iter_mut().zip(&*config.pairings) {
+        for (status, pairing) in statuses.iter_mut().zip(&*self.config.pairings) {
             if pairing.is_none() {
                 *status = Status::Open;
             }
         }
         let (constraints, solution) = loop {
-            let constraints = self.constraints(config, &statuses, setting);
-            match self.solve(config, &statuses, &constraints, setting)? {
+            let constraints = self.constraints(&statuses);
+            match self.solve(&statuses, &constraints)? {
                 Outcome::Solved(solution) => break (constraints, solution),
                 Outcome::Free { dof, motion } => {
-                    if !self.restrain_more(config, &mut statuses, setting, motion) {
-                        return Err(self.unrestrained(&config.pairings, &constraints, dof).into());
+                    if !self.restrain_more(&mut statuses, motion) {
+                        return Err(self
+                            .problem
+                            .unrestrained(&self.config.pairings, &constraints, dof)
+                            .into());
                     }
                 }
             }
         };
         let cycle = history.keep(&statuses);
-        Ok(self.completed_iteration(config, (statuses, constraints), cycle, solution))
+        Ok(self.completed_iteration((statuses, constraints), cycle, solution))
     }
 
     /// Returns the iteration that imposed statuses by constraints and led to `solution`.
     pub(super) fn completed_iteration(
         &self,
-        config: &Configuration,
         (statuses, constraints): (Vec<Status>, Vec<Constraint>),
         cycle: Option<Cycle>,
         solution: StateSolution,
     ) -> Iteration {
-        let gaps = self.known_gaps(config, &solution);
+        let gaps = self.problem.known_gaps(self.config, &solution);
         let violation = violation(&gaps, &statuses);
         Iteration {
             statuses,
@@ -390,22 +389,16 @@ impl Problem<'_> {
             violation,
             returned: false,
             choice: Choice::Asked,
-            springs: self.springs,
+            springs: self.problem.springs,
         }
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.
-    fn restrain_more(
-        &self,
-        config: &Configuration,
-        statuses: &mut [Status],
-        setting: &Setting,
-        motion: Option<DVector<f64>>,
-    ) -> bool {
-        let gaps = self.gaps(config, setting.before);
-        let first = motion.and_then(|u| next_closed(statuses, &gaps, &config.pairings, &u));
+    fn restrain_more(&self, statuses: &mut [Status], motion: Option<DVector<f64>>) -> bool {
+        let gaps = self.problem.gaps(self.config, self.setting.before);
+        let first = motion.and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
         let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
-        more.iter().for_each(|&i| statuses[i] = self.closing(config, i));
+        more.iter().for_each(|&i| statuses[i] = self.problem.closing(self.config, i));
         if !more.is_empty() {
             return true;
         }
@@ -414,22 +407,16 @@ impl Problem<'_> {
     }
 
     /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
-    pub(super) fn try_statuses(
-        &self,
-        config: &Configuration,
-        statuses: &[Status],
-        setting: &Setting,
-    ) -> Option<StateSolution> {
-        let constraints = self.constraints(config, statuses, setting);
-        let Ok(Outcome::Solved(solution)) = self.solve(config, statuses, &constraints, setting)
-        else {
+    pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
+        let constraints = self.constraints(statuses);
+        let Ok(Outcome::Solved(solution)) = self.solve(statuses, &constraints) else {
             return None;
         };
         let mut iteration =
-            self.completed_iteration(config, (statuses.to_vec(), constraints), None, solution);
-        let wanted = self.wanted_of_all(config, &mut iteration, setting, false);
+            self.completed_iteration((statuses.to_vec(), constraints), None, solution);
+        let wanted = self.wanted_of_all(&mut iteration, false);
         (wanted == iteration.statuses).then(|| {
-            self.complete(config, &mut iteration);
+            self.problem.complete(self.config, &mut iteration);
             iteration.solution
         })
     }

@@ -61,7 +61,7 @@ impl Problem<'_> {
             config = self.configuration(&u);
             let load = &setting.load + self.force_of(&springs, &u);
             let own = Setting { load, ..*setting };
-            let settled = springs.settle(&config, statuses, &own, &mut history, watch);
+            let settled = springs.search(&config, &own).settle(statuses, &mut history, watch);
             let mut last = settled.map_err(|why| why.prefixed("on springs "))?;
             springs.complete(&config, &mut last);
             let moved = &last.solution.u - &u;
@@ -75,7 +75,7 @@ impl Problem<'_> {
             least = least.min(carried);
             if carried <= SETTLED && change <= STALLED * largest(last.solution.u.as_slice()) {
                 let setting = Setting { whole: true, ..own };
-                if let Some(last) = springs.confirm(&config, &last, &setting)? {
+                if let Some(last) = springs.search(&config, &setting).confirm(&last)? {
                     let (closing, springs) = (None, Some(carried));
                     return Ok(Equilibrium {
                         config,

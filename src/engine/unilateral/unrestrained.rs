@@ -3,8 +3,9 @@
 use nalgebra::DVector;
 
 use super::path::part_of_load;
-use super::problem::{Configuration, Problem, Setting};
+use super::problem::{Configuration, Problem};
 use super::rigid;
+use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, NoEquilibrium};
@@ -169,17 +170,14 @@ impl Problem<'_> {
             "restrain that motion, or let the surfaces rub or stick (\"friction\": \"stick\")";
         InputError::new("restraints, contact.friction", what, fix)
     }
+}
 
+impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
-    pub(super) fn unrestrained_node(
-        &self,
-        config: &Configuration,
-        statuses: &[Status],
-        setting: &Setting,
-    ) -> Option<NodeId> {
-        let constraints = self.constraints(config, statuses, setting);
-        let t = Elimination::closing(&self.model.restrained, &constraints);
-        let singular = SparseCholesky::new(self.stiffness.reduced(&t)).err()?;
+    pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
+        let Problem { model, stiffness, .. } = self.problem;
+        let t = Elimination::closing(&model.restrained, &self.constraints(statuses));
+        let singular = SparseCholesky::new(stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())
     }
 }
