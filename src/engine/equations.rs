@@ -36,12 +36,12 @@ enum Assembly<T> {
 
 /// The parts of the equations that every iteration of a run shares.
 pub(super) struct Equations<'a, T> {
-    request: &'a Request,
-    model: &'a Arc<Model>,
-    sheet: &'a Worksheet<T>,
+    pub request: &'a Request,
+    pub model: &'a Arc<Model>,
+    pub sheet: &'a Worksheet<T>,
     assembly: Assembly<T>,
-    /// What executes an edited `Km`; None where no listing is edited.
-    interpreter: Option<&'a Interpreter>,
+    /// What executes the edited listings; None where no listing is edited.
+    pub interpreter: Option<&'a Interpreter>,
     /// The stiffness, triangle by triangle.
     pub stiffness: Stiffness<T>,
     /// Whether the run takes each degree of freedom as restrained.

@@ -63,8 +63,15 @@ pub(super) fn published<T: SparseScalar>(
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let equations = Equations::new(request, &model, &sheet, session, interpreter, &number)?;
-    let mut run = Run::new(request, &model, &sheet, interpreter, equations)?;
+    let is_mortar =
+        request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed;
+    let mut run = Run {
+        equations: Equations::new(request, &model, &sheet, session, interpreter, &number)?,
+        surfaces: is_mortar.then(|| Surfaces::new(&model)).transpose()?,
+        u: DVector::from_element(model.dofs(), T::zero()),
+        support: [T::zero(), T::zero()],
+        visited: Vec::new(),
+    };
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
@@ -165,11 +172,6 @@ fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), Inpu
 
 /// The state of a run that an iteration needs of those before it.
 struct Run<'a, T> {
-    request: &'a Request,
-    model: &'a Arc<Model>,
-    sheet: &'a Worksheet<T>,
-    /// What executes the edited listings; None where there is none.
-    interpreter: Option<&'a Interpreter>,
     /// The equations of every iteration.
     equations: Equations<'a, T>,
     /// The surfaces that mortar needs; None under `nts`.
@@ -205,31 +207,7 @@ struct FoundState<T> {
     undecided: Option<Vec<Decision>>,
 }
 
-impl<'a, T: SparseScalar> Run<'a, T> {
-    fn new(
-        request: &'a Request,
-        model: &'a Arc<Model>,
-        sheet: &'a Worksheet<T>,
-        interpreter: Option<&'a Interpreter>,
-        equations: Equations<'a, T>,
-    ) -> Result<Self, Error> {
-        let mortar = request.contact.coupling == Coupling::Mortar;
-        let surfaces = (mortar && request.variant != Variant::Printed)
-            .then(|| Surfaces::new(model))
-            .transpose()?;
-        Ok(Run {
-            request,
-            model,
-            sheet,
-            interpreter,
-            equations,
-            surfaces,
-            u: DVector::from_element(model.dofs(), T::zero()),
-            support: [T::zero(), T::zero()],
-            visited: Vec::new(),
-        })
-    }
-
+impl<T: SparseScalar> Run<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search(k)?;
         let k_cnt = not_zero(&found.pairs.k_cnt);
@@ -250,45 +228,41 @@ impl<'a, T: SparseScalar> Run<'a, T> {
 
     /// Finds the contact state in the current shape in iteration `k`.
     fn search(&self, k: usize) -> Result<FoundState<T>, Error> {
-        let node_n = door::moved(self.sheet, &self.u);
-        let reading = &self.request.reading;
+        let Equations { request, model, sheet, interpreter, .. } = self.equations;
+        let node_n = door::moved(sheet, &self.u);
+        let reading = &request.reading;
         let keeps_bound = T::zero().error_bound().is_some();
-        if !self.model.has_contact() {
+        if !model.has_contact() {
             // Without contact `c_cnt` is not called.
-            let pairs = Pairs::none(self.sheet.R());
+            let pairs = Pairs::none(sheet.R());
             let undecided = keeps_bound.then(Vec::new);
-            return Ok(FoundState {
-                node_n,
-                pairs,
-                constraints: vec![],
-                places: vec![],
-                undecided,
-            });
+            let (constraints, places) = (Vec::new(), Vec::new());
+            return Ok(FoundState { node_n, pairs, constraints, places, undecided });
         }
-        let rule = self.request.contact.status;
-        let by_listing = self.request.decides_by_listing();
-        let edited = self.interpreter.and_then(|interpreter| interpreter.c_cnt(&node_n));
+        let rule = request.contact.status;
+        let by_listing = request.decides_by_listing();
+        let edited = interpreter.and_then(|edited| edited.c_cnt(&node_n));
         let pairs = if let Some(pairs) = edited {
             pairs?
         } else if by_listing {
-            c_cnt(self.sheet, reading, &node_n)?
+            c_cnt(sheet, reading, &node_n)?
         } else {
-            let found = status::statuses(rule, self.model, self.sheet, reading, &node_n)?;
-            door::pairs(self.model, self.sheet, reading, &node_n, &found)?
+            let found = status::statuses(rule, model, sheet, reading, &node_n)?;
+            door::pairs(model, sheet, reading, &node_n, &found)?
         };
         let undecided = if !keeps_bound {
             None
         } else if by_listing {
-            Some(decisions(self.sheet, reading, &node_n, &pairs, k))
+            Some(decisions(sheet, reading, &node_n, &pairs, k))
         } else {
-            Some(status::decisions(rule, self.model, self.sheet, reading, &node_n, k)?)
+            Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
         };
-        let linked = door::linked(self.sheet, &pairs);
-        let places = if self.request.is_edited(Which::CCnt) {
+        let linked = door::linked(sheet, &pairs);
+        let places = if request.is_edited(Which::CCnt) {
             // Its weights are its own, wherever it takes them from.
             linked.clone()
         } else {
-            door::on_edges(self.sheet, &pairs, reading, &node_n)?
+            door::on_edges(sheet, &pairs, reading, &node_n)?
         };
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
         let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
@@ -307,7 +281,8 @@ impl<'a, T: SparseScalar> Run<'a, T> {
         k: usize,
     ) -> Vec<Decision> {
         let Some(surfaces) = &self.surfaces else { return Vec::new() };
-        let shape = door::shape(mirror::weights_from(self.sheet, &self.request.reading, node_n));
+        let Equations { request, sheet, .. } = self.equations;
+        let shape = door::shape(mirror::weights_from(sheet, &request.reading, node_n));
         let Mortar { pairings, mut unsure } = surfaces.mortar(&shape);
         for pairing in pairings.into_iter().flatten() {
             for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {
@@ -321,7 +296,7 @@ impl<'a, T: SparseScalar> Run<'a, T> {
 
     /// Advances from one shape to the next.
     fn advance(&mut self, solved: &Increment<T>) {
-        match self.request.schedule() {
+        match self.equations.request.schedule() {
             Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
             Schedule::Stepped => {
                 self.u += &solved.u;
@@ -338,7 +313,7 @@ impl<'a, T: SparseScalar> Run<'a, T> {
         solved: &Increment<T>,
     ) -> Step {
         let FoundState { node_n, pairs, constraints, places, undecided } = found;
-        let bound: &[Constraint<T>] = match self.request.variant {
+        let bound: &[Constraint<T>] = match self.equations.request.variant {
             Variant::Printed => &[],
             _ => constraints,
         };
@@ -353,7 +328,10 @@ impl<'a, T: SparseScalar> Run<'a, T> {
             in_contact: pairs.dy.iter().sum(),
             max_displacement: Some(max_displacement(&self.u)),
             cycle,
-            target_force: Some(transmitted_force(self.model, self.support.map(T::to_f64))),
+            target_force: Some(transmitted_force(
+                self.equations.model,
+                self.support.map(T::to_f64),
+            )),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),
@@ -379,23 +357,23 @@ impl<'a, T: SparseScalar> Run<'a, T> {
 
     /// Returns the contact surface at the end.
     fn contact(&self, in_contact: &[bool]) -> Result<Vec<ContactNode>, InputError> {
-        if !self.model.has_contact() {
+        if !self.equations.model.has_contact() {
             return Ok(Vec::new());
         }
-        let surfaces = Surfaces::new(self.model)?;
-        let shape = numbers(&door::shape(&door::moved(self.sheet, &self.u)));
+        let surfaces = Surfaces::new(self.equations.model)?;
+        let shape = numbers(&door::shape(&door::moved(self.equations.sheet, &self.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let reaction = self.equations.reaction(&self.u).map(T::to_f64);
-        let eliminated = self.request.variant != Variant::Printed;
+        let eliminated = self.equations.request.variant != Variant::Printed;
         let traction = Traction {
-            model: self.model,
+            model: self.equations.model,
             surfaces: &surfaces,
             pairings: &pairings,
             gaps: &pairings.iter().map(|p| p.as_ref().map(|p| p.gap)).collect::<Vec<_>>(),
             measured_in: &shape,
             in_contact,
             statuses: None,
-            forces: &reactions(self.model, &pairings, &reaction, eliminated),
+            forces: &reactions(self.equations.model, &pairings, &reaction, eliminated),
         };
         Ok(traction.nodes())
     }

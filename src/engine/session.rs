@@ -24,6 +24,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::fast::condensation::{Condensation, Factored, few_surfaces};
 use super::stiffness::Stiffness;
 use base::error::InputError;
+use base::memory;
 use problem::model::{Model, NodeId};
 
 type Nodes = BTreeSet<NodeId>;
@@ -88,19 +89,15 @@ impl Session {
         lock(&self.0.condensed.0).clear();
     }
 
-    /// Checks that `needed` bytes are free by `check`, unless as many were before: what is no longer
-    /// free may be what the session keeps.
+    /// Checks that the mesh of `whose` equations has the `needed` bytes, unless as many were free before:
+    /// what is no longer free may be what the session keeps.
     ///
     /// # Errors
-    /// The error of `check`.
-    pub(super) fn check_room(
-        &self,
-        needed: f64,
-        check: impl FnOnce() -> Result<(), InputError>,
-    ) -> Result<(), InputError> {
+    /// Says how much it needs where that is not free.
+    pub(super) fn check_room(&self, needed: f64, whose: &str) -> Result<(), InputError> {
         let mut room = lock(&self.0.room);
         if needed > *room {
-            check()?;
+            memory::check_bytes(needed, "the mesh", whose, memory::FIX)?;
             *room = needed;
         }
         Ok(())

@@ -111,10 +111,8 @@ fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> 
     let whose =
         format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
     memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
-    let equations = model.free_dofs();
-    let needed = Bytes::of(request, model).total();
-    let whose = format!("{equations} free equations");
-    session.check_room(needed, || memory::check_bytes(needed, "the mesh", &whose, memory::FIX))
+    let whose = format!("{} free equations", model.free_dofs());
+    session.check_room(Bytes::of(request, model).total(), &whose)
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

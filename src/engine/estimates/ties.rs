@@ -216,16 +216,10 @@ impl<'a> StateCheck<'a> {
         let deep = FIRST_GROWTH * violation;
         if state.step.k == 1 && deep > gap.error() {
             let beyond = gap + Bounded::from_f64(deep);
-            let condition = || format!("gap > -{FIRST_GROWTH} of the deepest penetration");
+            let condition = format!("gap > -{FIRST_GROWTH} of the deepest penetration");
             self.add_if_unsure(state, pairing, condition, beyond, false);
         } else {
-            self.add_if_unsure(
-                state,
-                pairing,
-                || "touches without force: gap > 0".into(),
-                gap,
-                true,
-            );
+            self.add_if_unsure(state, pairing, "touches without force: gap > 0", gap, true);
         }
     }
 
@@ -249,24 +243,23 @@ impl<'a> StateCheck<'a> {
         };
         let no_shear = shear.to_f64().abs() <= shear.error();
         if is_unsure(pressed) && no_shear {
-            let condition = || "touches without force: force >= 0".into();
+            let condition = "touches without force: force >= 0";
             return self.add_if_unsure(state, pairing, condition, pressed, true);
         }
-        self.add_if_unsure(state, pairing, || "force >= 0".into(), pressed, false);
+        self.add_if_unsure(state, pairing, "force >= 0", pressed, false);
         let coefficient = self.solution.request.contact.friction.coefficient();
         match status {
             Status::Stick if coefficient.is_finite() => {
                 let limit = Bounded::from_f64(coefficient) * pressed - Scalar::abs(shear);
-                let condition = || "friction * force >= |shear|".into();
-                self.add_if_unsure(state, pairing, condition, limit, false);
+                self.add_if_unsure(state, pairing, "friction * force >= |shear|", limit, false);
             }
             Status::Slip(sense) if sense.sign() != 0.0 => {
                 let [sx, sy] = pairing.map(Bounded::from_f64).motion(|node| {
                     let [[ux, uy], [bx, by]] = [state.u, state.before].map(|u| node.of(u));
                     [ux - bx, uy - by]
                 });
-                let condition = || "slips without slip: slip > 0".into();
-                self.add_if_unsure(state, pairing, condition, nx * sy - ny * sx, true);
+                let slip = nx * sy - ny * sx;
+                self.add_if_unsure(state, pairing, "slips without slip: slip > 0", slip, true);
             }
             _ => (),
         }
@@ -277,7 +270,7 @@ impl<'a> StateCheck<'a> {
         &mut self,
         state: &BoundedState,
         pairing: &Pairing,
-        condition: impl Fn() -> String,
+        condition: impl Into<String>,
         x: Bounded,
         is_tie: bool,
     ) {
@@ -286,7 +279,7 @@ impl<'a> StateCheck<'a> {
         if counts && is_unsure(x) {
             let by = Unsure { margin: x.to_f64().abs(), bound: x.error() };
             self.only_ties &= is_tie;
-            self.decisions.push(Decision::unsure(state.step.k, pairing.node, condition(), by));
+            self.decisions.push(Decision::unsure(state.step.k, pairing.node, condition.into(), by));
         }
     }
 
