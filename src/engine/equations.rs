@@ -140,9 +140,10 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
                             .into_sparse(),
                     };
                     let matrix = door::holding_dropped(self.model, matrix);
-                    let solved = match solver {
-                        Solver::SparseLu => T::solve_sparse(&matrix, &self.f),
-                        _ => T::solve(matrix.dense(), &self.f, solver, tol),
+                    let solved = if solver == Solver::SparseLu {
+                        T::solve_sparse(&matrix, &self.f)
+                    } else {
+                        T::solve(matrix.dense(), &self.f, solver, tol)
                     };
                     solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
                 })?;

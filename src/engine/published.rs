@@ -315,7 +315,7 @@ impl<T: SparseScalar> Run<'_, T> {
         let FoundState { node_n, pairs, constraints, places, undecided } = found;
         let bound: &[Constraint<T>] = match self.equations.request.variant {
             Variant::Printed => &[],
-            _ => constraints,
+            Variant::Tied | Variant::Stepped | Variant::Unilateral => constraints,
         };
         let residual = |u: &DVector<T>| match &self.surfaces {
             Some(_) => eq1_residual(constraints.iter().map(|c| (c.node, &c.masters[..])), u),
@@ -412,7 +412,9 @@ fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
     let why = match scalar {
         ScalarName::Exact => "its integrals take square roots",
         ScalarName::F32 => "its integrals lose too many digits",
-        _ => return Ok(()),
+        ScalarName::F64 | ScalarName::F64x2 | ScalarName::Bounded | ScalarName::BoundedDouble => {
+            return Ok(());
+        }
     };
     let what = format!("mortar coupling does not run in {scalar}: {why}");
     Err(InputError::new("--scalar", what, "use f64 or f64x2, or --coupling nts"))

@@ -123,7 +123,7 @@ fn blamed(request: &Request, why: Error) -> Error {
     let rounded = match why {
         Error::Singular(_) => scalar != ScalarName::Exact,
         Error::Listing(_) => scalar == ScalarName::F32,
-        _ => false,
+        Error::Input(_) | Error::Execution(_) | Error::Equilibrium(_) => false,
     };
     let more = more_precise(request).filter(|more| rounded && *more != scalar);
     let Some(more) = more else { return why };

@@ -213,7 +213,8 @@ pub(super) fn takes_sparse(solver: Solver, scalar: ScalarName) -> bool {
     use ScalarName::{Exact, F32, F64, F64x2};
     match solver {
         Solver::SparseCholesky => scalar != Exact,
-        _ => solver.iterates() && matches!(scalar, F32 | F64 | F64x2),
+        Solver::Cg | Solver::Refined => matches!(scalar, F32 | F64 | F64x2),
+        Solver::DenseLu | Solver::SparseLu | Solver::DenseCholesky => false,
     }
 }
 
@@ -222,13 +223,17 @@ pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
     let solver = arithmetic.solver(variant == Variant::Printed);
     // K beside the matrix of the iteration.
     let beside = usize::from(variant != Variant::Printed);
+    if variant == Variant::Unilateral {
+        return 0;
+    }
     match solver {
-        _ if variant == Variant::Unilateral => 0,
         // Factored in its place.
         Solver::DenseLu if arithmetic.scalar == ScalarName::F64 => 1 + beside,
         Solver::DenseLu | Solver::DenseCholesky => 2 + beside,
         Solver::SparseLu => 2 * beside,
-        _ if beside == 1 && takes_sparse(solver, arithmetic.scalar) => 0,
-        _ => 1 + beside,
+        Solver::SparseCholesky | Solver::Cg | Solver::Refined => {
+            let is_sparse = beside == 1 && takes_sparse(solver, arithmetic.scalar);
+            if is_sparse { 0 } else { 1 + beside }
+        }
     }
 }

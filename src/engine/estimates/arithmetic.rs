@@ -110,14 +110,17 @@ pub(super) fn published_rounding(
     continues: &mut dyn FnMut(&Step) -> bool,
 ) -> Option<Rounding> {
     let request = &solution.request;
-    (request.variant != Variant::Unilateral).then(|| match request.arithmetic.scalar {
-        // What is rounded is the displacements themselves, to be written as f64.
-        ScalarName::Exact => Rounding {
-            displacement: Some(solution.u.amax() * f64::EPSILON / 2.0),
-            decisions: Some(Vec::new()),
-            steps: solution.steps.iter().map(written).collect(),
-        },
-        _ => repeated_run_rounding(solution, session, continues),
+    if request.variant == Variant::Unilateral {
+        return None;
+    }
+    if request.arithmetic.scalar != ScalarName::Exact {
+        return Some(repeated_run_rounding(solution, session, continues));
+    }
+    // What is rounded is the displacements themselves, to be written as f64.
+    Some(Rounding {
+        displacement: Some(solution.u.amax() * f64::EPSILON / 2.0),
+        decisions: Some(Vec::new()),
+        steps: solution.steps.iter().map(written).collect(),
     })
 }
 
@@ -287,7 +290,9 @@ fn bounded_run(
     let arithmetic = Arithmetic {
         scalar: match own.scalar {
             ScalarName::F64x2 | ScalarName::BoundedDouble => ScalarName::BoundedDouble,
-            _ => ScalarName::Bounded,
+            ScalarName::F32 | ScalarName::F64 | ScalarName::Bounded | ScalarName::Exact => {
+                ScalarName::Bounded
+            }
         },
         inputs: own.inputs,
         ..Arithmetic::default()

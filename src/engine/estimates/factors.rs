@@ -33,7 +33,9 @@ impl StateFactors {
         let t = match solution.request.variant {
             Variant::Printed if model.has_contact() => return None,
             Variant::Unilateral => Elimination::closing(&model.restrained, constraints),
-            _ => Elimination::new(&model.restrained, constraints),
+            Variant::Printed | Variant::Tied | Variant::Stepped => {
+                Elimination::new(&model.restrained, constraints)
+            }
         };
         let stiffness = session.stiffness(model);
         let kept = solution.kept.clone();

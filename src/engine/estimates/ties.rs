@@ -261,7 +261,7 @@ impl<'a> StateCheck<'a> {
                 let slip = nx * sy - ny * sx;
                 self.add_if_unsure(state, pairing, "slips without slip: slip > 0", slip, true);
             }
-            _ => (),
+            Status::Open | Status::Stick | Status::Slip(_) => (),
         }
     }
 

@@ -99,7 +99,7 @@ impl StateSearch<'_> {
                 Status::Slip(sense) if sense.sign() != 0.0 => {
                     Some((i, sense.sign(), self.config.pairings[i].as_ref()?))
                 }
-                _ => None,
+                Status::Open | Status::Stick | Status::Slip(_) => None,
             })
             .collect();
         if sliding.is_empty() {

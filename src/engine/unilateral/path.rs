@@ -75,12 +75,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     for step in 1..=total {
         let to = step as f64 / per_stage as f64;
         let equilibrium = run.step_of_path(&point, to).map_err(|why| {
-            let slides = match &why {
-                Error::Equilibrium(_) if with_friction => {
-                    problem.slides(&point.u, [point.load, to])
-                }
-                _ => None,
-            };
+            let may_slide = with_friction && matches!(why, Error::Equilibrium(_));
+            let slides = may_slide.then(|| problem.slides(&point.u, [point.load, to])).flatten();
             slides.map_or_else(|| with_load(why, to, stages, step == total), Error::from)
         })?;
         problem.in_range([&point.u, &equilibrium.last.solution.u], [point.load, to])?;

@@ -170,8 +170,10 @@ impl Problem<'_> {
         let Some(i) = change else { return String::new() };
         let why = match (iteration.statuses[i], wanted[i]) {
             (Status::Open, _) => "is open inside the target",
-            (_, Status::Open) => "is closed and pulls",
-            _ => "slides or sticks against its friction",
+            (Status::Stick | Status::Slip(_), Status::Open) => "is closed and pulls",
+            (Status::Stick | Status::Slip(_), Status::Stick | Status::Slip(_)) => {
+                "slides or sticks against its friction"
+            }
         };
         format!("; in the last, node {} {why}", self.model.contact.nodes[i])
     }
@@ -186,7 +188,7 @@ impl Problem<'_> {
             Status::Stick if self.friction.is_finite() => {
                 force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
             }
-            _ => force.normal.abs(),
+            Status::Stick | Status::Slip(_) => force.normal.abs(),
         };
         pairs().map(left).fold(f64::INFINITY, f64::min) / largest
     }
