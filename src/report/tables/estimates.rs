@@ -118,7 +118,7 @@ fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> Option<St
 /// Says in which iterations of `unilateral` the decisions on contact were checked for rounding.
 fn rechecked(solution: &Solution) -> Option<&'static str> {
     let is_unilateral = solution.request.variant == Variant::Unilateral;
-    (is_unilateral && solution.model.has_contact()).then(|| match solution.way_counts() {
+    (is_unilateral && solution.model.has_contact()).then(|| match solution.depends_on_path() {
         true => "who is in contact: rechecked in each iteration, between the faces of a corner too",
         false => {
             "who is in contact: rechecked in the last state, between the faces of a corner too; the \
