@@ -8,7 +8,6 @@ use plane_contact::engine::Session;
 use plane_contact::engine::contact::pulling;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
 use plane_contact::numbers::solve::cost;
-use plane_contact::paper::mirror::NodeTable;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{ResultFile, tables};
 use plane_contact::studies::plan::Plan;
@@ -83,7 +82,7 @@ fn is_confirmed(solution: &Solution) {
         within(&dense, bound + own);
     }
     let equations = solution.model.free_dofs();
-    if cost::seconds(equations, reading.r5 == NodeTable::NodeN, iterations) < 0.01 {
+    if cost::seconds(equations, reading.r5.follows_the_shape(), iterations) < 0.01 {
         let arithmetic =
             Arithmetic { scalar: ScalarName::Exact, solver: None, tol: None, ..arithmetic };
         let exact = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ());

@@ -23,7 +23,7 @@ use std::time::Duration;
 
 use arithmetic::ArithmeticArgs;
 use clap::Subcommand;
-use clap::error::{ContextKind, ErrorKind};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use indicatif::{ProgressBar, ProgressStyle};
 use plane_contact::engine::Request;
 use plane_contact::engine::error::{Error, Result};
@@ -132,18 +132,24 @@ pub fn renamed(why: &clap::Error) -> Option<String> {
     if why.kind() != ErrorKind::InvalidSubcommand {
         return None;
     }
-    let verb = std::env::args_os().nth(1)?;
-    let is_asked = |(old, _): &&(&str, &str)| verb.to_str() == old.split(' ').next();
+    let Some(ContextValue::String(unknown)) = why.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let verb = std::env::args().nth(1)?;
+    let is_first = verb == *unknown || std::env::args().nth(2)? == *unknown;
+    let is_asked =
+        |(old, _): &&(&str, &str)| is_first && Some(verb.as_str()) == old.split(' ').next();
     let (old, new) = RENAMED.iter().find(is_asked)?;
     // A command in a group may be mistyped.
     let is_mistyped = old.contains(' ') && why.get(ContextKind::SuggestedSubcommand).is_some();
     (!is_mistyped).then(|| format!("`{old}` is now `{new}`"))
 }
 
-/// The option that all commands share.
+/// The option of the commands that execute or mirror a listing.
 #[derive(clap::Args)]
 pub struct ReadingArg {
-    #[arg(long, value_name = "LIST", default_value = "", help = Reading::help())]
+    #[arg(long, value_name = "LIST", default_value = "", hide_default_value = true,
+        help = Reading::help())]
     pub reading: Reading,
 }
 
@@ -253,12 +259,12 @@ impl SceneArgs {
             check_iterations(iterations).map_err(at("--iterations"))?;
             description.iterations = iterations;
         }
-        if let Some(factor) = self.load_factor {
-            if !description.loads.iter_mut().all(|load| load.scale(factor)) {
-                let what = format!("{} times the loads is no finite number", six_digits(factor));
-                let fix = "give a number such as 0.5";
-                return Err(InputError::new("--load-factor", what, fix).into());
-            }
+        if let Some(factor) = self.load_factor
+            && !description.loads.iter_mut().all(|load| load.scale(factor))
+        {
+            let what = format!("{} times the loads is no finite number", six_digits(factor));
+            let fix = "give a number such as 0.5";
+            return Err(InputError::new("--load-factor", what, fix).into());
         }
         Ok(SceneBuilder { name: scene.name.clone(), mesh, description }.build()?)
     }

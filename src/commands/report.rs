@@ -18,7 +18,7 @@ use super::{report_written, waiting};
 /// The most bytes of a chart of `trade`; one has some 30,000.
 const CHART: u64 = 1 << 24;
 
-/// Write an audit report as a page: claims, readings, findings, and the fields of each variant.
+/// Write an audit report as a page: claims, readings, findings, fields.
 #[derive(clap::Args)]
 #[command(after_help = "\
 The page is one file that opens offline. Fields are shown under the pointer and at probes, on the

@@ -26,11 +26,10 @@ use super::{
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints a table of the iterations, one of the bodies, one of the contact nodes, the error
-estimates, and how far this is from the reference solution. Writes to --out: mesh.svg (the paper's
-fig. 4), von_mises_stress.svg and von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu
-(ParaView), result.json. Beyond 20,000 triangles result.json leaves the values of nodes and
-triangles to fields.vtu unless --fields asks for them, and pictures show the triangles as pixels.
+Prints iterations, bodies, contact nodes, error estimates, and the distance from the reference
+solution. Writes to --out: mesh.svg (the paper's fig. 4), von_mises_stress.svg and
+von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu (for ParaView), result.json. Beyond 20,000
+triangles result.json leaves their values to fields.vtu, and pictures show them as pixels.
 
 Examples:
   plane-contact solve
@@ -38,9 +37,7 @@ Examples:
   plane-contact solve fig1 --variant printed --reading R3=nested --json
   plane-contact solve strand --variant unilateral --coupling mortar --friction 0
   plane-contact solve fig1 --scalar exact --inputs decimal
-  plane-contact solve strand --variant tied --scalar f64x2 --solver refined --tol 1e-28
   plane-contact solve strand --accuracy 1e-3
-  plane-contact solve strand --c-tll 1e-4 --iterations 40 --load-factor 0.5
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
   plane-contact solve strand --probe 0,-8 --probe=-2,-9
   plane-contact solve my/scene.json --reading R6=stress,R8=m")]
@@ -64,12 +61,12 @@ pub struct Args {
     #[command(flatten)]
     arithmetic: ArithmeticArgs,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
-    /// largest, and say what was done; the mesh's own error is reported beside it.
+    /// largest.
     #[arg(long, value_name = "A",
         conflicts_with_all = ["scalar", "solver", "tol", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,
-    /// Print displacement, stress and strain at a point of the undeformed mesh, with what rounding
-    /// and the mesh may do to them; may be given more than once.
+    /// Print displacement, stress and strain at a point of the undeformed mesh, with their errors;
+    /// may be given more than once.
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     probe: Vec<[f64; 2]>,
     #[command(flatten)]
@@ -81,17 +78,14 @@ pub struct Args {
     /// Leave out the pictures; fields.vtu and result.json are written.
     #[arg(long)]
     no_pictures: bool,
-    /// Leave out what rounding and the mesh may do to the numbers: the table, error_estimates in
-    /// result.json, mesh_error in fields.vtu, and the second run that tells what the size of the
-    /// load's steps does.
+    /// Leave out the estimates of the errors of rounding, of the mesh and of the load's steps.
     #[arg(long)]
     no_error_estimate: bool,
     /// Leave out what is computed beside the run: the error estimates, the reference solution, and
     /// the equilibrium.
     #[arg(long)]
     no_assessment: bool,
-    /// Have the displacements of all nodes and the stresses of all triangles in result.json,
-    /// however many there are.
+    /// Have the values of all nodes and triangles in result.json, however many there are.
     #[arg(long)]
     fields: bool,
     /// Print result.json in place of the tables; files are written only to a folder that --out

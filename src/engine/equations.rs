@@ -31,7 +31,7 @@ enum Assembly<T> {
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices.
-    Sparse(SparseSolver),
+    Sparse(Box<SparseSolver>),
 }
 
 /// The parts of the equations that every iteration of a run shares.
@@ -95,7 +95,7 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
         let assembly = if request.variant == Variant::Printed {
             Assembly::Printed
         } else if takes_sparse(request.solver(), request.arithmetic.scalar) {
-            Assembly::Sparse(SparseSolver::new(request.arithmetic, model, session))
+            Assembly::Sparse(Box::new(SparseSolver::new(request.arithmetic, model, session)))
         } else {
             Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,

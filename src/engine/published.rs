@@ -32,7 +32,7 @@ use numbers::solve::{Inputs, Precision, ScalarName, cost};
 use paper::door::{self, NodeToSegment};
 use paper::edited::Interpreter;
 use paper::listings::Which;
-use paper::mirror::{self, NodeTable, Pairs, Schedule, Worksheet};
+use paper::mirror::{self, Pairs, Schedule, Worksheet};
 use problem::model::{Model, NodeId};
 use problem::modelling::{Coupling, Variant};
 
@@ -167,7 +167,7 @@ fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), Inpu
     if request.arithmetic.scalar != ScalarName::Exact {
         return Ok(());
     }
-    cost::check(model.free_dofs(), request.reading.r5 == NodeTable::NodeN, request.iterations)
+    cost::check(model.free_dofs(), request.reading.r5.follows_the_shape(), request.iterations)
 }
 
 /// The state of a run that an iteration needs of those before it.

@@ -159,7 +159,7 @@ quantities! {
             "The largest von Mises stress of its triangles.";
         at: TriangleId = at.largest(), "" [] None,
             "The triangle with that stress, the first of those that have it.";
-        as_large: usize = at.most_stressed.others, "others as large" [] None,
+        as_large: usize = at.most_stressed.others, "triangles as large" [] None,
             "The number of other triangles with the same stress to 1e-9 of it, as mirror images \
              have: only rounding tells which is the largest.";
         centre: [f64; 2] = at.centre(), "at" ["x", "y"] Length, "The centre of that triangle.";

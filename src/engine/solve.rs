@@ -13,7 +13,6 @@ use base::memory;
 use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
 use paper::listings::Which;
-use paper::mirror::NodeTable;
 use problem::element::State;
 use problem::modelling::{Variant, check_iterations, check_tolerance};
 
@@ -163,7 +162,7 @@ fn dense_bytes(request: &Request, arithmetic: Arithmetic) -> Option<f64> {
 fn more_precise(request: &Request) -> Option<ScalarName> {
     /// The seconds of a moment.
     const MOMENT: f64 = 2.0;
-    let growing = request.reading.r5 == NodeTable::NodeN;
+    let growing = request.reading.r5.follows_the_shape();
     let equations = request.scene.model.free_dofs();
     let exact = cost::seconds(equations, growing, request.iterations) <= MOMENT;
     let more = if exact { ScalarName::Exact } else { ScalarName::F64x2 };

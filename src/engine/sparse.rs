@@ -48,6 +48,9 @@ pub(super) trait SparseScalar: Precision {
     ) -> Result<Solved<Self>, Unsolved>;
 }
 
+/// Factors, the x that they give, and its relative residual.
+type SolvedByFactors = (Box<dyn Factors<f64>>, DVector<f64>, f64);
+
 impl SparseSolver {
     /// Returns the solver that is asked for.
     pub(super) fn new(arithmetic: Arithmetic, model: &Arc<Model>, session: &Session) -> Self {
@@ -93,7 +96,7 @@ impl SparseSolver {
         state: &StateEquations<T>,
         stiffness: &Stiffness,
         f: &DVector<f64>,
-    ) -> Result<(Box<dyn Factors<f64>>, DVector<f64>, f64), Unsolved> {
+    ) -> Result<SolvedByFactors, Unsolved> {
         let (t, factors) = self.factors(state, stiffness);
         if let Some(factors) = factors
             && let Ok((x, residual)) = refined(stiffness, &t, &factors, f)

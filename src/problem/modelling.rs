@@ -22,7 +22,7 @@ choices! {
         Tied = "tied",
         /// `Km` exactly as printed.
         Printed = "printed",
-        /// Gaps closed along the normal, and released where they would pull, the reference solution.
+        /// Gaps closed along the normal, and released where they would pull.
         Unilateral = "unilateral",
     }
 }
@@ -126,7 +126,7 @@ choices! {
     Coupling {
         /// Node to segment, which has two master nodes, those of one edge, as in `c_cnt`.
         Nts = "nts",
-        /// Dual multipliers, averaged over the nodes of all edges that the node's own edges cover.
+        /// Dual multipliers, averaged over what the node's edges cover.
         Mortar = "mortar",
     }
 }

@@ -32,7 +32,7 @@ pub fn report(measured: &[Measured]) -> Report {
     measured.iter().fold(Report::default(), |report, measured| {
         let report = report.heading(format!("{}: {}", measured.name, measured.title));
         let report = match measured.logarithmic {
-            true => report.table(format!("Where {} breaks down", measured.name), breaks(measured)),
+            true => report.table(format!("Limits of {}", measured.name), breaks(measured)),
             false => report,
         };
         report.then(sweep(measured))

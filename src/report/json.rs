@@ -1,6 +1,7 @@
 //! What several reports write as JSON.
 
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -53,6 +54,57 @@ pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
 pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
     document(scene, own).to_string() + "\n"
+}
+
+/// A document on a scene of which one list is written item by item, as the items are computed: a
+/// list of any length takes no memory.
+pub struct Stream<'o> {
+    out: &'o mut dyn Write,
+    nulls: BTreeMap<String, &'static str>,
+    is_first: bool,
+}
+
+impl<'o> Stream<'o> {
+    /// Writes the document's head, the fields of `before`, and the start of the list.
+    ///
+    /// # Errors
+    /// Something was not written; so for each of the functions.
+    pub fn new(
+        out: &'o mut dyn Write,
+        scene: &Scene,
+        before: &impl Serialize,
+        list: &str,
+    ) -> io::Result<Self> {
+        let head = document(Some(scene), before).to_string();
+        let fields = head.strip_suffix('}').expect("a document is an object");
+        write!(out, "{fields},{}:[", Value::from(list))?;
+        Ok(Stream { out, nulls: reasons(&value(before)), is_first: true })
+    }
+
+    /// Writes an item of the list.
+    ///
+    /// # Errors
+    /// It was not written.
+    pub fn item(&mut self, item: &impl Serialize) -> io::Result<()> {
+        let item = value(item);
+        self.nulls.append(&mut reasons(&item));
+        let comma = if std::mem::take(&mut self.is_first) { "" } else { "," };
+        write!(self.out, "{comma}{item}")
+    }
+
+    /// Writes the end of the list, the fields of `after`, and the reasons of all nulls.
+    ///
+    /// # Errors
+    /// They were not written.
+    pub fn finish(mut self, after: &impl Serialize) -> io::Result<()> {
+        let mut after = value(after);
+        self.nulls.append(&mut reasons(&after));
+        if let (Value::Object(fields), false) = (&mut after, self.nulls.is_empty()) {
+            fields.insert("nulls".into(), value(&self.nulls));
+        }
+        let after = after.to_string();
+        writeln!(self.out, "],{}", after.strip_prefix('{').expect("its fields are an object's"))
+    }
 }
 
 fn value(document: &impl Serialize) -> Value {

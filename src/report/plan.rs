@@ -31,7 +31,7 @@ pub fn line(plan: &Plan) -> String {
         (Some(_), false) => "; symmetric, but c_cnt as printed is not",
     };
     if plan.equations.idle > 0 {
-        text += &format!("; {} free equations have zero displacement", plan.equations.idle);
+        text += &format!("; {} free equations stay at zero", plan.equations.idle);
     }
     text
 }

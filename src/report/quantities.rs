@@ -206,7 +206,7 @@ fn section<T>(place: &str, quantities: &[Quantity<T>]) -> String {
         };
         let cells = [
             &format!("`{}`", q.name),
-            q.title,
+            &q.title.replace('|', "\\|"),
             &q.symbols.join(", ").replace('|', "\\|"),
             q.unit.name(),
             shape,

@@ -13,7 +13,7 @@ use engine::{
     Solution, TriangleValues,
 };
 use numbers::scalar::rational;
-use numbers::solve::{Arithmetic, ScalarName};
+use numbers::solve::Arithmetic;
 use paper::edited::Edited;
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -244,11 +244,9 @@ impl EditedListing {
 }
 
 fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
-    let digits = match solution.request.arithmetic.scalar {
-        ScalarName::Exact => 40,
-        _ => 32,
-    };
-    let decimal = |u| rational::decimal(u, digits);
+    // One digit more than the scalar keeps, so that it reads back; of exact numbers forty.
+    let digits = solution.request.arithmetic.scalar.digits().map_or(40, |digits| digits + 1);
+    let decimal = |u| rational::decimal(u, digits as usize);
     let pairs = solution.digits.as_ref()?.as_chunks().0;
     Some(pairs.iter().map(|[x, y]| [decimal(x), decimal(y)]).collect())
 }

@@ -332,11 +332,25 @@ fn row(value: &Json, shown: &Shown) -> String {
 /// A trace as JSON.
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
+    #[serde(flatten)]
+    executed: Executed<'a>,
+    /// The statements in order of execution.
+    steps: Vec<StepRow<'a>>,
+    #[serde(flatten)]
+    end: End<'a>,
+}
+
+/// What is executed.
+#[derive(Serialize, JsonSchema)]
+struct Executed<'a> {
     scene: &'a str,
     /// `c_cnt` or `Km`.
     listing: &'static str,
-    /// The statements in order of execution.
-    steps: Vec<StepRow<'a>>,
+}
+
+/// What the listing came to.
+#[derive(Serialize, JsonSchema)]
+struct End<'a> {
     /// What the listing's own `trace` wrote.
     trace: &'a [String],
     /// What the listing computes; null where it failed.
@@ -386,23 +400,44 @@ impl From<&Product> for Computed {
     }
 }
 
-/// Returns a trace as JSON: the statements in order of execution, and what the listing computed and
-/// its own `trace` wrote, or why it failed.
-pub fn json(
-    of: &Traced,
-    steps: &[Step],
-    outcome: Result<&(Product, Vec<String>), &Error>,
-) -> String {
-    let computed = outcome.as_ref().ok();
-    let document = Document {
-        scene: &of.scene.name,
-        listing: of.which.name(),
-        steps: steps.iter().map(|step| StepRow::new(step, of.listing)).collect(),
-        trace: computed.map_or(&[], |(_, output)| output),
-        result: computed.map(|(product, _)| product.into()),
-        failure: outcome.as_ref().err().map(|error| Failure::from(*error)),
-    };
-    json::line(Some(of.scene), &document)
+/// A trace written as JSON, each statement as it is executed.
+pub struct JsonTrace<'o> {
+    stream: json::Stream<'o>,
+    listing: &'o Listing,
+    written: io::Result<()>,
+}
+
+impl<'o> JsonTrace<'o> {
+    /// Writes the start of the document.
+    ///
+    /// # Errors
+    /// It was not written.
+    pub fn new(out: &'o mut dyn Write, of: &'o Traced) -> io::Result<Self> {
+        let executed = Executed { scene: &of.scene.name, listing: of.which.name() };
+        let stream = json::Stream::new(out, of.scene, &executed, "steps")?;
+        Ok(JsonTrace { stream, listing: of.listing, written: Ok(()) })
+    }
+
+    /// Writes a statement; what was not written is reported at the end.
+    pub fn step(&mut self, step: &Step) {
+        if self.written.is_ok() {
+            self.written = self.stream.item(&StepRow::new(step, self.listing));
+        }
+    }
+
+    /// Writes what the listing computed and its own `trace` wrote, or why it failed.
+    ///
+    /// # Errors
+    /// Something was not written.
+    pub fn finish(self, outcome: Result<&(Product, Vec<String>), &Error>) -> io::Result<()> {
+        self.written?;
+        let computed = outcome.ok();
+        self.stream.finish(&End {
+            trace: computed.map_or(&[], |(_, output)| output),
+            result: computed.map(|(product, _)| product.into()),
+            failure: outcome.err().map(Failure::from),
+        })
+    }
 }
 
 /// Returns the values of `of` that are not zero, each with its row and its column in `matrix`.

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const READING: &str = "listings/READING.md";
+pub const READING: &str = "listings/READING.md";
 
 /// Folders that are no part of the repository: built files and outputs.
 const SKIPPED: [&str; 3] = ["target", "out", ".git"];

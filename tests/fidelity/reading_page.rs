@@ -1,16 +1,20 @@
-//! The tables of `listings/READING.md` that are written from the program's own: readings and
-//! findings. INSTA_UPDATE=always writes them.
+//! The tables of readings and of findings that the program's own tables give: `listings/READING.md`, section 4,
+//! and the section after it. INSTA_UPDATE=always writes them.
 
 use std::path::Path;
 
+use crate::citations::READING;
 use crate::common::golden_file::assert_file;
 use plane_contact::paper::mirror::{Ambiguity, DefaultFrom, READINGS};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 
+/// The page of a finding, in its folder.
+const PAGE: &str = "README.md";
+
 #[test]
 fn the_tables_of_readings_and_findings_are_the_programs() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("listings/READING.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(READING);
     let page = std::fs::read_to_string(&path).expect("the page is there");
     let readings: String = READINGS.iter().map(reading).collect();
     let readings = format!(
@@ -47,7 +51,7 @@ fn reading(row: &Ambiguity) -> String {
 }
 
 fn finding(finding: &Finding) -> String {
-    let id = format!("[{0}](../golden/findings/{0}/README.md)", finding.id);
+    let id = format!("[{0}](../golden/findings/{0}/{PAGE})", finding.id);
     let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
     let lines = format!("{} {}", finding.listing, lines.join(", "));
     let measured = finding.measure(&Case::new(finding.scene()));

@@ -254,11 +254,19 @@ fn restraints_and_loads() {
     let e = refused(|s| s["restraints"][1]["on"] = json!(11));
     says(&e, "restraints[1]", &["{on, fix} or {node, fix}"]);
     let e = refused(|s| push(&mut s["loads"], json!({ "on": 21 })));
-    says(&e, "loads[1]", &["{on, pressure}, {on, traction} or {node, force}"]);
+    says(
+        &e,
+        "loads[1]",
+        &["a load has either on and pressure, on and traction, or node and force"],
+    );
     let e = refused(|s| {
         push(&mut s["loads"], json!({ "on": 21, "pressure": 1.0, "traction": [0.0, 1.0] }))
     });
-    says(&e, "loads[1]", &["{on, pressure}, {on, traction} or {node, force}"]);
+    says(
+        &e,
+        "loads[1]",
+        &["a load has either on and pressure, on and traction, or node and force"],
+    );
     let e = refused(|s| push(&mut s["loads"], json!({ "node": 0, "force": [0.0, 1.0] })));
     says(&e, "loads[1]", &["node number 0 is beyond R = 13"]);
     let e = refused(|s| {

@@ -529,7 +529,7 @@ fn tables_of_statuses_are_those_of_their_json() {
             assert_eq!(cells[0], format!("{missed} + {wrong}"));
             assert_shows(
                 &cells[1],
-                &(100.0 * (missed + wrong) / number(&of["nodes"])).into(),
+                &(100.0 * ((missed + wrong) / number(&of["nodes"]))).into(),
                 &cells[1],
             );
         }
@@ -603,7 +603,7 @@ fn the_summary_of_extremes_is_that_of_its_sweep() {
     let json = json_of(folder.path(), &args);
     let of = &json["rows"][0];
     let columns = of["columns"].as_array().expect("columns");
-    let printed = cells(folder.path(), "where-offset-breaks-down");
+    let printed = cells(folder.path(), "limits-of-offset");
     assert_eq!(printed.len(), columns.len());
     for (row, column) in printed.iter().zip(columns) {
         assert_eq!(row[0], column["name"]);
@@ -688,7 +688,7 @@ fn sentences_of_solve_are_those_of_its_result() {
             assert_shows(said.split(' ').next().unwrap(), &equilibrium["shape_change"], said);
         }
         if let Some(change) = text.lines().find_map(|line| {
-            line.split_once("half as many steps change a displacement component by at most ")
+            line.split_once("Half as many steps change a displacement component by at most ")
         }) {
             let said = parts(change.1, "{} = {} of the largest |u|").expect(change.1);
             assert_shows(said[0].split(' ').next().unwrap(), &result["path_change"], change.1);

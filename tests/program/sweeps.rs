@@ -402,8 +402,8 @@ fn names_reach(engine: &str, run: impl Fn(&Path)) {
         std::fs::write(at.join("jobs.py"), jobs).expect("written");
         run(at);
         if engine == "commands" {
-            let rows = format!("{name}.rows");
-            assert_eq!(ran(at, &["sweep", "--rows", &rows, "--", &file]).0, 0);
+            let rows = format!("--rows={name}.rows");
+            assert_eq!(ran(at, &["sweep", &rows, "--", &file]).0, 0, "{name}");
         }
         let gathered = std::fs::read(at.join("out").join(format!("{name}.jsonl")));
         let gathered = gathered.unwrap_or_else(|why| panic!("{engine}, {name:?}: {why}"));

@@ -82,12 +82,16 @@ pub fn run(args: &Args) -> Result<u8> {
         trace::follow(chosen.which, &chosen.listing, &settings, &call, wanted, each)
     };
     if args.json {
-        let mut steps = Vec::new();
-        let outcome = execute(&mut |step| steps.push(step));
-        let outcome = outcome.map_err(|failure| chosen.blame(&failure, &args.listing));
-        print(&report::json(&of, &steps, outcome.as_ref()))?;
+        let mut outcome = None;
+        print_by(|out| {
+            let mut document = report::JsonTrace::new(out, &of)?;
+            let executed = execute(&mut |step| document.step(&step));
+            let executed = executed.map_err(|failure| chosen.blame(&failure, &args.listing));
+            document.finish(outcome.insert(executed).as_ref())
+        })?;
         // The failure stands in the document: no other one follows.
-        return Ok(outcome.err().map_or(0, |error| report_error(&error)));
+        let failure = outcome.and_then(Result::err);
+        return Ok(failure.map_or(0, |error| report_error(&error)));
     }
     let lines = args.lines.unwrap_or([1, usize::MAX]);
     let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };

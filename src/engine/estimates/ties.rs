@@ -157,7 +157,7 @@ impl<'a> StateCheck<'a> {
     /// Looks at how the contact states were found: by the active set alone, or in other ways too.
     pub fn check_searches(&mut self) {
         let solution = self.solution;
-        let node = solution.model.contact.nodes[0];
+        let Some(&node) = solution.model.contact.nodes.first() else { return };
         let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
         if self.has_friction() && path.is_some_and(|path| path.halved > 0) {
             let condition = "whether a step of the load finds an equilibrium, or is halved";

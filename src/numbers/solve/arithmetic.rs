@@ -15,11 +15,11 @@ choices! {
         F32 = "f32",
         /// 31 digits.
         F64x2 = "f64x2",
-        /// 16 digits, and a bound on the error of the displacements.
+        /// f64 with a bound on the error of displacements.
         Bounded = "f64-bounded",
-        /// 31 digits, and a bound on the error of the displacements.
+        /// f64x2 with such a bound.
         BoundedDouble = "f64x2-bounded",
-        /// Rational numbers, without rounding, for some hundred equations.
+        /// Rational numbers, for some hundred equations.
         Exact = "exact",
     }
 }
@@ -31,10 +31,9 @@ choices! {
         DenseLu = "dense-lu",
         /// LU of the entries that are not 0, with row exchanges.
         SparseLu = "sparse-lu",
-        /// The Cholesky factor of the full matrix.
+        /// Cholesky of the full matrix.
         DenseCholesky = "dense-cholesky",
-        /// The Cholesky factor of the entries that are not 0, LDLᵀ where the scalar has no square
-        /// root.
+        /// Cholesky of the entries that are not 0.
         SparseCholesky = "sparse-cholesky",
         /// Conjugate gradients, preconditioned by the diagonal, to the tolerance.
         Cg = "cg",
@@ -54,6 +53,16 @@ choices! {
 }
 
 impl ScalarName {
+    /// Returns the decimal digits that it keeps; None where it keeps all.
+    pub fn digits(self) -> Option<u32> {
+        match self {
+            ScalarName::F32 => Some(7),
+            ScalarName::F64 | ScalarName::Bounded => Some(16),
+            ScalarName::F64x2 | ScalarName::BoundedDouble => Some(31),
+            ScalarName::Exact => None,
+        }
+    }
+
     /// Returns the solvers that are offered in the scalar.
     pub fn solvers(self) -> &'static [Solver] {
         use Solver::{Cg, DenseLu, Refined, SparseCholesky};

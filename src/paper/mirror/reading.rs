@@ -64,6 +64,17 @@ values! {
             edit "R5-node_n.edit";
     }
 }
+
+impl NodeTable {
+    /// Returns whether weights follow the shape, so that they may grow from iteration to iteration.
+    pub fn follows_the_shape(self) -> bool {
+        match self {
+            NodeTable::Node => false,
+            NodeTable::NodeN => true,
+        }
+    }
+}
+
 values! {
     /// R7, not printed: the load of an iteration.
     Schedule {
@@ -384,7 +395,7 @@ impl Ambiguity {
         self.field.is_some()
     }
 
-    /// Returns a value's name with that of the ambiguity, such as `R1 = inside`.
+    /// Returns a value's name with that of the ambiguity, such as `R1 = inside` or `R9: ORIGIN = 0`.
     pub fn label(&self, value: &Value) -> String {
         match self.field {
             Some(_) => format!("{} = {}", self.id, value.name),

@@ -14,7 +14,7 @@ use base::files::json;
 
 /// Scene files.
 const SCENE: json::Kind =
-    json::Kind { name: "scene file", fix: "see the scene format in README.md", has_values: false };
+    json::Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: false };
 
 /// Parses a scene file, with the source of its mesh still in it.
 /// Errors: the text is no scene file; the error names the field's path, the line and the column.

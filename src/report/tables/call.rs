@@ -25,9 +25,9 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
     let count = linked.len();
     let mut rows = Table::of(linked)
         .column("node", |node| *node)
-        .column("master node", |node| Cell::decimals(call.row(*node)[0], 0))
+        .column("tied to", |node| Cell::decimals(call.row(*node)[0], 0))
         .column("weight", |node| call.row(*node)[1])
-        .column("master node", |node| Cell::decimals(call.row(*node)[2], 0))
+        .column("tied to", |node| Cell::decimals(call.row(*node)[2], 0))
         .column("weight", |node| call.row(*node)[3])
         .column("surface", |node| match model.contact.nodes.contains(node) {
             true => "contact",

@@ -35,7 +35,7 @@ fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error
     let table = Table::of(&distance.bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("largest von Mises stress", &units.stress), |body| body.von_mises_stress)
-        .column("of the other", |body| body.reference)
+        .column("there", |body| body.reference)
         .column("difference", |body| Cell::percent(body.relative, 2).because(reason("relative")));
     let relative = match distance.displacement_relative {
         relative if relative.is_finite() => format!(" = {}", percent(relative, 2)),

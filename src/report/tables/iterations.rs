@@ -24,7 +24,12 @@ pub fn iterations(solution: &Solution) -> Report {
     let rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
     let units = &solution.request.scene.units;
     let table = quantities::table(&rows, IterationRow::QUANTITIES, units);
-    Report::default().table("Iterations", table)
+    let report = Report::default().table("Iterations", table);
+    let [fx, fy] = solution.model.total_load();
+    match fx.hypot(fy) {
+        0.0 => report,
+        load => report.note(format!("the whole load is {}", with_unit(&short(load), &units.force))),
+    }
 }
 
 /// Lists the last iteration under each load of a path.
@@ -54,7 +59,9 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> 
         .note(format!("{} steps a stage{halved}", path.steps))
         .note(match assessment.path_change {
             Some(change) => step_error(solution, path, change),
-            None => format!("error of the size of the steps: {}", why_unknown(path, assessment)),
+            None => {
+                format!("The error of the size of the steps is {}", why_unknown(path, assessment))
+            }
         })
 }
 
@@ -63,7 +70,7 @@ fn step_error(solution: &Solution, path: &Path, change: f64) -> String {
     let largest = max_displacement(&solution.u);
     let part = if largest > 0.0 { change / largest } else { 0.0 };
     let words = format!(
-        "half as many steps change a displacement component by at most {} = {} of the largest |u|",
+        "Half as many steps change a displacement component by at most {} = {} of the largest |u|",
         with_unit(&short(change), &solution.request.scene.units.length),
         percent(part, 2)
     );

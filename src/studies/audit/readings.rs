@@ -89,7 +89,7 @@ impl Effect {
     ) -> Self {
         let mut effect = Effect {
             id: row.id,
-            reading: row.label(value),
+            reading: if row.is_option() { row.label(value) } else { value.name.into() },
             lines: row.lines,
             statuses: None,
             entries: None,

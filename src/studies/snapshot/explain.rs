@@ -14,7 +14,6 @@ use super::{Run, VERSION};
 use base::choices;
 use engine::Decision;
 use numbers::solve::{ScalarName, cost};
-use paper::mirror::NodeTable;
 use problem::modelling::Variant;
 use problem::scene::{Element, Mesh, PhysicalName};
 
@@ -280,7 +279,7 @@ fn arbitrated(old: Side, new: Side, differences: &[Difference]) -> Option<String
     const MOMENT: f64 = 2.0;
     let first = differences.first()?;
     let request = new.run.options.request(&new.input.build().ok()?);
-    let growing = request.reading.r5 == NodeTable::NodeN;
+    let growing = request.reading.r5.follows_the_shape();
     let equations = request.scene.model.free_dofs();
     let seconds = cost::seconds(equations, growing, request.iterations);
     (request.variant != Variant::Unilateral && seconds <= MOMENT).then_some(())?;

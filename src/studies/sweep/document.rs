@@ -63,7 +63,7 @@ impl Document {
     ) -> Result<Self> {
         match (scene, generate.is_empty()) {
             (Some(file), true) => {
-                let fix = "see the scene format in README.md";
+                let fix = "see src/guide/scenes.md";
                 let kind = files::json::Kind { name: "scene file", fix, has_values: true };
                 let fields: Value = files::json::read(&file.text, &kind)
                     .map_err(|error| error.within(&file.name))?;

@@ -109,14 +109,9 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
 
 /// Returns why it is pointless to run in `scalar`.
 fn not_run(request: &Request, scalar: ScalarName, accuracy: f64) -> Option<String> {
-    let digits = match scalar {
-        ScalarName::F32 => 1e-7,
-        ScalarName::F64 | ScalarName::Bounded => 1e-16,
-        ScalarName::F64x2 | ScalarName::BoundedDouble => 1e-31,
-        // Of exact displacements 40 digits are written.
-        ScalarName::Exact => 1e-39,
-    };
-    if accuracy < digits {
+    // Of exact displacements 40 digits are written.
+    let digits = scalar.digits().unwrap_or(39);
+    if accuracy.log10() < -f64::from(digits) {
         return Some("its digits are too few".into());
     }
     let seconds = exact_seconds(request);

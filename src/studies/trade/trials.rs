@@ -4,7 +4,6 @@ use super::Varied;
 use base::error::InputError;
 use engine::Request;
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
-use paper::mirror::NodeTable;
 use problem::modelling::{Coupling, StatusRule, Variant};
 use problem::scene::{Scene, symmetry};
 
@@ -189,7 +188,7 @@ fn measured_variant(request: &Request) -> Variant {
 }
 
 pub(super) fn exact_seconds(request: &Request) -> f64 {
-    let growing = request.reading.r5 == NodeTable::NodeN;
+    let growing = request.reading.r5.follows_the_shape();
     cost::seconds(request.scene.model.free_dofs(), growing, request.iterations)
 }
 

@@ -40,7 +40,7 @@ const CASES: &[Case] = &[
         input: "overlap",
         command: "plane-contact solve scene.json",
         status: 0,
-        contains: &["error of the size of the steps: unknown: nodes that overlap the target"],
+        contains: &["error of the size of the steps is unknown: nodes that overlap the target"],
         lacks: &["half as many"],
     },
     // The same in units of stress that are 1e10 times smaller.
