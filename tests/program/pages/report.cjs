@@ -67,10 +67,12 @@ async function surface(browser) {
   assert.deepEqual(said, []);
 }
 
-/** Iterations on the slider; both runs can be any. */
+/** The tables of a run; iterations on the slider; both runs can be any. */
 async function iterations(browser) {
   const { page, said } = await open(browser, file);
-  assert.equal(await page.locator("#iterations tbody tr").count(), result.iterations.length);
+  for (const [k, list] of [result.iterations, result.bodies].entries()) {
+    assert.equal(await page.locator("#iterations table").nth(k).locator("tbody tr").count(), list.length);
+  }
   await setRange(page, "iteration", 3);
   assert.match(await page.textContent("#said-0"), /iteration 3 of/);
   for (const side of [0, 1]) {
