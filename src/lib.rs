@@ -34,7 +34,7 @@
 //!
 //! | part | what it has |
 //! |---|---|
-//! | [`error`], [`files`], [`choices`] | errors of the input, files, closed sets |
+//! | [`error`], [`files`], [`mod@choices`] | errors of the input, files, closed sets |
 //! | [`numbers`] | kinds of numbers and solvers |
 //! | [`mathcad`] | Mathcad's notation, interpreter and worksheets |
 //! | [`problem`] | the finite element model, the element, scenes and their files |

@@ -135,8 +135,7 @@ impl<'a> Assessment<'a> {
         }
     }
 
-    /// Returns the error of the mesh in each triangle, over that of a mean one
-    /// ([`Discretisation::error_map`](super::estimates::Discretisation::error_map)), where errors are
+    /// Returns the error of the mesh in each triangle, over that of a mean one, where errors are
     /// estimated.
     pub fn mesh_error(&self) -> Option<Vec<f64>> {
         self.estimates.as_ref().map(|estimates| estimates.mesh.error_map())
