@@ -42,13 +42,26 @@ pub struct OnScene {
 /// Returns a document around a command's own value, with the scene, which a file describes, that it
 /// is on.
 pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
+    let own = value(own);
+    let nulls = reasons(&own);
+    with_reasons(headed(scene, own), &nulls)
+}
+
+/// Returns a command's own value behind its head, without the reasons of its nulls.
+fn headed(scene: Option<&Scene>, own: Value) -> Value {
     let scene = scene.map(|scene| {
         let [scene_sha256, mesh_sha256] = scene.hashes().expect("a file describes it").clone();
         OnScene { units: scene.units.clone(), scene_sha256, mesh_sha256 }
     });
-    let own = value(own);
-    let nulls = reasons(&own);
-    value(&Document { format: FORMAT, version: VERSION, scene, own, nulls })
+    value(&Document { format: FORMAT, version: VERSION, scene, own, nulls: BTreeMap::new() })
+}
+
+/// Adds the reasons of nulls to an object; nothing where there is none.
+fn with_reasons(mut object: Value, nulls: &BTreeMap<String, &'static str>) -> Value {
+    if let (Value::Object(fields), false) = (&mut object, nulls.is_empty()) {
+        fields.insert("nulls".into(), value(nulls));
+    }
+    object
 }
 
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
@@ -75,10 +88,12 @@ impl<'o> Stream<'o> {
         before: &impl Serialize,
         list: &str,
     ) -> io::Result<Self> {
-        let head = document(Some(scene), before).to_string();
+        let before = value(before);
+        let nulls = reasons(&before);
+        let head = headed(Some(scene), before).to_string();
         let fields = head.strip_suffix('}').expect("a document is an object");
         write!(out, "{fields},{}:[", Value::from(list))?;
-        Ok(Stream { out, nulls: reasons(&value(before)), is_first: true })
+        Ok(Stream { out, nulls, is_first: true })
     }
 
     /// Writes an item of the list.
@@ -97,12 +112,9 @@ impl<'o> Stream<'o> {
     /// # Errors
     /// They were not written.
     pub fn finish(mut self, after: &impl Serialize) -> io::Result<()> {
-        let mut after = value(after);
+        let after = value(after);
         self.nulls.append(&mut reasons(&after));
-        if let (Value::Object(fields), false) = (&mut after, self.nulls.is_empty()) {
-            fields.insert("nulls".into(), value(&self.nulls));
-        }
-        let after = after.to_string();
+        let after = with_reasons(after, &self.nulls).to_string();
         writeln!(self.out, "],{}", after.strip_prefix('{').expect("its fields are an object's"))
     }
 }
@@ -113,12 +125,9 @@ fn value(document: &impl Serialize) -> Value {
 
 /// Writes a document of a run over several lines, with the reasons of its nulls.
 pub fn pretty_explained(document: &impl Serialize) -> String {
-    let mut document = value(document);
+    let document = value(document);
     let nulls = reasons(&document);
-    if let (Value::Object(fields), false) = (&mut document, nulls.is_empty()) {
-        fields.insert("nulls".into(), value(&nulls));
-    }
-    several_lines(&document)
+    several_lines(&with_reasons(document, &nulls))
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for

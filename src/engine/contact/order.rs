@@ -23,7 +23,7 @@ use problem::model::{Model, NodeId, unordered};
 /// which bounds no contact edge, is that node.
 ///
 /// # Errors
-/// A node is joined to no other one by an edge of the outline, or to more than two.
+/// A node is joined to no other node by an edge of the outline, or to more than two.
 pub fn along(model: &Model) -> Result<Vec<NodeId>, InputError> {
     let listed: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
     if listed.len() < 2 {
@@ -119,7 +119,7 @@ pub fn hidden(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Option<St
     ))
 }
 
-/// Returns the model with every target edge turned round.
+/// Returns the model with every target edge reversed.
 pub fn turned(model: &Model) -> Model {
     let mut turned = model.clone();
     for edge in &model.contact.target {
