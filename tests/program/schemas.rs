@@ -341,8 +341,8 @@ fn readers_take_what_their_schemas_take() {
         "node": [[1, 0, 0, 0]], "elem": [[1, 2, 2, 7, 7, 1, 2, 3]],
         "materials": { "7": { "E": 3e4, "nu": 0.2 } },
         "restraints": [{ "on": 1, "node": 1, "fix": ["x", "y"] }],
-        "loads": [{ "on": "top", "pressure": 1.5, "traction": [0.5, 1], "node": 3,
-            "force": [0.5, -2.5], "stage": 1 }],
+        "loads": [{ "on": "top", "pressure": 1.5, "stage": 1 },
+            { "on": "top", "traction": [0.5, 1] }, { "node": 3, "force": [0.5, -2.5] }],
         "contact": { "cnt": [1, 2], "trg": "target", "c_tll": 0.001, "coupling": "nts",
             "friction": 0.25, "geometry": "initial", "load_steps": 2, "status": "signs" },
         "iterations": 20, "variant": "tied", "drop_orphans": false
