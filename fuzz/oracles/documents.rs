@@ -6,8 +6,8 @@ use std::path::Path;
 use plane_contact::Request;
 use plane_contact::error::InputError;
 use plane_contact::report::ResultFile;
-use plane_contact::report::answers::{self, Marked};
-use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::report::answers::{self, MarkedAnswers};
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::lesson::exercise::Answers;
 use plane_contact::studies::snapshot::{Numbers, Snapshot, difference, verify};
 use plane_contact::studies::sweep::{Document, Sweep, row};
@@ -31,7 +31,7 @@ pub fn hold(data: &[u8]) {
     let result = |data: &[u8]| ResultFile::from_json(&String::from_utf8_lossy(data));
     reads_back(result, data, ResultFile::to_json);
     if let Ok(answers) = serde_json::from_str::<Answers>(text) {
-        let marked = [Marked { file: "fuzz".into(), marks: answers.marks(), answers }];
+        let marked = [MarkedAnswers { file: "fuzz".into(), marks: answers.marks(), answers }];
         assert!(!answers::json(&marked).is_empty() && !answers::report(&marked).blocks.is_empty());
     }
 }
@@ -73,7 +73,7 @@ fn of_snapshot(snapshot: &Snapshot) {
     }
     match verify(snapshot, None, &|| ()) {
         Ok(verified) => {
-            let checked = [Checked { file: "fuzz".into(), verified: Ok(verified) }];
+            let checked = [VerifiedFile { file: "fuzz".into(), verified: Ok(verified) }];
             // What is no number differs, and is null.
             let json: Result<Value, _> = serde_json::from_str(&report::json(&checked));
             let found = report::report(&checked);

@@ -33,7 +33,7 @@ pub fn hold(data: &[u8]) {
         contact: &Contact::Pair(Pair::new(model, None, Friction::NONE)),
         decks: 1,
         version: "2.20",
-        comparison: &Comparison::new(model, Fields::of(ours), theirs),
+        comparison: &Comparison::new(model, Fields::from_solution(ours), theirs),
     };
     sound::document(&comparison::json(&compared));
     sound::text(&comparison::report(&compared).text(80));

@@ -29,7 +29,7 @@ fn reads_back(scene: &Scene) {
     let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes().into());
     let read = SceneBuilder::read("fuzz", text.as_bytes(), beside).expect("what was written");
     assert_eq!((&read.description, &read.mesh), (description, mesh));
-    let kept = Input::of(scene).expect("a file describes it");
+    let kept = Input::from_scene(scene).expect("a file describes it");
     let built = kept.build().expect("what was kept");
     assert_eq!(built.source(), scene.source());
 }

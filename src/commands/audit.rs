@@ -10,7 +10,7 @@ use plane_contact::files;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::folder::Wanted;
+use plane_contact::report::folder::FolderOptions;
 use plane_contact::report::{audit as report, folder, pressure, statuses as status_report};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::range::range;
@@ -159,7 +159,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, case.session(), others);
-            let of_run = folder::contents(solution, &assessment, None, Wanted::default());
+            let of_run = folder::contents(solution, &assessment, None, FolderOptions::default());
             let named =
                 of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
             files.extend(named);
@@ -168,7 +168,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
     let runs: Vec<&Solution> = own.chain(others.into_iter().flatten()).collect();
     if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
-        let picture = pressure::picture(&case.scene, &runs, Hertz::of(last).as_ref());
+        let picture = pressure::picture(&case.scene, &runs, Hertz::from_solution(last).as_ref());
         files.push(("pressure.svg".into(), picture.into_bytes()));
     }
     Ok(files::write_all(out, "audit", &files)?)

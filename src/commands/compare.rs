@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<()> {
         contact: &parts.last().expect("a run has an iteration").contact,
         decks: parts.len(),
         version: &ran.version,
-        comparison: &Comparison::new(model, Fields::of(&solution), ran.fields),
+        comparison: &Comparison::new(model, Fields::from_solution(&solution), ran.fields),
     };
     let mut asked = vec![format!("calculix-{}", args.deck.contact)];
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));

@@ -121,7 +121,7 @@ fn calculix(program: &str, case: &Case) -> Result<(Comparison, String)> {
     let ran = calculix::run(program, &case.scene, model, &parts)?;
     let heading =
         format!("CalculiX {}, its contact pair by penalty, beside unilateral", ran.version);
-    Ok((Comparison::new(model, Fields::of(solution), ran.fields), heading))
+    Ok((Comparison::new(model, Fields::from_solution(solution), ran.fields), heading))
 }
 
 /// Reads the charts of a folder, by name.

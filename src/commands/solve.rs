@@ -11,7 +11,7 @@ use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::folder::Wanted;
+use plane_contact::report::folder::FolderOptions;
 use plane_contact::report::model::Report;
 use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> Result<u8> {
     args.tables.check("solve")?;
     let request = request(args)?;
     let out = folder(&args.out, own_folder(args, &request));
-    let wanted = Wanted { pictures: !args.no_pictures, fields: args.fields };
+    let wanted = FolderOptions { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.json || args.out.is_some();
     if is_written {
         let names = report::folder::names(wanted);

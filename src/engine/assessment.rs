@@ -32,14 +32,14 @@ pub struct Assessment<'a> {
     /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
-    pub reference: Option<Result<Measured<'a>, Error>>,
+    pub reference: Option<Result<SolutionDistance<'a>, Error>>,
     /// The comparison with the equilibrium under the scene's own friction and geometry, or why
     /// there is none; None without contact, and where that is the reference solution.
-    pub equilibrium: Option<Result<Measured<'a>, Error>>,
+    pub equilibrium: Option<Result<SolutionDistance<'a>, Error>>,
 }
 
 /// Another solution and the distance of a solution from it.
-pub struct Measured<'a> {
+pub struct SolutionDistance<'a> {
     /// The other solution: borrowed where the assessed solution is that one itself.
     pub reference: Cow<'a, Solution>,
     /// The distance of the assessed solution from the other one.
@@ -86,11 +86,14 @@ impl<'a> Assessment<'a> {
     }
 
     /// Assesses a solution without estimates beside the reference solution and the equilibrium.
-    fn beside(solution: &'a Solution, [reference, equilibrium]: [Option<Other<'a>>; 2]) -> Self {
-        let measured = |other: Option<Other<'a>>| {
-            Some(other?.map(|reference| Measured {
+    fn beside(
+        solution: &'a Solution,
+        [reference, equilibrium]: [Option<OtherSolution<'a>>; 2],
+    ) -> Self {
+        let measured = |other: Option<OtherSolution<'a>>| {
+            Some(other?.map(|reference| SolutionDistance {
                 distance: distance(solution, &reference),
-                hertz: Hertz::of(&reference),
+                hertz: Hertz::from_solution(&reference),
                 reference,
             }))
         };
@@ -101,7 +104,7 @@ impl<'a> Assessment<'a> {
             estimates: None,
             probes: Vec::new(),
             path_change: None,
-            hertz: Hertz::of(solution),
+            hertz: Hertz::from_solution(solution),
             reference,
             equilibrium,
         }
@@ -128,7 +131,7 @@ impl<'a> Assessment<'a> {
 
     /// Returns the comparison with the equilibrium under the scene's own friction and geometry,
     /// where that one was solved.
-    pub fn own(&self) -> Option<&Measured<'a>> {
+    pub fn own(&self) -> Option<&SolutionDistance<'a>> {
         match &self.equilibrium {
             Some(measured) => measured.as_ref().ok(),
             None => self.measure(),
@@ -142,17 +145,17 @@ impl<'a> Assessment<'a> {
     }
 
     /// Returns the comparison with the reference solution, where that one was solved.
-    pub fn measure(&self) -> Option<&Measured<'a>> {
+    pub fn measure(&self) -> Option<&SolutionDistance<'a>> {
         self.reference.as_ref()?.as_ref().ok()
     }
 }
 
 /// Another solution, which may be the assessed one itself, or why there is none.
-type Other<'a> = Result<Cow<'a, Solution>, Error>;
+type OtherSolution<'a> = Result<Cow<'a, Solution>, Error>;
 
 /// Returns the reference solution and the equilibrium under the scene's own friction and geometry; None without
 /// contact, and of an equilibrium that is the reference solution.
-fn others<'a>(solution: &'a Solution, session: &Session) -> [Option<Other<'a>>; 2] {
+fn others<'a>(solution: &'a Solution, session: &Session) -> [Option<OtherSolution<'a>>; 2] {
     if solution.model.target().is_none() {
         return [None, None];
     }

@@ -72,8 +72,9 @@ fn truth<T: Scalar>(order: Conjunction, condition: &[Operand<T>]) -> Truth<T> {
 
 /// Returns whether an operand surely holds, or by how little it may not; None where it fails.
 fn of_operand<T: Scalar>(operand: &Operand<T>) -> Option<Result<bool, Unsure>> {
-    let compared =
-        |smaller: T, larger: T, holds: bool| Unsure::of(smaller, larger).map_or(Ok(holds), Err);
+    let compared = |smaller: T, larger: T, holds: bool| {
+        Unsure::from_comparison(smaller, larger).map_or(Ok(holds), Err)
+    };
     let at_most = |smaller: T, larger: T| compared(smaller, larger, smaller <= larger);
     let or = |one, other| match (one, other) {
         (Ok(true), _) | (_, Ok(true)) => Ok(true),
@@ -101,7 +102,7 @@ pub fn decisions<T: Scalar>(
     let boxes = Boxes::new(sheet, node_n);
     let mut decisions = Vec::new();
     for i1 in 1..=rows(&sheet.cnt) {
-        let near = boxes.as_ref().map(|boxes| boxes.near(i1));
+        let near = boxes.as_ref().map(|boxes| boxes.containing(i1));
         let near = near.unwrap_or_else(|| (1..=rows(&sheet.trg)).collect());
         let mut unsure = edge(sheet, reading, node_n, i1, &near);
         unsure.extend(status(sheet, reading, pairs, i1));

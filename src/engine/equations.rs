@@ -135,7 +135,7 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
                 let solved = T::sweep(|| {
                     let edited = self.interpreter.and_then(|i| i.km(&pairs.k_cnt));
                     let matrix = match edited {
-                        Some(edited) => SparseSquare::of(edited?.as_matrix()),
+                        Some(edited) => SparseSquare::from_dense(edited?.as_matrix()),
                         None => mirror::Km(self.sheet, &self.request.reading, &pairs.k_cnt)?
                             .into_sparse(),
                     };

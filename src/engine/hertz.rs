@@ -45,7 +45,7 @@ impl Hertz {
     /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None
     /// where the surfaces form no parabola there, the contact is too wide for the theory, or too
     /// few nodes lie in it.
-    pub fn of(solution: &Solution) -> Option<Self> {
+    pub fn from_solution(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);

@@ -26,14 +26,14 @@ mod stiffness;
 mod support;
 mod unilateral;
 
-pub use assessment::{Assessment, Measured};
+pub use assessment::{Assessment, SolutionDistance};
 pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use fast::condensation::kept_equations;
 pub use hertz::Hertz;
 pub use memory::Bytes;
-pub use probe::{Probe, Probed, check_points};
+pub use probe::{Probe, ProbeValue, check_points};
 pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
     summaries,
@@ -42,8 +42,8 @@ pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use session::Session;
 pub use solution::{
-    Choice, Cycle, Detail, Equilibrium, FoundPairs, Other, Path, Published, Solution, Start, Step,
-    StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
+    Choice, Cycle, Detail, Equilibrium, FoundPairs, OtherEquilibrium, Path, Published, Solution,
+    Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::dense_matrices;

@@ -69,7 +69,7 @@ impl Bytes {
     /// An upper estimate of the bytes of `solve` without dense matrices, of `request` on its `model`: up to
     /// twice of what was measured on Hertz's contact, Cook's membrane, stacked blocks and the paper's
     /// example, of 2,153 to 961,810 equations.
-    pub fn of(request: &Request, model: &Model) -> Self {
+    pub fn estimate(request: &Request, model: &Model) -> Self {
         let equations = model.free_dofs() as f64;
         let is_frictionless = request.contact.friction == Friction::NONE;
         let own = match request.variant {

@@ -38,12 +38,12 @@ pub struct Probe {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<Cause>,
     /// The components of the displacement, then the quantities of the triangle.
-    pub quantities: Vec<Probed>,
+    pub quantities: Vec<ProbeValue>,
 }
 
 /// A number at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Probed {
+pub struct ProbeValue {
     /// What it is: `u_x`, `sigma_x`, `epsilon_x`, ...
     pub name: String,
     /// What it is measured in.
@@ -135,7 +135,7 @@ impl Bench<'_> {
         near.map(|point| point.cause)
     }
 
-    fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Probed> {
+    fn displacement(&self, id: TriangleId, weights: [f64; 3]) -> Vec<ProbeValue> {
         let (model, u) = (&*self.solution.model, &self.solution.u);
         let nodes = model.triangle(id).nodes;
         let component = |(d, name): (usize, &str)| {
@@ -145,7 +145,7 @@ impl Bench<'_> {
                 force[dof] = weight;
                 value += weight * u[dof];
             }
-            Probed {
+            ProbeValue {
                 name: name.into(),
                 unit: Unit::Length,
                 value,
@@ -159,7 +159,7 @@ impl Bench<'_> {
 
     /// Returns the quantities of a triangle, component by component. A difference of stresses is
     /// estimated by its own value: each quantity is linear in stress, or a seminorm.
-    fn triangle(&self, id: TriangleId, weights: [f64; 3]) -> Vec<Probed> {
+    fn triangle(&self, id: TriangleId, weights: [f64; 3]) -> Vec<ProbeValue> {
         let (model, k) = (&*self.solution.model, id.index());
         let state = &self.solution.elements[k];
         let corners = &self.estimates.mesh.recovered[k];
@@ -177,7 +177,7 @@ impl Bench<'_> {
                 let size = |of: &Option<Vec<f64>>| Some(of.as_ref()?[c].abs());
                 let mesh = differences.iter().map(size).collect::<Option<Vec<_>>>();
                 let mesh = mesh.map(|sizes| SAFETY * sizes.into_iter().fold(0.0, f64::max));
-                Probed {
+                ProbeValue {
                     name,
                     unit: quantity.unit,
                     value,
@@ -247,7 +247,7 @@ fn outside(model: &Model, p: [f64; 2]) -> InputError {
         [0, 1, 2].map(|k| [nodes[k], nodes[(k + 1) % 3]])
     });
     let nearest = |side: [_; 2]| {
-        let (body, [a, b]) = (model.body_of(side[0]), side.map(|node| model.at(node)));
+        let (body, [a, b]) = (model.body_of(side[0]), side.map(|node| model.coordinates(node)));
         let closest = Segment::new([a, b]).closest(p);
         let xi = closest.xi.clamp(0.0, 1.0);
         (closest.distance_square, [0, 1].map(|d| a[d] + xi * (b[d] - a[d])), body)

@@ -229,7 +229,7 @@ impl<T: SparseScalar> Run<'_, T> {
     /// Finds the contact state in the current shape in iteration `k`.
     fn search(&self, k: usize) -> Result<FoundState<T>, Error> {
         let Equations { request, model, sheet, interpreter, .. } = self.equations;
-        let node_n = door::moved(sheet, &self.u);
+        let node_n = door::displaced_nodes(sheet, &self.u);
         let reading = &request.reading;
         let keeps_bound = T::zero().error_bound().is_some();
         if !model.has_contact() {
@@ -361,7 +361,7 @@ impl<T: SparseScalar> Run<'_, T> {
             return Ok(Vec::new());
         }
         let surfaces = Surfaces::new(self.equations.model)?;
-        let shape = numbers(&door::shape(&door::moved(self.equations.sheet, &self.u)));
+        let shape = numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let reaction = self.equations.reaction(&self.u).map(T::to_f64);
         let eliminated = self.equations.request.variant != Variant::Printed;
@@ -429,7 +429,7 @@ fn eq1_residual<'a, T: Scalar>(
     let mut largest = T::zero();
     for (node, masters) in bound {
         for direction in [0, 1] {
-            let component = |node: NodeId| node.of(u)[direction];
+            let component = |node: NodeId| node.components(u)[direction];
             let target = sum(masters.iter().map(|&(master, k)| k * component(master)));
             largest = largest.max((component(node) - target).abs());
         }

@@ -302,7 +302,7 @@ impl BodyPlace<'_> {
     }
 
     fn max_displacement(&self) -> f64 {
-        let displacements = self.body.nodes.iter().map(|node| node.of(&self.solution.u));
+        let displacements = self.body.nodes.iter().map(|node| node.components(&self.solution.u));
         displacements.map(|[x, y]: [f64; 2]| x.hypot(y)).fold(0.0, f64::max)
     }
 

@@ -77,7 +77,7 @@ pub fn inside_out<'a>(
 fn rotation(model: &Model, id: TriangleId, u: &DVector<f64>) -> f64 {
     let nodes = model.triangle(id).nodes;
     let turns = nodes.iter().zip(gradients(&model.corners(id))).map(|(node, [dx, dy])| {
-        let [ux, uy] = node.of(u);
+        let [ux, uy] = node.components(u);
         (dx * uy - dy * ux) / 2.0
     });
     turns.sum()

@@ -21,12 +21,12 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
 ) -> f64 {
     let zero = BoundedDouble::new(V::ZERO.double(), 0.0);
     let rows: Vec<_> = (0..t.shift().len()).map(|e| t.row(Dof::new(e))).collect();
-    let of_row = |row: &&[(usize, WithBound<V>)]| Moved {
+    let of_row = |row: &&[(usize, WithBound<V>)]| TransformedRow {
         u: row.iter().fold(zero, |sum, (p, w)| sum + w.in_double() * exact(q[*p]).in_double()),
         size: row.iter().map(|(_, w)| size(*w) + w.off()).sum(),
         off: row.iter().map(|(_, w)| w.off()).sum(),
     };
-    let moved: Vec<Moved> = rows.iter().map(of_row).collect();
+    let moved: Vec<TransformedRow> = rows.iter().map(of_row).collect();
     // K T q, and of each row of K T the sum of its entries' sizes, and of what they may be off.
     let of_triangles = |triangles: Range<usize>| {
         let none = Force { u: SumOfProducts::ZERO, size: 0.0, off: 0.0 };
@@ -67,7 +67,7 @@ pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
 
 /// A row of T.
 #[derive(Clone)]
-struct Moved {
+struct TransformedRow {
     /// Its product with q.
     u: BoundedDouble,
     /// The sum of the sizes of its entries.

@@ -216,7 +216,7 @@ pub enum Start {
 
 /// An equilibrium beside the one that was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Other {
+pub struct OtherEquilibrium {
     /// The part of the path at the end of the step that could end in it; whole numbers end stages.
     pub load: f64,
     /// The nodes that stick in it.
@@ -256,7 +256,7 @@ pub enum Uniqueness {
         /// Whether there were earlier steps, which were not looked at.
         last_only: bool,
         /// Those among them that are in equilibrium too.
-        others: Vec<Other>,
+        others: Vec<OtherEquilibrium>,
     },
 }
 
@@ -424,7 +424,7 @@ impl Solution {
 
     /// Returns the displacement of each node, length.
     pub fn displacements(&self) -> Vec<[f64; 2]> {
-        self.model.node_ids().map(|node| node.of(&self.u)).collect()
+        self.model.node_ids().map(|node| node.components(&self.u)).collect()
     }
 }
 

@@ -111,7 +111,7 @@ fn check_memory(request: &Request, session: &Session) -> Result<(), InputError> 
         format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
     memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
     let whose = format!("{} free equations", model.free_dofs());
-    session.check_room(Bytes::of(request, model).total(), &whose)
+    session.check_room(Bytes::estimate(request, model).total(), &whose)
 }
 
 /// Returns the error of a run, and where rounding alone is its cause says so: a matrix that is

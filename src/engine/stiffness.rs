@@ -208,7 +208,7 @@ impl<T: Scalar> Element<T> {
     }
 
     fn displacements(&self, u: &DVector<T>) -> SVector<T, 6> {
-        let [a, b, c] = self.nodes.map(|node| node.of(u));
+        let [a, b, c] = self.nodes.map(|node| node.components(u));
         SVector::from([a[0], a[1], b[0], b[1], c[0], c[1]])
     }
 }

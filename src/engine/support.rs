@@ -52,7 +52,7 @@ fn constraint_force<T: Scalar>(
     force: &DVector<T>,
 ) -> [T; 2] {
     let free = constraint.node.dofs().map(|dof| !restrained[dof.index()]);
-    let force = constraint.node.of(force);
+    let force = constraint.node.components(force);
     match constraint.motion {
         Motion::Both(_) => [0, 1].map(|d| if free[d] { force[d] } else { T::zero() }),
         Motion::Along(normal, _) => {

@@ -139,26 +139,26 @@ impl<T: Scalar> IndexMut<(usize, usize)> for Square<T> {
 impl<T, I: Subscript, J: Subscript> Index<(I, J)> for Table<T> {
     type Output = T;
     fn index(&self, (i, j): (I, J)) -> &T {
-        &self.0[(i.at() - 1, j.at() - 1)]
+        &self.0[(i.index() - 1, j.index() - 1)]
     }
 }
 
 impl<T, I: Subscript, J: Subscript> IndexMut<(I, J)> for Table<T> {
     fn index_mut(&mut self, (i, j): (I, J)) -> &mut T {
-        &mut self.0[(i.at() - 1, j.at() - 1)]
+        &mut self.0[(i.index() - 1, j.index() - 1)]
     }
 }
 
 impl<T, I: Subscript> Index<I> for Column<T> {
     type Output = T;
     fn index(&self, i: I) -> &T {
-        &self.0[i.at() - 1]
+        &self.0[i.index() - 1]
     }
 }
 
 impl<T, I: Subscript> IndexMut<I> for Column<T> {
     fn index_mut(&mut self, i: I) -> &mut T {
-        &mut self.0[i.at() - 1]
+        &mut self.0[i.index() - 1]
     }
 }
 

@@ -22,7 +22,7 @@ const ORIGIN: &str = "ORIGIN";
 
 /// A region as it was executed.
 #[derive(Clone, Debug)]
-pub struct Checked {
+pub struct ExecutedRegion {
     pub id: String,
     pub tag: String,
     /// The region in the text notation.
@@ -63,7 +63,7 @@ impl Verdict {
 
 /// Executes a worksheet's regions in order under `limits`. The steps are those of all regions
 /// together; one region may take half of those that are left, so that an endless one leaves some.
-pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<Checked> {
+pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<ExecutedRegion> {
     execute_watched(worksheet, limits, &mut |_, _| ())
 }
 
@@ -73,7 +73,7 @@ pub fn execute_watched(
     worksheet: &Worksheet,
     limits: &Limits,
     watch: &mut dyn FnMut(usize, usize),
-) -> Vec<Checked> {
+) -> Vec<ExecutedRegion> {
     let mut run = Execution {
         settings: worksheet.settings.clone(),
         limits,
@@ -120,7 +120,7 @@ enum Outcome {
 }
 
 impl Execution<'_> {
-    fn region(&mut self, region: &Region) -> Checked {
+    fn region(&mut self, region: &Region) -> ExecutedRegion {
         let mut inputs = BTreeSet::new();
         let (text, outcome) = match &region.content {
             Content::Silent => (String::new(), Outcome::Defined),
@@ -167,7 +167,14 @@ impl Execution<'_> {
             Outcome::Value(value) => Some(value),
             _ => None,
         };
-        Checked { id: region.id.clone(), tag: region.tag.clone(), text, verdict, inputs, value }
+        ExecutedRegion {
+            id: region.id.clone(),
+            tag: region.tag.clone(),
+            text,
+            verdict,
+            inputs,
+            value,
+        }
     }
 
     /// Lets the saved value of a name go on as input, so that what follows is judged for itself.

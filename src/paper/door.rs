@@ -103,10 +103,10 @@ pub fn node_n(model: &Model, shape: &[[f64; 2]]) -> Table<f64> {
 }
 
 /// Returns node_n = node + U, R x 4, length, for displacements `u` by degree of freedom.
-pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
+pub fn displaced_nodes<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
     let mut node_n = sheet.node.clone();
     for node in NodeId::all(sheet.R()) {
-        let [x, y] = node.of(u);
+        let [x, y] = node.components(u);
         node_n[(node.number(), 2)] += x;
         node_n[(node.number(), 3)] += y;
     }
@@ -114,13 +114,13 @@ pub fn moved<T: Scalar>(sheet: &Worksheet<T>, u: &DVector<T>) -> Table<T> {
 }
 
 /// Returns the coordinates of a node in the shape of a node table, length.
-pub fn place<T: Scalar>(node_n: &Table<T>, node: NodeId) -> [T; 2] {
+pub fn coordinates<T: Scalar>(node_n: &Table<T>, node: NodeId) -> [T; 2] {
     [2, 3].map(|column| node_n[(node.number(), column)])
 }
 
 /// Returns the coordinates of each node in the shape of a node table, length.
 pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[T; 2]> {
-    NodeId::all(node_n.rows()).map(|node| place(node_n, node)).collect()
+    NodeId::all(node_n.rows()).map(|node| coordinates(node_n, node)).collect()
 }
 
 /// Returns `Km` without contact and without restraints, 2R x 2R, force/length.
@@ -206,7 +206,7 @@ pub fn linked<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>) -> Vec<NodeToSe
         let node = NodeId::from_number(n);
         if found.iter().all(|other| other.node != node) {
             let master = |column: usize| {
-                let number = pairs.k_cnt[(n, column)].at();
+                let number = pairs.k_cnt[(n, column)].index();
                 (NodeId::from_number(number), pairs.k_cnt[(n, column + 1)])
             };
             found.push(NodeToSegment { node, masters: [master(1), master(3)] });

@@ -43,7 +43,7 @@ impl Tree {
     /// Builds the tree over edges, each given by its number and its two ends.
     pub fn new(edges: impl IntoIterator<Item = (usize, [Vector; 2])>) -> Self {
         let mut bounds: Vec<(usize, Bounds)> =
-            edges.into_iter().map(|(k, ends)| (k, Bounds::of(&ends))).collect();
+            edges.into_iter().map(|(k, ends)| (k, Bounds::around(&ends))).collect();
         let mut tree = Tree { edges: Vec::new(), boxes: Vec::new() };
         if !bounds.is_empty() {
             tree.boxes.push(Divided::over(&bounds, 0));
@@ -110,7 +110,7 @@ impl Tree {
 impl Divided {
     /// Returns the box over `bounds`, undivided.
     fn over(bounds: &[(usize, Bounds)], from: usize) -> Self {
-        let around = Bounds::of(bounds.iter().flat_map(|(_, b)| [&b.low, &b.high]));
+        let around = Bounds::around(bounds.iter().flat_map(|(_, b)| [&b.low, &b.high]));
         Divided { bounds: around, from, to: from + bounds.len(), halves: None }
     }
 }

@@ -10,14 +10,14 @@ use super::numbers::{or_dash, short};
 use studies::lesson::exercise::{Answers, Mark};
 
 /// A file of answers and its marks.
-pub struct Marked {
+pub struct MarkedAnswers {
     /// The name of the file, as given.
     pub file: String,
     pub answers: Answers,
     pub marks: Vec<Mark>,
 }
 
-impl Marked {
+impl MarkedAnswers {
     /// Returns whether every answer is right.
     pub fn is_right(&self) -> bool {
         self.right() == self.marks.len()
@@ -29,14 +29,14 @@ impl Marked {
 }
 
 /// Reports a row for each file: who answered, how many answers are right, and what is wrong.
-pub fn report(marked: &[Marked]) -> Report {
-    let wrong = |marked: &&Marked| {
+pub fn report(marked: &[MarkedAnswers]) -> Report {
+    let wrong = |marked: &&MarkedAnswers| {
         let wrong = marked.marks.iter().filter(|mark| !mark.right);
         listed(wrong.map(|Mark { node, of, said, found, .. }| {
             format!("node {node}: {of} is {}, not {}", short(*found), or_dash(*said, short))
         }))
     };
-    let table = Table::of(marked)
+    let table = Table::from_rows(marked)
         .column("file", |marked| marked.file.clone())
         .column("student", |marked| marked.answers.student.clone())
         .column("exercise", |marked| marked.answers.exercise)
@@ -66,7 +66,7 @@ struct Row<'a> {
     marks: &'a [Mark],
 }
 
-pub fn json(marked: &[Marked]) -> String {
+pub fn json(marked: &[MarkedAnswers]) -> String {
     let rows = marked.iter().map(|marked| Row {
         file: &marked.file,
         student: &marked.answers.student,

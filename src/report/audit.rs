@@ -16,11 +16,11 @@ use paper::listings::Which;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::audit::claims::Judged;
-use studies::audit::findings::{Finding, Measured, Repair, Verdict};
+use studies::audit::claims::JudgedClaim;
+use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
 use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
-use studies::audit::{Assumption, Audit, Compared, Rubbing};
+use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 
 /// Reports the claims, the readings, the findings, the variants side by side, and who sticks and
 /// slides under each coefficient of friction.
@@ -49,7 +49,7 @@ fn readings(effects: &[Effect]) -> Report {
         None if effect.changes() => effect.of.clone(),
         None => format!("{}: nothing depends on it", effect.of),
     };
-    let table = Table::of(effects)
+    let table = Table::from_rows(effects)
         .column("id", |effect| effect.id)
         .column("reading", |effect| effect.reading.clone())
         .column("lines", |effect| effect.lines)
@@ -75,8 +75,8 @@ fn first_line(text: &str) -> &str {
     line.trim_start_matches("the published algorithm fails as printed: ")
 }
 
-fn findings<'a>(findings: &'a [(&Finding, Measured)]) -> Table<Vec<&'a (&'a Finding, Measured)>> {
-    Table::of(findings)
+fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Finding, Evidence)>> {
+    Table::from_rows(findings)
         .column("id", |(finding, _)| finding.id)
         .column("line", |(finding, _)| match finding.lines {
             [] => finding.listing.to_string(),
@@ -187,7 +187,7 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> String {
 
 /// Reports which nodes stick and slide under each coefficient of friction, with their pressure and
 /// shear.
-fn friction(cases: &[Rubbing]) -> Report {
+fn friction(cases: &[FrictionContact]) -> Report {
     if cases.is_empty() {
         return Report::default();
     }
@@ -195,7 +195,7 @@ fn friction(cases: &[Rubbing]) -> Report {
         .iter()
         .flat_map(|case| case.nodes.iter().flatten().map(|contact| contact.node))
         .collect();
-    let table = Table::of(nodes).column("node", |node| *node);
+    let table = Table::from_rows(nodes).column("node", |node| *node);
     let table = cases.iter().fold(table, |table, case| {
         table.column(format!("friction {}", case.friction), |node| {
             let contact = case.nodes.as_ref().ok()?.iter().find(|c| c.node == *node)?;
@@ -225,14 +225,14 @@ fn tenth(x: f64) -> String {
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
     scene: &'a str,
-    claims: &'a [Judged],
+    claims: &'a [JudgedClaim],
     assumptions: &'a [Assumption],
     readings: &'a [Effect],
     findings: Vec<FindingRow>,
     variants: &'a [VariantRow],
     equilibrium: &'a Option<Compared>,
     reference: &'a Option<Compared>,
-    friction: &'a [Rubbing],
+    friction: &'a [FrictionContact],
 }
 
 /// A finding on a scene.
@@ -260,9 +260,9 @@ pub struct FindingRow {
 }
 
 impl FindingRow {
-    pub fn new(finding: &Finding, measured: &Measured) -> Self {
+    pub fn new(finding: &Finding, measured: &Evidence) -> Self {
         let Finding { id, listing, lines, title, number: of, why, repair, edit, .. } = *finding;
-        let Measured { verdict, number, ref detail } = *measured;
+        let Evidence { verdict, number, ref detail } = *measured;
         let detail = detail.clone();
         FindingRow { id, listing, lines, title, verdict, number, of, detail, why, repair, edit }
     }
@@ -290,12 +290,12 @@ pub fn json(audit: &Audit, scene: &Scene) -> String {
 }
 
 /// Returns what a scene shows of one finding as JSON.
-pub fn finding_json(finding: &Finding, measured: &Measured, scene: &Scene) -> String {
+pub fn finding_json(finding: &Finding, measured: &Evidence, scene: &Scene) -> String {
     json::line(Some(scene), &FindingRow::new(finding, measured))
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.
-pub fn explanation(finding: &Finding, measured: &Measured, scene: &Scene) -> Report {
+pub fn explanation(finding: &Finding, measured: &Evidence, scene: &Scene) -> Report {
     let value = short(measured.number);
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")

@@ -4,13 +4,13 @@ use super::layout::listed;
 use super::model::{Report, Table};
 use super::numbers::{or_dash, short};
 use studies::audit::Assumption;
-use studies::audit::claims::{Elsewhere, Judged};
+use studies::audit::claims::{Elsewhere, JudgedClaim};
 use studies::audit::range::Parameter;
 
 /// Reports the verdicts, what each value is and how to reproduce it, and the assumptions that they
 /// rest on.
-pub fn report(claims: &[Judged], assumptions: &[Assumption]) -> Report {
-    let judged = Table::of(claims)
+pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
+    let judged = Table::from_rows(claims)
         .column("id", |judged| judged.claim.id)
         .column("line", |judged| judged.claim.line)
         .column("verdict", |judged| judged.measured.words())
@@ -18,12 +18,12 @@ pub fn report(claims: &[Judged], assumptions: &[Assumption]) -> Report {
         .column("certainty", |judged| judged.claim.basis.to_string())
         .column("value", |judged| judged.measured.number)
         .column("the paper says that", |judged| judged.claim.says);
-    let values = Table::of(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
+    let values = Table::from_rows(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
         .column("id", |judged| judged.claim.id)
         .column("what the value is", |judged| judged.claim.number)
         .column("printed by", |judged| format!("plane-contact {}", judged.claim.command.join(" ")))
         .column("JSON pointer", |judged| judged.claim.at.join(" over "));
-    let assumptions = Table::of(assumptions)
+    let assumptions = Table::from_rows(assumptions)
         .column("what the paper leaves open", |assumption| assumption.what)
         .column("set to", |assumption| assumption.set_to.clone());
     let report = Report::default().table("Claims of the paper, and what they assume", judged);
@@ -39,8 +39,8 @@ pub fn report(claims: &[Judged], assumptions: &[Assumption]) -> Report {
 }
 
 /// Returns the verdicts with their values.
-pub fn verdicts(claims: &[Judged]) -> Table<Vec<&Judged>> {
-    Table::of(claims)
+pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
+    Table::from_rows(claims)
         .column("line", |judged| format!("{}: {}", judged.claim.id, judged.claim.line))
         .column("the paper says that", |judged| judged.claim.says)
         .column("verdict", |judged| judged.measured.words())
@@ -50,11 +50,11 @@ pub fn verdicts(claims: &[Judged]) -> Table<Vec<&Judged>> {
 }
 
 /// Returns the verdicts that are not the same over the whole range.
-pub fn range(claims: &[Judged]) -> Table<Vec<(&Judged, Parameter)>> {
+pub fn range(claims: &[JudgedClaim]) -> Table<Vec<(&JudgedClaim, Parameter)>> {
     let changes = claims.iter().filter(|judged| {
         judged.elsewhere.windows(2).any(|w| w[0].measured.verdict != w[1].measured.verdict)
     });
-    Table::of(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
+    Table::from_rows(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
         .column("claim", |(judged, _)| judged.claim.id)
         .column("what is varied", |(_, parameter)| parameter.meaning())
         .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
@@ -68,7 +68,7 @@ fn rounded(x: f64) -> String {
 }
 
 /// Reports a line for each claim that was judged over the range, and one for each parameter.
-pub fn over_the_range(claims: &[Judged]) -> Report {
+pub fn over_the_range(claims: &[JudgedClaim]) -> Report {
     let judged = claims.iter().filter(|judged| !judged.elsewhere.is_empty());
     judged.fold(Report::default(), |report, judged| {
         let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.says));
@@ -79,7 +79,7 @@ pub fn over_the_range(claims: &[Judged]) -> Report {
 }
 
 /// Writes the verdict on a claim at each value of a parameter, with its number.
-pub fn over(judged: &Judged, parameter: Parameter) -> String {
+pub fn over(judged: &JudgedClaim, parameter: Parameter) -> String {
     let places: Vec<&Elsewhere> =
         judged.elsewhere.iter().filter(|other| other.place.parameter == parameter).collect();
     let alike = places.chunk_by(|a, b| a.measured.verdict == b.measured.verdict);

@@ -6,21 +6,21 @@ use serde::Serialize;
 use super::json;
 use super::model::{Cell, Report, Table};
 use super::picture::{Axis, SERIES, Series, Style, chart};
-use studies::extremes::{Break, Column, Generator, Measured, Verdict};
+use studies::extremes::{Break, Column, Generator, SweepTable, Verdict};
 
 /// The content of `extremes.json`: a row for each generator.
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
-    rows: &'a [Measured],
+    rows: &'a [SweepTable],
 }
 
 /// Returns the content of `extremes.json`.
-pub fn json(measured: &[Measured]) -> String {
+pub fn json(measured: &[SweepTable]) -> String {
     json::line(None, &Document { rows: measured })
 }
 
 pub fn list(generators: &[Generator]) -> Report {
-    let table = Table::of(generators)
+    let table = Table::from_rows(generators)
         .column("generator", |generator| generator.name)
         .column("what is swept", |generator| generator.magnitude)
         .column("title", |generator| generator.title);
@@ -28,7 +28,7 @@ pub fn list(generators: &[Generator]) -> Report {
 }
 
 /// Reports for each generator where its methods break down, then what came of every magnitude.
-pub fn report(measured: &[Measured]) -> Report {
+pub fn report(measured: &[SweepTable]) -> Report {
     measured.iter().fold(Report::default(), |report, measured| {
         let report = report.heading(format!("{}: {}", measured.name, measured.title));
         let report = match measured.logarithmic {
@@ -41,11 +41,11 @@ pub fn report(measured: &[Measured]) -> Report {
 
 /// Draws the digits that each method keeps against the magnitude, in as many pictures as its curves
 /// need.
-pub fn pictures(measured: &Measured) -> Vec<String> {
+pub fn pictures(measured: &SweepTable) -> Vec<String> {
     measured.columns.chunks(SERIES).map(|columns| picture(measured, columns)).collect()
 }
 
-fn picture(measured: &Measured, columns: &[Column]) -> String {
+fn picture(measured: &SweepTable, columns: &[Column]) -> String {
     let series: Vec<Series> = columns.iter().map(|column| curve(measured, column)).collect();
     let (label, magnitudes) = match measured.logarithmic {
         true => (measured.magnitude, measured.magnitude.into()),
@@ -66,19 +66,19 @@ fn picture(measured: &Measured, columns: &[Column]) -> String {
     chart(measured.title, axes, &series, &captions)
 }
 
-fn curve(measured: &Measured, column: &Column) -> Series {
+fn curve(measured: &SweepTable, column: &Column) -> Series {
     let points = measured.magnitudes.iter().zip(&column.verdicts);
     let points = points.filter_map(|(x, v)| Some([*x, v.digits(column.carried)?])).collect();
     Series { name: column.name.clone(), points, style: Style::Dotted }
 }
 
 /// Returns a row for each method: the digits where the sweep is kindest, and where it breaks down.
-fn breaks(measured: &Measured) -> Table<Vec<&Column>> {
+fn breaks(measured: &SweepTable) -> Table<Vec<&Column>> {
     let magnitude = |found: &Option<Break>| {
         found.as_ref().map(|found| format!("1e{:.0}", found.exponent.round()))
     };
     let verdict = |found: &Option<Break>| found.as_ref().map(|found| found.verdict.to_string());
-    Table::of(&measured.columns)
+    Table::from_rows(&measured.columns)
         .column("method", |column| column.name.clone())
         .column("most digits", |column| {
             let digits = column.verdicts.iter().filter_map(|v| v.digits(column.carried));
@@ -91,7 +91,7 @@ fn breaks(measured: &Measured) -> Table<Vec<&Column>> {
 }
 
 /// Reports a row for each magnitude and a column for each method.
-fn sweep(measured: &Measured) -> Report {
+fn sweep(measured: &SweepTable) -> Report {
     let rows = measured.labels.iter().enumerate().map(|(k, label)| {
         let cell = |column: &Column| match (&column.verdicts[k], measured.logarithmic) {
             // The table above says what was refused or wrong.

@@ -16,16 +16,16 @@ use studies::plan::Plan;
 
 /// What a folder holds beside `fields.vtu` and `result.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
+pub struct FolderOptions {
     /// Whether there are pictures.
     pub pictures: bool,
     /// Whether `result.json` has the values of all nodes and triangles however many there are.
     pub fields: bool,
 }
 
-impl Default for Wanted {
+impl Default for FolderOptions {
     fn default() -> Self {
-        Wanted { pictures: true, fields: false }
+        FolderOptions { pictures: true, fields: false }
     }
 }
 
@@ -36,7 +36,7 @@ pub fn write(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
-    wanted: Wanted,
+    wanted: FolderOptions,
 ) -> Result<String> {
     let mut files = contents(solution, assessment, plan, wanted);
     files::write_all(folder, "solve", &files)?;
@@ -44,7 +44,7 @@ pub fn write(
 }
 
 /// Returns the names of the files that a run may leave.
-pub fn names(wanted: Wanted) -> Vec<String> {
+pub fn names(wanted: FolderOptions) -> Vec<String> {
     let data = ["result.json", "fields.vtu"].map(String::from);
     let pictures = ["mesh.svg", "pressure.svg"].map(String::from);
     let pictures = pictures.into_iter().chain(drawn().map(picture_name));
@@ -68,7 +68,7 @@ pub fn contents(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
-    wanted: Wanted,
+    wanted: FolderOptions,
 ) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
@@ -106,7 +106,7 @@ pub fn result(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
-    wanted: Wanted,
+    wanted: FolderOptions,
 ) -> String {
     let result = ResultFile::new(solution, assessment, plan);
     if wanted.fields {

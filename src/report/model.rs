@@ -111,7 +111,7 @@ impl Table {
 
 impl<R> Table<Vec<R>> {
     /// Starts a table with a row for each of `rows`.
-    pub fn of(rows: impl IntoIterator<Item = R>) -> Self {
+    pub fn from_rows(rows: impl IntoIterator<Item = R>) -> Self {
         let rows: Vec<R> = rows.into_iter().collect();
         Table { cells: vec![Vec::new(); rows.len()], rows, headings: Vec::new() }
     }

@@ -112,7 +112,7 @@ fn contact_rows(contact: &ContactPlan) -> [Vec<Cell>; 3] {
 }
 
 fn bodies<'a>(bodies: &'a [BodyPlan], units: &Units) -> Table<Vec<&'a BodyPlan>> {
-    Table::of(bodies)
+    Table::from_rows(bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("size", &units.length), |body| body.size.map(six_digits).join(" x "))
         .column("nodes", |body| body.nodes)

@@ -29,16 +29,16 @@ impl Array {
 /// A measured value, as it stands in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
-pub enum Measured {
+pub enum MeasuredValue {
     Scalar(f64),
     Components(Vec<f64>),
 }
 
-impl Measured {
+impl MeasuredValue {
     pub fn numbers(&self) -> Vec<f64> {
         match self {
-            Measured::Scalar(x) => vec![*x],
-            Measured::Components(x) => x.clone(),
+            MeasuredValue::Scalar(x) => vec![*x],
+            MeasuredValue::Components(x) => x.clone(),
         }
     }
 }
@@ -52,7 +52,7 @@ pub fn table<'r, 'q, T: 'static>(
 ) -> Table<Vec<&'r T>> {
     let is_known =
         |quantity: &Quantity<T>| rows.iter().any(|row| (quantity.value)(row) != Value::Unknown);
-    let mut table = Table::of(rows);
+    let mut table = Table::from_rows(rows);
     for quantity in quantities.into_iter().filter(|q| !q.title.is_empty() && is_known(q)) {
         for (k, title) in titles(quantity).iter().enumerate() {
             let heading = with_its_unit(title, quantity.unit.in_scene(units));
@@ -144,12 +144,12 @@ fn in_space([xx, yy, xy, zz]: [f64; 4]) -> [f64; 9] {
 }
 
 /// Returns the measured values of a triangle by their fields, without those that are not known.
-pub fn measured(values: &TriangleValues) -> Vec<(&'static str, Measured)> {
+pub fn measured(values: &TriangleValues) -> Vec<(&'static str, MeasuredValue)> {
     let known = |quantity: &Quantity<TriangleValues>| {
         let numbers = (quantity.value)(values).numbers()?;
         let value = match numbers[..] {
-            [x] => Measured::Scalar(x),
-            _ => Measured::Components(numbers),
+            [x] => MeasuredValue::Scalar(x),
+            _ => MeasuredValue::Components(numbers),
         };
         Some((quantity.name, value))
     };

@@ -10,15 +10,15 @@ pub fn report(
     findings: &[(&str, &str)],
     generators: &[(String, String)],
 ) -> Report {
-    let scenes = Table::of(scenes)
+    let scenes = Table::from_rows(scenes)
         .column("scene", |(name, _)| *name)
         .column("nodes", |(_, scene)| scene.model.nodes.len())
         .column("triangles", |(_, scene)| scene.model.triangles.len())
         .column("title", |(_, scene)| scene.title.clone());
-    let findings = Table::of(findings)
+    let findings = Table::from_rows(findings)
         .column("finding", |(id, _)| *id)
         .column("what its scene shows", |(_, title)| *title);
-    let generators = Table::of(generators)
+    let generators = Table::from_rows(generators)
         .column("generator", |(name, _)| name.clone())
         .column("what it makes", |(_, about)| about.clone());
     Report::default()

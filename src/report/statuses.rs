@@ -39,7 +39,7 @@ pub fn picture(measured: &Measurement) -> String {
 }
 
 fn wrong(rows: &[Row]) -> Table<Vec<&Row>> {
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .column("depth / c_tll", |row| Cell::plain(row.depth))
         .column("target", |row| row.target)
         .column("nodes", |row| row.nodes)
@@ -54,8 +54,9 @@ fn wrong(rows: &[Row]) -> Table<Vec<&Row>> {
 }
 
 fn operations(rows: &[Row]) -> Table<Vec<&Row>> {
-    let table =
-        Table::of(rows).column("target edges", |row| row.edges).column("nodes", |row| row.nodes);
+    let table = Table::from_rows(rows)
+        .column("target edges", |row| row.edges)
+        .column("nodes", |row| row.nodes);
     StatusRule::ALL.iter().enumerate().fold(table, |table, (k, rule)| {
         table.column(rule, |row| {
             Cell::decimals(row.rules[k].operations as f64 / row.nodes.max(1) as f64, 1)

@@ -22,7 +22,7 @@ use studies::audit::trace::{Access, Kept, Product, Step, text_of};
 use studies::lesson::figure_numbers;
 
 /// How much of a trace is shown, and how.
-pub struct Shown {
+pub struct TraceOptions {
     /// Only what the conditions decided, a line for each.
     pub summary: bool,
     /// The first and the last printed line.
@@ -45,10 +45,10 @@ pub struct Traced<'a> {
 /// Writes a trace for people: turn by turn, then what is outside the turns, then what `trace()` wrote.
 /// A listing may loop twice over the same turns; a trace that is too long to be kept is written in the
 /// order of execution, so that what is held grows with the listing, not with the trace.
-pub struct Telling<'a, W> {
+pub struct TraceWriter<'a, W> {
     out: W,
     of: Traced<'a>,
-    shown: &'a Shown,
+    shown: &'a TraceOptions,
     /// What was executed so far, as long as all of it is kept.
     kept: Option<Kept>,
     turn: Option<Turn>,
@@ -72,10 +72,10 @@ struct Turn {
 /// The statements for one target edge that are kept at most; beyond it all of them are shown.
 const MOST_KEPT: usize = 10_000;
 
-impl<'a, W: Write> Telling<'a, W> {
-    pub fn new(out: W, of: Traced<'a>, shown: &'a Shown) -> Self {
+impl<'a, W: Write> TraceWriter<'a, W> {
+    pub fn new(out: W, of: Traced<'a>, shown: &'a TraceOptions) -> Self {
         let kept = Some(Kept::default());
-        Telling { out, of, shown, kept, turn: None, outside: Vec::new(), failed: Ok(()) }
+        TraceWriter { out, of, shown, kept, turn: None, outside: Vec::new(), failed: Ok(()) }
     }
 
     /// Takes a statement that was executed.
@@ -211,7 +211,7 @@ impl Turn {
     }
 }
 
-impl Shown {
+impl TraceOptions {
     fn has(&self, step: &Step) -> bool {
         (self.lines[0]..=self.lines[1]).contains(&step.line)
     }
@@ -249,7 +249,7 @@ pub(super) fn in_figure(scene: &Scene, model: &Model, node: NodeId) -> Option<St
 
 /// Writes what a condition decided, and what followed: yes and what was written, or no and the first
 /// operand that is false.
-fn decision(listing: &Listing, step: &Step, held: bool, shown: &Shown) -> String {
+fn decision(listing: &Listing, step: &Step, held: bool, shown: &TraceOptions) -> String {
     let text = text_of(listing, step.line);
     let condition = text.split_once("if ").map_or(text, |(_, condition)| condition);
     let failed = step.operands.iter().find(|(_, truth)| *truth == Some(false));
@@ -266,7 +266,7 @@ fn decision(listing: &Listing, step: &Step, held: bool, shown: &Shown) -> String
 fn executed_outside(
     listing: &Listing,
     (line, times, last): (usize, usize, &Step),
-    shown: &Shown,
+    shown: &TraceOptions,
 ) -> String {
     let written = accesses(&last.writes, " ← ", shown).join(", ");
     let last = if written.is_empty() { String::new() } else { format!(", last ⇒ {written}") };
@@ -275,7 +275,7 @@ fn executed_outside(
 }
 
 /// Writes a printed line, what it read, and what it wrote.
-fn step_in_words(listing: &Listing, step: &Step, shown: &Shown) -> String {
+fn step_in_words(listing: &Listing, step: &Step, shown: &TraceOptions) -> String {
     let printed = text_of(listing, step.line);
     let start = format!("  {:>2}  ", step.line);
     let mut text = filled(&start, 8, shown.width, printed.split(' '), " ");
@@ -293,7 +293,7 @@ fn step_in_words(listing: &Listing, step: &Step, shown: &Shown) -> String {
 }
 
 /// Writes names and values, each pair once.
-fn accesses(accesses: &[Access], sign: &str, shown: &Shown) -> Vec<String> {
+fn accesses(accesses: &[Access], sign: &str, shown: &TraceOptions) -> Vec<String> {
     let mut seen: Vec<String> = Vec::new();
     for access in accesses {
         let item = format!("{}{sign}{}", access.name, value(&access.value, shown));
@@ -305,7 +305,7 @@ fn accesses(accesses: &[Access], sign: &str, shown: &Shown) -> Vec<String> {
 }
 
 /// Writes a number, `(a  b)` for a column, `(a  b;  c  d)` for a matrix, or the kind of value.
-fn value(value: &Json, shown: &Shown) -> String {
+fn value(value: &Json, shown: &TraceOptions) -> String {
     match value {
         Json::String(text) => text.clone(),
         Json::Array(rows) => {
@@ -317,7 +317,7 @@ fn value(value: &Json, shown: &Shown) -> String {
     }
 }
 
-fn row(value: &Json, shown: &Shown) -> String {
+fn row(value: &Json, shown: &TraceOptions) -> String {
     match value {
         Json::Array(entries) => {
             entries.iter().map(|value| row(value, shown)).collect::<Vec<_>>().join("  ")

@@ -14,8 +14,8 @@ use engine::estimates::Certainty;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::claims::{Claim, Elsewhere};
-use studies::audit::range::{self, Place};
-use studies::trade::{Came, Errors, Order, Reached, Row, Section, Trade, Varied};
+use studies::audit::range::{self, ParameterValue};
+use studies::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade, Varied};
 
 /// Returns the content of `trade.json`.
 pub fn json(scene: &Scene, trade: &Trade) -> String {
@@ -38,7 +38,7 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
 pub fn csv(trade: &Trade) -> String {
     let sections = trade.sections.iter();
     let rows = sections.flat_map(|section| section.rows.iter().map(move |row| (section, row)));
-    Table::of(rows)
+    Table::from_rows(rows)
         .column("parameter", |(section, _)| section.parameter.to_string())
         .column("variant", |(_, row)| row.variant.to_string())
         .column("setting", |(_, row)| row.label.clone())
@@ -97,7 +97,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         error => Cell::scientific(error, 1).because(reason(field)),
     };
     let displacement = |e: Errors| error(e.displacement, "displacement");
-    let table = Table::of(&section.rows)
+    let table = Table::from_rows(&section.rows)
         .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
         .column("variant", |row| row.variant.to_string())
         .column(section.parameter, |row| row.label.clone())
@@ -118,7 +118,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
 }
 
 fn orders(orders: &[Order]) -> Table<Vec<&Order>> {
-    Table::of(orders)
+    Table::from_rows(orders)
         .column("quantity", |order| order.quantity)
         .column("order", |order| order.order.map(|order| Cell::decimals(order, 2)))
         .column("scatter", |order| order.scatter.map(|scatter| Cell::decimals(scatter, 2)))
@@ -170,7 +170,7 @@ pub fn geometry(section: &Section) -> Vec<(String, String)> {
 const DRAWN: &str = "P10";
 
 fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
-    let here = |place: Place| Some(place.value).filter(|_| place.parameter == parameter);
+    let here = |place: ParameterValue| Some(place.value).filter(|_| place.parameter == parameter);
     let error = |row: &Row| Some([here(row.place?)?, row.error?.energy]);
     let of_variant = |variant: &Variant| Series {
         name: variant.to_string(),
@@ -212,18 +212,18 @@ fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
 }
 
 /// Reports what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.
-pub fn reached(reached: &Reached, accuracy: f64) -> Report {
+pub fn reached(reached: &AccurateSolution, accuracy: f64) -> Report {
     let printed = reached.solution.request.variant == Variant::Printed;
     let attempts = reached.attempts.iter().map(|attempt| {
-        let outcome = match &attempt.came {
-            Came::NotRun(why) => format!("not run: {why}"),
-            Came::Failed(why) => format!("failed, so up one precision: {why}"),
-            Came::Bound(0.0) => "no rounding: taken".into(),
-            Came::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
-            Came::Bound(bound) if bound.is_finite() => {
+        let outcome = match &attempt.outcome {
+            Outcome::NotRun(why) => format!("not run: {why}"),
+            Outcome::Failed(why) => format!("failed, so up one precision: {why}"),
+            Outcome::Bound(0.0) => "no rounding: taken".into(),
+            Outcome::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
+            Outcome::Bound(bound) if bound.is_finite() => {
                 format!("within {bound:.0e}, so up one precision")
             }
-            Came::Bound(_) => {
+            Outcome::Bound(_) => {
                 "no bound, as where rounding may have decided who is in contact: up one precision"
                     .into()
             }

@@ -57,7 +57,7 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     let points: Vec<Array> = at_nodes.chain(contact).collect();
     let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
     let program = format!("plane-contact {VERSION}");
-    let run = Options::of(&solution.request).name();
+    let run = Options::from_request(&solution.request).name();
     let about: [About; 5] = [
         ("program", &program),
         ("scene", &scene.name),

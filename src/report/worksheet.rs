@@ -8,12 +8,12 @@ use serde_json::Value;
 
 use super::json;
 use super::model::{Report, Table};
-use mathcad::worksheet::{Checked, Verdict};
+use mathcad::worksheet::{ExecutedRegion, Verdict};
 
 /// Reports each region with what came of it, what a worksheet of questions decides, and how many
 /// regions came out how.
-pub fn report(regions: &[Checked], decided: &[(String, String)]) -> Report {
-    let table = Table::of(regions)
+pub fn report(regions: &[ExecutedRegion], decided: &[(String, String)]) -> Report {
+    let table = Table::from_rows(regions)
         .column("region", |region| region.id.clone())
         .column("tag", |region| region.tag.clone())
         .column("text", |region| {
@@ -31,7 +31,7 @@ pub fn report(regions: &[Checked], decided: &[(String, String)]) -> Report {
 }
 
 /// Says what came of a region.
-fn words(region: &&Checked) -> String {
+fn words(region: &&ExecutedRegion) -> String {
     let inputs: Vec<&str> = region.inputs.iter().map(String::as_str).collect();
     let from = match inputs.as_slice() {
         [] => String::new(),
@@ -57,7 +57,7 @@ fn short(value: &str) -> String {
 }
 
 /// How many regions came out how.
-fn summary(regions: &[Checked]) -> String {
+fn summary(regions: &[ExecutedRegion]) -> String {
     let count = |is: &dyn Fn(&Verdict) -> bool| regions.iter().filter(|r| is(&r.verdict)).count();
     let same = count(&|v| *v == Verdict::Same);
     let digits = count(&|v| matches!(v, Verdict::Digits(_)));
@@ -134,7 +134,7 @@ struct Question<'a> {
 }
 
 /// Writes the regions on one line.
-pub fn json(file: &str, regions: &[Checked], decided: &[(String, String)]) -> String {
+pub fn json(file: &str, regions: &[ExecutedRegion], decided: &[(String, String)]) -> String {
     let regions = regions.iter().map(|region| RegionRow {
         region: &region.id,
         tag: &region.tag,

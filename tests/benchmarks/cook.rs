@@ -22,7 +22,7 @@ const KNOWN: [(usize, f64); 6] =
 fn the_tip_moves_as_known_on_every_mesh() {
     for (n, expected) in KNOWN {
         let solution = solved(Cook { n }.generate());
-        let [_, tip] = node_at(&solution.model, [48.0, 52.0]).of(&solution.u);
+        let [_, tip] = node_at(&solution.model, [48.0, 52.0]).components(&solution.u);
         assert_near(&format!("n = {n}"), tip, expected, 1.0, &COOK);
     }
 }

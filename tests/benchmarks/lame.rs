@@ -29,7 +29,7 @@ fn exact(r: f64) -> f64 {
 /// Root mean square of the displacements' error over the nodes, mm.
 fn error(solution: &Solution) -> f64 {
     let squares = solution.model.node_ids().map(|node| {
-        let ([x, y], [ux, uy]) = (solution.model.at(node), node.of(&solution.u));
+        let ([x, y], [ux, uy]) = (solution.model.coordinates(node), node.components(&solution.u));
         let r = x.hypot(y);
         let [ex, ey] = [x, y].map(|c| exact(r) * c / r);
         (ux - ex).powi(2) + (uy - ey).powi(2)
@@ -49,7 +49,7 @@ fn displacements_converge_with_order_2() {
 fn the_bore_has_its_displacement_and_hoop_stress() {
     let solution = annulus(64);
     let bore = node_at(&solution.model, [50f64.sqrt(); 2]);
-    let [x, y] = bore.of(&solution.u);
+    let [x, y] = bore.components(&solution.u);
     let u = x.hypot(y);
     assert_near("u", u, 0.00613333, 0.00613333, &LAME_DISPLACEMENT);
     let [xx, yy, xy] = extrapolated(&solution, bore);

@@ -126,7 +126,7 @@ fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
     let solution = solved(Cook { n: 16 }.generate());
     let [Some(found)] = &limits(&solution)[..] else { panic!("the corner is not found") };
     assert_eq!(found.cause, Cause::Restraint);
-    assert_eq!(solution.model.at(found.node), [0.0, 44.0]);
+    assert_eq!(solution.model.coordinates(found.node), [0.0, 44.0]);
     assert!(found.is_largest);
     assert!(Estimates::new(&solution, &Session::default()).errors.bodies[0].mesh.is_none());
     let corner = &probed(&solution, [0.0, 44.0])[0];
@@ -201,7 +201,7 @@ fn under_a_force_on_a_node_neither_stress_nor_displacement_has_a_limit() {
         let estimates = Estimates::new(&solution, &Session::default()).errors;
         let limits = estimates.bodies.iter().map(|body| body.no_limit.clone());
         let loaded = limits.flatten().find(|limit| limit.cause == Cause::Load).expect("the force");
-        assert_eq!(solution.model.at(loaded.node), [0.5, 1.0]);
+        assert_eq!(solution.model.coordinates(loaded.node), [0.5, 1.0]);
         assert_eq!(estimates.displacement_no_limit, Some((loaded.node, Cause::Load)));
         assert!(estimates.displacement_mesh.is_none());
         let assessment = Assessment::new(&solution, &Session::default());

@@ -31,7 +31,7 @@ pub fn solved_by(
 /// The node at a place; there must be one.
 pub fn node_at(model: &Model, [x, y]: [f64; 2]) -> NodeId {
     let here = |node: &NodeId| {
-        let p = model.at(*node);
+        let p = model.coordinates(*node);
         (p[0] - x).hypot(p[1] - y) < 1e-9
     };
     model.node_ids().find(here).expect("a node stands there")
@@ -61,7 +61,7 @@ pub fn extrapolated(solution: &Solution, node: NodeId) -> [f64; 3] {
         near = patch(model, &near).iter().flat_map(|t| model.triangle(*t).nodes).collect();
     }
     let inner: Vec<NodeId> = near.difference(&outer).copied().collect();
-    let planes = inner.iter().map(|&n| from_patch(solution, n, model.at(node)));
+    let planes = inner.iter().map(|&n| from_patch(solution, n, model.coordinates(node)));
     (planes.fold(Vector3::zeros(), |a, b| a + b) / inner.len() as f64).into()
 }
 

@@ -72,7 +72,7 @@ fn printed_results_read_back() {
     assert_eq!(fields.u[9], [0.0, 0.0]);
     assert_eq!(fields.u[12], [0.0, -2.015804e-4]);
     let (_, solution) = solve("fig1", Variant::Tied);
-    let comparison = Comparison::new(&solution.model, Fields::of(&solution), fields);
+    let comparison = Comparison::new(&solution.model, Fields::from_solution(&solution), fields);
     assert_same(&comparison, "fig1 as stored");
 }
 
@@ -223,7 +223,7 @@ fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
     let solution = solution(scene, variant);
     let parts = Contact::parts(&solution).unwrap();
     let ran = run("ccx", scene, &solution.model, &parts).unwrap();
-    let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+    let comparison = Comparison::new(&solution.model, Fields::from_solution(&solution), ran.fields);
     assert_same(&comparison, &format!("{name} {variant}"));
 }
 
@@ -243,7 +243,8 @@ fn ccx_rubs_alike_but_for_its_penalty() {
         let contact = Contact::Pair(Pair::new(&solution.model, None, friction));
         let part = Part { contact, share: 1.0 };
         let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
-        let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+        let comparison =
+            Comparison::new(&solution.model, Fields::from_solution(&solution), ran.fields);
         let u = comparison.displacement.largest;
         assert_near(&format!("{mu}, node {}", u.at), u.difference, 0.0, u.scale, &CCX_FRICTION);
     }
@@ -261,7 +262,8 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
         let pair = Pair::new(&solution.model, None, Friction::NONE);
         let part = Part { contact: Contact::Pair(pair), share: 1.0 };
         let ran = run("ccx", &scene, &solution.model, &[part]).unwrap();
-        let comparison = Comparison::new(&solution.model, Fields::of(&solution), ran.fields);
+        let comparison =
+            Comparison::new(&solution.model, Fields::from_solution(&solution), ran.fields);
         let (u, stress) = (comparison.displacement.largest, comparison.stress.largest);
         eprintln!("{name}: displacement {:?}, stress {:?}", u.relative, stress.relative);
         assert_near(&format!("{name}, node {}", u.at), u.difference, 0.0, u.scale, &PENALTY);

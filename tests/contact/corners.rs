@@ -267,7 +267,7 @@ pub fn writings() -> Vec<Writing> {
 }
 
 fn displacement(solution: &Solution, node: usize) -> [f64; 2] {
-    NodeId::new(node).of(&solution.u)
+    NodeId::new(node).components(&solution.u)
 }
 
 /// Asserts that displacements do not depend on the writing; `Err` must be one everywhere.

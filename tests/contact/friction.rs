@@ -71,7 +71,7 @@ fn a_pulled_strip_slips_over_the_length_that_carries_the_pull() {
             solution.contact.iter().filter(|c| matches!(c.status, Some(Status::Slip(_))));
         let first = slipping.map(|c| c.arc).fold(f64::INFINITY, f64::min);
         assert_near("slip length", 10.0 - first, length, h + 10.0 / n as f64, &SHEAR_LAG);
-        let end = solution.contact.last().unwrap().node.of(&solution.u)[0];
+        let end = solution.contact.last().unwrap().node.components(&solution.u)[0];
         let exact = mu * length * length / (2.0 * 1e3 * h);
         assert_near("end", end, exact, exact * h / length, &SHEAR_LAG);
         let shear: f64 =
@@ -98,7 +98,7 @@ fn friction_dissipates() {
         .contact
         .iter()
         .map(|c| {
-            let slip = c.node.of(&solution.u)[0];
+            let slip = c.node.components(&solution.u)[0];
             let force = c.friction_needed.unwrap() * c.force.unwrap();
             if c.status == Some(Status::Stick) {
                 assert_near("a sticking node", slip, 0.0, solution.u.amax(), &DISSIPATION);

@@ -76,7 +76,7 @@ fn in_gaps(
     let (plain, facing) = (new(), new().with_gaps(pairings, sticks));
     let condensed = facing.condensed(&stiffness, constraints).expect("its target is held");
     let gaps = Gaps::new(&condensed, pairings, sticks).map(Arc::new);
-    let is_held = gaps.is_some_and(|gaps| gaps.held(constraints).is_some());
+    let is_held = gaps.is_some_and(|gaps| gaps.factor(constraints).is_some());
     let Some(plain_state) = plain.state(&stiffness, constraints) else {
         assert!(!is_held && facing.state(&stiffness, constraints).is_none());
         return None;

@@ -297,7 +297,7 @@ impl Hard {
         let size = model.bounds().larger_side();
         for pairing in surfaces.pairings(self.coupling, measured_in).iter().flatten() {
             let Pairing { node, normal: [nx, ny], masters, .. } = pairing;
-            let [rx, ry] = node.of(&left);
+            let [rx, ry] = node.components(&left);
             let (p, q) = (nx * rx + ny * ry, nx * ry - ny * rx);
             let gap = pairing.opening(|node| shape[node.index()]);
             let is_near = |name: &str, x: f64, scale: f64| {

@@ -99,8 +99,8 @@ fn difference(plain: &Solution, image: &Solution, writing: &Writing) -> f64 {
     let places = writing.places(plain.model.nodes.len());
     let mut most = 0.0_f64;
     for (n, place) in places.into_iter().enumerate() {
-        let expected = writing.vector(NodeId::new(n).of(&plain.u));
-        let found = NodeId::new(place).of(&image.u);
+        let expected = writing.vector(NodeId::new(n).components(&plain.u));
+        let found = NodeId::new(place).components(&image.u);
         for d in [0, 1] {
             most = most.max((found[d] / writing.scale() - expected[d]).abs());
         }

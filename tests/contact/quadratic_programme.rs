@@ -117,7 +117,7 @@ impl Programme {
                     }
                 }
             }
-            gap[row] = pairing.opening(|n| model.at(n));
+            gap[row] = pairing.opening(|n| model.coordinates(n));
         }
         let f = DVector::from_iterator(
             free.len(),

@@ -220,7 +220,7 @@ pub fn solved(scene: &SceneBuilder) -> Result<Solution, Error> {
 
 /// Displacement along y of node 8, a corner of the stack's top edge.
 fn top(solution: &Solution) -> f64 {
-    NodeId::from_number(8).of(&solution.u)[1]
+    NodeId::from_number(8).components(&solution.u)[1]
 }
 
 #[test]

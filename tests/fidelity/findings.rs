@@ -16,7 +16,7 @@ use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::{FINDINGS, Finding, Measured, Repair, Verdict};
+use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
 use plane_contact::studies::audit::trace::Product;
 use plane_contact::studies::lesson::{self, Run, Switch};
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ fn scene_json(id: &str) -> Value {
 }
 
 /// What finding `id` measures on its scene once `change` has been made.
-fn measured(id: &str, change: impl FnOnce(&mut Value)) -> Measured {
+fn measured(id: &str, change: impl FnOnce(&mut Value)) -> Evidence {
     let mut json = scene_json(id);
     change(&mut json);
     finding(id).measure(&case(&json))
@@ -59,7 +59,7 @@ fn at(json: &mut Value, n: usize, x: f64, y: f64) {
 }
 
 #[track_caller]
-fn shows(id: &str, measured: &Measured, number: f64, words: &[&str]) {
+fn shows(id: &str, measured: &Evidence, number: f64, words: &[&str]) {
     assert_eq!(measured.verdict, Verdict::Present, "{id}: {}", measured.detail);
     let scale = if number == 0.0 { 1.0 } else { number };
     assert_near(id, measured.number, number, scale, &FINDING);
@@ -265,7 +265,7 @@ fn c12_the_stamp_moves_twice_as_far_as_the_target() {
         json!([{ "node": 1, "force": [0.0, -0.02] }, { "node": 2, "force": [0.0, -0.02] }]);
     json["iterations"] = json!(1);
     let u = displacements(&json, Variant::Tied);
-    let v = |number: usize| NodeId::from_number(number).of(&u)[1];
+    let v = |number: usize| NodeId::from_number(number).components(&u)[1];
     let target = 0.75 * v(1) + 0.25 * v(2);
     assert!(target < 0.0);
     assert_near("v of node 4", v(4), 2.0 * target, target, &FINDING);

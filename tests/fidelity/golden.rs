@@ -9,7 +9,7 @@ use plane_contact::paper::door;
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{SCENES, Scene};
-use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{Snapshot, verify};
 
 /// A float for a golden file: 12 significant digits, 0 as `0`.
@@ -46,7 +46,7 @@ fn snapshots_of_every_scene_and_variant() {
         assert!(
             same,
             "{}",
-            report::report(&[Checked { file, verified: Ok(verified) }]).text(usize::MAX)
+            report::report(&[VerifiedFile { file, verified: Ok(verified) }]).text(usize::MAX)
         );
     }
 }

@@ -57,10 +57,10 @@ fn two_blocks_have_their_closed_form() {
         }
         let top = p * (2.0 / modulus(30000.0, 0.2) + 2.0 / modulus(210000.0, 0.3));
         for node in NodeId::all(18) {
-            let [_, y] = solution.model.at(node);
+            let [_, y] = solution.model.coordinates(node);
             let below = 2.0_f64.min(if node.number() < 10 { y } else { 2.0 });
             let v = p * (below / modulus(30000.0, 0.2) + (y - below) / modulus(210000.0, 0.3));
-            let [along_x, along_y] = node.of(&solution.u);
+            let [along_x, along_y] = node.components(&solution.u);
             assert_near("u", along_x, 0.0, top, &CLOSED_FORM);
             assert_near("v", along_y, -v, top, &CLOSED_FORM);
         }
@@ -78,7 +78,7 @@ fn k1_as_printed_nothing_reaches_the_target() {
         let (_, solution) = solve(name, Variant::Printed);
         let target = solution.model.target().expect("a scene with contact");
         for n in &target.nodes {
-            assert_eq!(n.of(&solution.u), [0.0, 0.0], "{name}, node {n}");
+            assert_eq!(n.components(&solution.u), [0.0, 0.0], "{name}, node {n}");
         }
         for n in &target.triangles {
             let state = &solution.elements[n.index()];
@@ -167,7 +167,8 @@ fn a_scene_mirrored_in_x_has_the_mirrored_answer() {
         assert_eq!(published(&scene.steps[0]).pairs.dy.as_slice(), dy);
         let scale = scene.u.amax();
         for node in NodeId::all(13) {
-            let ([u, v], [image_u, image_v]) = (node.of(&scene.u), node.of(&image.u));
+            let ([u, v], [image_u, image_v]) =
+                (node.components(&scene.u), node.components(&image.u));
             assert_near("u", image_u, -u, scale, &MIRRORED);
             assert_near("v", image_v, v, scale, &MIRRORED);
         }
@@ -181,7 +182,7 @@ fn a_scene_mirrored_in_x_has_the_mirrored_answer() {
 fn c7_k2_a_scene_mirrored_in_x_has_another_answer_as_printed() {
     let (_, scene) = solve("fig1", Variant::Printed);
     let image = solved(&mirrored([-1.0, 1.0]), Variant::Printed);
-    let v = |solution: &Solution, node: NodeId| node.of(&solution.u)[1];
+    let v = |solution: &Solution, node: NodeId| node.components(&solution.u)[1];
     let difference = NodeId::all(13).map(|node| (v(&image, node) - v(&scene, node)).abs());
     assert!(difference.fold(0.0, f64::max) > 0.1 * scene.u.amax());
 }
@@ -262,7 +263,7 @@ fn r2_printed_holds_what_km_holds() {
     let reading: Reading = "R2=printed".parse().unwrap();
     let scene = build(&scene).unwrap();
     let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
-    assert_eq!(NodeId::from_number(12).of(&run(&request).unwrap().u), [0.0, 0.0]);
+    assert_eq!(NodeId::from_number(12).components(&run(&request).unwrap().u), [0.0, 0.0]);
 }
 
 /// Loads from 1e-200 to 1e150: forces stay forces; what overflows is refused.
@@ -291,7 +292,7 @@ fn forces_on_held_target_nodes_count() {
         let solution = solved(&scene, variant);
         let u = &solution.u;
         for node in NodeId::all(9) {
-            for u_node in node.of(u) {
+            for u_node in node.components(u) {
                 assert_near("the lower block does not move", u_node, 0.0, u.amax(), &CLOSED_FORM);
             }
         }
@@ -318,7 +319,7 @@ fn a_scene_without_contact_is_plain_elasticity() {
     let scene = build(&json).unwrap();
     let solution = solved(&scene, Variant::Tied);
     assert!(solution.steps.iter().all(|it| it.in_contact == 0 && it.target_force == Some(0.0)));
-    let mut lower = NodeId::all(9).map(|node| node.of(&solution.u));
+    let mut lower = NodeId::all(9).map(|node| node.components(&solution.u));
     assert!(lower.all(|u| u == [0.0, 0.0]), "the lower block carries nothing");
     assert!(solution.elements[15].von_mises_stress > 1.0);
 }

@@ -12,7 +12,7 @@ use plane_contact::numbers::scalar::rational;
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::trade::{Came, Reached, solve_to};
+use plane_contact::studies::trade::{AccurateSolution, Outcome, solve_to};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::{Value, json};
@@ -124,7 +124,7 @@ fn error(delivered: &Solution, exact: &Solution) -> f64 {
     if off == 0.0 { 0.0 } else { off / max_displacement(&exact.u) }
 }
 
-fn case(scene: &Value, variant: Variant, accuracy: f64) -> Result<Reached, Error> {
+fn case(scene: &Value, variant: Variant, accuracy: f64) -> Result<AccurateSolution, Error> {
     solve_to(
         &Request::new(&build(scene).expect("a scene")).variant(variant),
         &Session::default(),
@@ -193,7 +193,7 @@ fn what_f32_cannot_represent_climbs() {
     ] {
         let reached =
             case(&scene, Variant::Tied, 1e-3).unwrap_or_else(|why| panic!("{what}: {why}"));
-        assert!(matches!(reached.attempts[0].came, Came::Failed(_)), "{what}: {reached:?}");
+        assert!(matches!(reached.attempts[0].outcome, Outcome::Failed(_)), "{what}: {reached:?}");
         assert_eq!(reached.solution.request.arithmetic.scalar, ScalarName::Bounded, "{what}");
     }
 }

@@ -185,7 +185,7 @@ fn the_bar_of_a_stress_holds_what_a_moved_node_does_to_it() {
         let of_element = |sign: f64| {
             nalgebra::SVector::<f64, 6>::from_fn(|k, _| {
                 let turned = if k % 3 == 0 { -sign } else { sign };
-                nodes[k / 2].of(&solution.u)[k % 2] + turned * moved
+                nodes[k / 2].components(&solution.u)[k % 2] + turned * moved
             })
         };
         for sign in [-1.0, 1.0] {

@@ -6,13 +6,13 @@ use std::sync::LazyLock;
 use crate::common::golden::assert_golden_by;
 use crate::common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
 use plane_contact::report::extremes as report;
-use plane_contact::studies::extremes::{Column, Measured, Verdict, generators, measure};
+use plane_contact::studies::extremes::{Column, SweepTable, Verdict, generators, measure};
 
-fn text(measured: &[Measured]) -> String {
+fn text(measured: &[SweepTable]) -> String {
     report::report(measured).text(usize::MAX)
 }
 
-static MEASURED: LazyLock<Vec<Measured>> = LazyLock::new(|| measure(&generators()));
+static MEASURED: LazyLock<Vec<SweepTable>> = LazyLock::new(|| measure(&generators()));
 
 #[test]
 fn the_table_is_the_golden_one() {
@@ -23,7 +23,7 @@ fn the_table_is_the_golden_one() {
 }
 
 /// What was measured, with `by` more right digits wherever some are right.
-fn moved(by: f64) -> Vec<Measured> {
+fn moved(by: f64) -> Vec<SweepTable> {
     let mut measured = MEASURED.clone();
     for Column { verdicts, below, above, .. } in measured.iter_mut().flat_map(|m| &mut m.columns) {
         let breaks = below.iter_mut().chain(above).map(|at| &mut at.verdict);

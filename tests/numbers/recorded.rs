@@ -203,7 +203,7 @@ fn sparse_matrices() {
         let sum = |v: &DVector<f64>| v.iter().zip(1..).map(|(x, k)| x * f64::from(k)).sum::<f64>();
         let factors = SparseCholesky::new(matrix.clone()).expect("it is held");
         let diagonal = matrix.diagonal();
-        let square = SparseSquare::of(&dense);
+        let square = SparseSquare::from_dense(&dense);
         let places: f64 = square
             .entries()
             .zip(1..)

@@ -28,7 +28,7 @@ struct Inverse {
 }
 
 impl Inverse {
-    fn of(n: usize, rows: &[f64]) -> Self {
+    fn from_rows(n: usize, rows: &[f64]) -> Self {
         Inverse { inverse: DMatrix::from_row_slice(n, n, rows), solved: AtomicUsize::new(0) }
     }
 }
@@ -60,7 +60,7 @@ fn a_residual_is_over_the_norms_of_the_matrix_and_of_the_vectors() {
 /// The inverse of 2 ± 1/2 is at most 2/3; the rest of 1 ± 1/8 with x = 1/2 at most 1/8 + 1/4.
 #[test]
 fn a_bound_follows_from_the_errors_of_the_matrix_and_of_the_load() {
-    let half = Inverse::of(1, &[0.5]);
+    let half = Inverse::from_rows(1, &[0.5]);
     let number = Bounded::new;
     let bound = |a, b, x| {
         error_bound(&half, [(0, 0, a)].into_iter(), &dvector![b], &DVector::from_element(1, x))
@@ -75,10 +75,10 @@ fn a_bound_follows_from_the_errors_of_the_matrix_and_of_the_load() {
 /// The column sums are 5, 8 and 9: the ascent ends at the second, which the signs of its zeros led to.
 #[test]
 fn the_norm_of_an_inverse_is_climbed_in_as_few_solutions_as_it_takes() {
-    let inverse = Inverse::of(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
+    let inverse = Inverse::from_rows(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
     assert_eq!(inverse_norm(&inverse, &dvector![1.0, 1.0, 1.0]), 8.0);
     assert_eq!(inverse.solved.into_inner(), 6);
-    let inverse = Inverse::of(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
+    let inverse = Inverse::from_rows(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
     let entries = (0..3).map(|i| (i, i, Bounded::new(1.0, 1.0 / 16.0)));
     let b = DVector::from_element(3, Bounded::new(0.0, 1.0));
     let found = error_bound(&inverse, entries, &b, &DVector::zeros(3));
@@ -97,7 +97,7 @@ fn a_norm_that_the_ascent_is_blind_to_is_found() {
 
 #[test]
 fn no_weight_is_no_norm_even_where_solutions_overflow() {
-    let overflowing = Inverse::of(1, &[f64::INFINITY]);
+    let overflowing = Inverse::from_rows(1, &[f64::INFINITY]);
     assert_eq!(inverse_norm(&overflowing, &dvector![0.0]), 0.0);
     assert_eq!(inverse_norm(&overflowing, &DVector::zeros(0)), 0.0);
 }

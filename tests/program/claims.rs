@@ -12,7 +12,7 @@ use plane_contact::Request;
 use plane_contact::Scene;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::{CLAIMS, Judged, Scope, Verdict, judge};
+use plane_contact::studies::audit::claims::{CLAIMS, JudgedClaim, Scope, Verdict, judge};
 use plane_contact::studies::audit::range::{Range, range};
 use plane_contact::studies::trade::{Section, geometry};
 
@@ -25,7 +25,8 @@ pub static RANGE: LazyLock<Range> =
     LazyLock::new(|| range(Reading::default()).expect("its values are allowed"));
 
 /// The claims on the paper's example over the range.
-pub static JUDGED: LazyLock<Vec<Judged>> = LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
+pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
+    LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
 
 /// What `trade` says of the range.
 pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {

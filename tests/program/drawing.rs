@@ -133,8 +133,8 @@ fn wrap_keeps_every_word() {
 
 #[test]
 fn enlargement_fills_its_panel() {
-    let whole = Bounds::of(&[[0.0, 0.0], [50.0, 50.0]]);
-    let zone = Bounds::of(&[[20.0, 20.0], [30.0, 25.0]]);
+    let whole = Bounds::around(&[[0.0, 0.0], [50.0, 50.0]]);
+    let zone = Bounds::around(&[[20.0, 20.0], [30.0, 25.0]]);
     let views = Page::new("t").views(&whole, Some(&zone));
     let right = views[1];
     assert_eq!(views[0].frame.size, right.frame.size);
@@ -145,21 +145,21 @@ const FRAME: Frame = Frame { corner: [100.0, 50.0], size: [200.0, 100.0] };
 
 #[test]
 fn view_keeps_the_shape_and_turns_y() {
-    let view = View::whole(&Bounds::of(&[[0.0, 0.0], [10.0, 10.0]]), FRAME);
+    let view = View::whole(&Bounds::around(&[[0.0, 0.0], [10.0, 10.0]]), FRAME);
     assert_eq!(view.scale, 10.0);
-    assert_eq!(view.at([0.0, 0.0]), [150.0, 150.0]);
-    assert_eq!(view.at([10.0, 10.0]), [250.0, 50.0]);
+    assert_eq!(view.pixel([0.0, 0.0]), [150.0, 150.0]);
+    assert_eq!(view.pixel([10.0, 10.0]), [250.0, 50.0]);
 }
 
 #[test]
 fn flat_box_grows_to_the_ratio() {
-    let grown = with_ratio(&Bounds::of(&[[0.0, 3.0], [4.0, 3.0]]), 2.0);
+    let grown = with_ratio(&Bounds::around(&[[0.0, 3.0], [4.0, 3.0]]), 2.0);
     assert_eq!([grown.low, grown.high], [[0.0, 2.0], [4.0, 4.0]]);
 }
 
 #[test]
 fn shows_what_overlaps() {
-    let view = View::enlarged(&Bounds::of(&[[0.0, 0.0], [2.0, 1.0]]), FRAME);
+    let view = View::enlarged(&Bounds::around(&[[0.0, 0.0], [2.0, 1.0]]), FRAME);
     assert!(view.shows(&[[0.0, 60.0], [400.0, 70.0]]), "across");
     assert!(!view.shows(&[[0.0, 60.0], [99.0, 70.0]]), "left of it");
 }
@@ -204,18 +204,18 @@ fn drawn_displacement_is_a_few_per_cent() {
 #[test]
 fn equal_values_have_one_tick_and_one_colour() {
     for value in [0.0, 6.3, -1e300, 1e-300] {
-        let scale = ColourScale::of(&[value, value * (1.0 + 1e-12)]);
+        let scale = ColourScale::from_values(&[value, value * (1.0 + 1e-12)]);
         assert!(scale.is_uniform());
         assert_eq!(scale.ticks().len(), 1);
-        assert_eq!(scale.colour(value), ColourScale::of(&[0.0, 2.0]).colour(1.0));
+        assert_eq!(scale.colour(value), ColourScale::from_values(&[0.0, 2.0]).colour(1.0));
     }
-    assert_eq!(ColourScale::of(&[6.3, 6.3]).ticks(), [(0.5, String::from("6.3"))]);
+    assert_eq!(ColourScale::from_values(&[6.3, 6.3]).ticks(), [(0.5, String::from("6.3"))]);
 }
 
 #[test]
 fn ticks_lie_on_the_bar() {
     for values in [[0.0, 1e300], [1e-300, 7e-300], [-2e5, 3e5], [100.0, 100.001]] {
-        let ticks = ColourScale::of(&values).ticks();
+        let ticks = ColourScale::from_values(&values).ticks();
         assert!(ticks.len() >= 3, "{ticks:?}");
         let bar = -1e-9..=1.0 + 1e-9;
         assert!(ticks.iter().all(|(place, _)| bar.contains(place)), "{ticks:?}");
@@ -224,15 +224,15 @@ fn ticks_lie_on_the_bar() {
 
 #[test]
 fn values_share_the_power_of_the_bar() {
-    let scale = ColourScale::of(&[0.0, 2.068e-4]);
+    let scale = ColourScale::from_values(&[0.0, 2.068e-4]);
     let words = [0.0, 1e-12, 1.5e-6, 2.068e-4].map(|value| scale.value_in_words(value, "1"));
     assert_eq!(words, ["0", "10⁻¹²", "1.5·10⁻⁶", "206.8·10⁻⁶"]);
-    assert_eq!(ColourScale::of(&[6.3]).value_in_words(6.3, "MPa"), "6.3 MPa");
+    assert_eq!(ColourScale::from_values(&[6.3]).value_in_words(6.3, "MPa"), "6.3 MPa");
 }
 
 #[test]
 fn heading_names_power_and_unit() {
-    let heading = |largest: f64, unit| ColourScale::of(&[0.0, largest]).heading("q", unit);
+    let heading = |largest: f64, unit| ColourScale::from_values(&[0.0, largest]).heading("q", unit);
     assert_eq!(heading(6.3, "MPa"), "q, MPa");
     assert_eq!(heading(6.3e6, "Pa"), "q, 10⁶ Pa");
     assert_eq!(heading(6.3, ""), "q, unit of the scene");

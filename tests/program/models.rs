@@ -151,7 +151,7 @@ fn loads_of_edges() {
     let scene = held(blocks(&["a"]), 1).thickness(0.5);
     let load = |scene: SceneBuilder| scene.build().expect("a sound scene").model;
     let traction = load(scene.clone().traction("right 0", [8.0, -2.0]));
-    let at = |model: &Model, n: usize| NodeId::from_number(n).of(&model.load);
+    let at = |model: &Model, n: usize| NodeId::from_number(n).components(&model.load);
     assert_eq!(
         [1, 2, 3, 4].map(|n| at(&traction, n)),
         [[0.0; 2], [4.0, -1.0], [4.0, -1.0], [0.0; 2]]
@@ -206,7 +206,7 @@ fn identifiers_count_from_0_and_numbers_from_1() {
         assert_eq!((dof.node(), dof.direction(), dof.axis()), (node, direction, axis));
     }
     let field = DVector::from_fn(10, |k, _| k as f64);
-    assert_eq!(node.of(&field), [6.0, 7.0]);
+    assert_eq!(node.components(&field), [6.0, 7.0]);
     assert_eq!(EdgeId::all(3).map(EdgeId::index).collect::<Vec<_>>(), [0, 1, 2]);
     assert_eq!(serde_json::to_value(TriangleId::new(6)).expect("a number"), json!(7));
     let read = |value: Value| serde_json::from_value::<NodeId>(value).ok().map(NodeId::index);
@@ -219,7 +219,7 @@ fn identifiers_count_from_0_and_numbers_from_1() {
 
 #[test]
 fn boxes() {
-    let bounds = Bounds::of(&[[1.0, 5.0], [4.0, 3.0], [2.0, 4.0]]);
+    let bounds = Bounds::around(&[[1.0, 5.0], [4.0, 3.0], [2.0, 4.0]]);
     assert_eq!(bounds, Bounds { low: [1.0, 3.0], high: [4.0, 5.0] });
     assert_eq!((bounds.size(), bounds.larger_side()), ([3.0, 2.0], 3.0));
     assert_eq!(bounds.centre(), [2.5, 4.0]);
@@ -230,7 +230,7 @@ fn boxes() {
     for outside in [[0.9, 4.0], [4.1, 4.0], [2.0, 2.9], [2.0, 5.1]] {
         assert!(!bounds.contains(outside), "{outside:?}");
     }
-    let high = Bounds::of(&[[0.0, 0.0], [1.0, 7.0]]);
+    let high = Bounds::around(&[[0.0, 0.0], [1.0, 7.0]]);
     assert_eq!(high.larger_side(), 7.0);
 }
 
@@ -262,7 +262,7 @@ fn shapes_and_places() {
     let finer = scene.refined().expect("sound").expect("it has a mesh");
     assert_eq!(finer.scene.model.nodes.len(), 5 + 5, "one on each edge");
     for (k, parents) in finer.parents.iter().enumerate() {
-        let [[ax, ay], [bx, by]] = parents.map(|n| model.at(n));
+        let [[ax, ay], [bx, by]] = parents.map(|n| model.coordinates(n));
         assert_eq!(finer.scene.model.nodes[5 + k], [(ax + bx) / 2.0, (ay + by) / 2.0]);
     }
     let (_, mesh) = finer.scene.source().expect("it has a mesh");

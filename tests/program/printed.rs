@@ -18,7 +18,7 @@ fn report() -> Report {
         (1, Cell::from("new"), Cell::from("a \"b\"")),
         (2, Cell::from("as in 1, a turn"), Cell::from(None::<f64>).because("nothing moves")),
     ];
-    let table = Table::of(rows)
+    let table = Table::from_rows(rows)
         .column("k", |(k, ..)| *k as usize)
         .column("contact state", |(_, state, _)| state.clone())
         .column("remark", |(.., remark)| remark.clone());

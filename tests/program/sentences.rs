@@ -72,7 +72,7 @@ struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    fn of(json: &'a Value, variant: Option<&str>) -> Self {
+    fn find(json: &'a Value, variant: Option<&str>) -> Self {
         let rows = json["rows"].as_array().expect("rows").iter();
         let rows = rows.filter(|row| variant.is_none_or(|variant| row["variant"] == variant));
         Section { rows: rows.collect() }
@@ -214,7 +214,7 @@ fn nearest(words: &str, section: &Section) {
 /// Checks a sentence that names its variant.
 fn of_variant(parameter: &str, sentence: &str, json: &Value) {
     let (variant, words) = sentence.split_once(": ").expect(sentence);
-    let section = Section::of(json, Some(variant));
+    let section = Section::find(json, Some(variant));
     let mut words = words;
     // What is said of rounding names the rows that were run in more digits.
     for (marker, end, certainty) in [
@@ -239,7 +239,7 @@ fn of_variant(parameter: &str, sentence: &str, json: &Value) {
 
 /// Checks a sentence of `arithmetic` or `solver`.
 fn of_numbers(sentence: &str, json: &Value) {
-    let section = Section::of(json, None);
+    let section = Section::find(json, None);
     let error = |setting: &str| &section.row(setting)["error"]["displacement"];
     if let Some(said) = parts(
         sentence,
@@ -273,7 +273,7 @@ fn of_numbers(sentence: &str, json: &Value) {
 
 /// Checks a sentence on meshes.
 fn of_meshes(sentence: &str, json: &Value) {
-    let section = Section::of(json, None);
+    let section = Section::find(json, None);
     let orders = json["orders"].as_array().expect("orders");
     let list = |words: &str, numbers: &Value| {
         let words: Vec<&str> = words.split(", ").collect();
@@ -346,14 +346,14 @@ fn of_halves(sentence: &str, json: &Value) {
         let within = said[0].split(' ').next().expect("a number");
         assert_shows(within, &json["asymmetry"], sentence);
         let [half, whole] =
-            ["half", "whole"].map(|name| &Section::of(json, None).row(name)["equations"]);
+            ["half", "whole"].map(|name| &Section::find(json, None).row(name)["equations"]);
         assert_shows(said[1], half, sentence);
         assert_shows(said[2], whole, sentence);
     } else {
         let pattern = "{}: the half differs from the whole by {} of the largest displacement ({} nodes in \
                        contact, {} in the half).";
         let said = parts(sentence, pattern).expect(sentence);
-        let section = Section::of(json, Some(said[0]));
+        let section = Section::find(json, Some(said[0]));
         let [half, whole] = ["half", "whole"].map(|name| section.row(name));
         assert_shows(said[1], &half["error"]["displacement"], sentence);
         assert_shows(said[2], &whole["in_contact"], sentence);
@@ -552,7 +552,8 @@ fn tables_of_compare_are_those_of_its_json() {
         |variant| solve(&Request::new(&scene).variant(variant), &mut |_| ()).expect("it runs");
     let [ours, theirs] = [Variant::Tied, Variant::Unilateral].map(solved);
     let contact = Contact::Pair(Pair::new(&scene.model, None, Friction::STICK));
-    let comparison = Comparison::new(&scene.model, Fields::of(&ours), Fields::of(&theirs));
+    let comparison =
+        Comparison::new(&scene.model, Fields::from_solution(&ours), Fields::from_solution(&theirs));
     let compared = comparison::Compared {
         scene: &scene,
         model: &scene.model,

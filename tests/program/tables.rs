@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use plane_contact::engine::{Assessment, Measured, Session, Solution, solve};
+use plane_contact::engine::{Assessment, Session, Solution, SolutionDistance, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
@@ -88,7 +88,7 @@ fn variants() {
         let share = percent(solution.target_force() / fx.hypot(fy), 0);
         let stress = assessment.bodies.iter().map(|body| body.max_von_mises_stress);
         let stress: Vec<String> = stress.map(|stress| format!("{stress:.1}")).collect();
-        let error = |measured: Option<&Measured>| {
+        let error = |measured: Option<&SolutionDistance>| {
             percent(measured.expect("strand has both").distance.energy_relative, 0)
         };
         let [own, measure] = [assessment.own(), assessment.measure()].map(error);
@@ -187,7 +187,7 @@ fn calculix() {
         let contact = Contact::Pair(Pair::new(&STRAND.model, None, friction));
         let part = Part { contact, share: 1.0 };
         let theirs = run("ccx", &STRAND, &STRAND.model, &[part]).expect("ccx runs").fields;
-        let comparison = Comparison::new(&STRAND.model, Fields::of(ours), theirs);
+        let comparison = Comparison::new(&STRAND.model, Fields::from_solution(ours), theirs);
         let stresses = comparison.bodies.iter().map(|body| {
             let apart = body.relative().expect("CalculiX has stress in both bodies").abs();
             format!("{:.1} / {:.1}: {}", body.ours, body.calculix, percent(apart, 1))
@@ -242,7 +242,7 @@ fn generated_scenes() {
 /// Material, size and distances from the origin of a body, and its thickness.
 fn of_body(model: &Model, body: &Body) -> String {
     let range = |length: fn([f64; 2]) -> f64| {
-        let all = body.nodes.iter().map(|node| length(model.at(*node)));
+        let all = body.nodes.iter().map(|node| length(model.coordinates(*node)));
         let (least, most) = all.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
         [rounded(least), rounded(most)]
     };
@@ -330,7 +330,7 @@ fn plates() -> Vec<String> {
     let [coarse, fine] = [32, 64].map(|radial| {
         let ring = solved(Annulus { radial, around: 2 * radial }.generate());
         let bore = node_at(&ring.model, [50f64.sqrt(); 2]);
-        let [x, y] = bore.of(&ring.u);
+        let [x, y] = bore.components(&ring.u);
         let [xx, yy, xy] = extrapolated(&ring, bore);
         [x.hypot(y), (xx + yy) / 2.0 - xy]
     });
@@ -344,7 +344,7 @@ fn plates() -> Vec<String> {
         [[0.0, 1.0], [1.0, 0.0]].map(|place| extrapolated(&hole, node_at(&hole.model, place)));
     let cook = |(n, published): (usize, f64)| {
         let panel = solved(Cook { n }.generate());
-        let v = node_at(&panel.model, [48.0, 52.0]).of(&panel.u)[1];
+        let v = node_at(&panel.model, [48.0, 52.0]).components(&panel.u)[1];
         format!("Cook, {n} x {n} | displacement of (48, 52) | {published} | {v:.3}")
     };
     let cook = [(2, 6.743), (64, 23.774)].map(cook);

@@ -16,10 +16,10 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::trade as report;
-use plane_contact::studies::audit::range::{self, Place};
+use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::{Annulus, Strand};
 use plane_contact::studies::trade::{
-    self, Came, Options, Order, Row, Trade, Varied, pareto, solve_to,
+    self, Options, Order, Outcome, Row, Trade, Varied, pareto, solve_to,
 };
 use serde_json::{Value, json};
 
@@ -170,7 +170,9 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
         request.tolerance = Some(tolerance);
         solve(&request, &mut |_| ()).expect("it runs")
     };
-    let here = |place: Place| place.parameter == range::Parameter::Clearance && place.value == 0.4;
+    let here = |place: ParameterValue| {
+        place.parameter == range::Parameter::Clearance && place.value == 0.4
+    };
     let number = |id: &str| {
         let judged = GEOMETRY.claims.iter().find(|judged| judged.claim.id == id).expect("a claim");
         let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
@@ -277,7 +279,7 @@ fn half_is_whole(scene: &Scene, variant: Variant) {
     let (whole, of_half) = (solved(scene, variant), solved(&half.scene, variant));
     let scale = whole.u.amax();
     for (k, n) in half.nodes.iter().enumerate() {
-        let (u, expected) = (NodeId::new(k).of(&of_half.u), n.of(&whole.u));
+        let (u, expected) = (NodeId::new(k).components(&of_half.u), n.components(&whole.u));
         for d in [0, 1] {
             assert_near(&format!("node {n}"), u[d], expected[d], scale, &HALF);
         }
@@ -423,7 +425,7 @@ fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
         let reached = reach(accuracy).expect("a precision meets it");
         let last = reached.attempts.last().expect("an attempt");
         assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
-        assert!(matches!(last.came, Came::Bound(bound) if bound <= accuracy));
+        assert!(matches!(last.outcome, Outcome::Bound(bound) if bound <= accuracy));
         let words = report::reached(&reached, accuracy).text(usize::MAX);
         assert!(words.contains("mesh"), "{words}");
     }
@@ -445,7 +447,7 @@ fn the_bar_of_an_accuracy_holds() {
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);
             let error = (&reached.solution.u - &best).amax() / max_displacement(&best);
-            let Came::Bound(bar) = reached.attempts.last().expect("an attempt").came else {
+            let Outcome::Bound(bar) = reached.attempts.last().expect("an attempt").outcome else {
                 panic!("it ran");
             };
             assert!(error <= bar && bar <= accuracy, "{name}: {error:e}, {bar:e}, {accuracy:e}");

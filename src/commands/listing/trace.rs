@@ -12,7 +12,7 @@ use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::changes;
 use plane_contact::report::model::Report;
-use plane_contact::report::trace::{self as report, Shown, Telling, Traced};
+use plane_contact::report::trace::{self as report, TraceOptions, TraceWriter, Traced};
 use plane_contact::studies::audit::trace::{self, Product, Step};
 
 use crate::commands::{ReadingArg, print, print_by, read_listing, report_error, width};
@@ -94,10 +94,10 @@ pub fn run(args: &Args) -> Result<u8> {
         return Ok(failure.map_or(0, |error| report_error(&error)));
     }
     let lines = args.lines.unwrap_or([1, usize::MAX]);
-    let shown = Shown { summary: args.summary, lines, exact: args.exact, width: width() };
+    let shown = TraceOptions { summary: args.summary, lines, exact: args.exact, width: width() };
     let mut outcome = None;
     print_by(|out| {
-        let mut telling = Telling::new(out, of, &shown);
+        let mut telling = TraceWriter::new(out, of, &shown);
         let executed = outcome.insert(execute(&mut |step| telling.step(step)));
         telling.finish(executed.as_ref().map_or(&[], |(_, output)| output))
     })?;

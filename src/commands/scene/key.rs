@@ -24,7 +24,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let file = SceneFile::read(&args.scene)?;
     let scene = Scene::of_file(&file)?;
-    let options = Options::of(&args.run.request(&scene));
+    let options = Options::from_request(&args.run.request(&scene));
     let options = Options { variant: args.run.variant, ..options };
     print(&(key_of(file, &options)? + "\n"))
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files::json;
-use plane_contact::report::answers::{self as report, Marked};
+use plane_contact::report::answers::{self as report, MarkedAnswers};
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers};
 
 use crate::commands::print_either;
@@ -21,10 +21,10 @@ pub fn verify(files: &[PathBuf], texts: Vec<io::Result<Vec<u8>>>, json: bool) ->
     let marked = files.iter().zip(texts).map(|(file, text)| marked(file, text));
     let marked = marked.collect::<Result<Vec<_>>>()?;
     print_either(json, || report::json(&marked), || report::report(&marked))?;
-    Ok(marked.iter().all(Marked::is_right))
+    Ok(marked.iter().all(MarkedAnswers::is_right))
 }
 
-fn marked(file: &Path, text: io::Result<Vec<u8>>) -> Result<Marked> {
+fn marked(file: &Path, text: io::Result<Vec<u8>>) -> Result<MarkedAnswers> {
     let name = file.display().to_string();
     let fix = "give files as the page of an exercise saves them";
     let text = text
@@ -35,5 +35,5 @@ fn marked(file: &Path, text: io::Result<Vec<u8>>) -> Result<Marked> {
         let what = format!("{:?} is no kind of answers", answers.kind);
         return Err(InputError::new("field kind", what, fix).within(&name).into());
     }
-    Ok(Marked { file: name, marks: answers.marks(), answers })
+    Ok(MarkedAnswers { file: name, marks: answers.marks(), answers })
 }

@@ -9,7 +9,7 @@ use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
 
 use super::verify::DIFFERS;
@@ -51,7 +51,7 @@ pub struct Args {
 }
 
 /// The value of a side: that of two, or the one of both.
-fn of<T: Copy>(values: &[T], side: usize, option: &str) -> Result<Option<T>> {
+fn of_side<T: Copy>(values: &[T], side: usize, option: &str) -> Result<Option<T>> {
     match values.len() {
         0 => Ok(None),
         1 => Ok(Some(values[0])),
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> Result<u8> {
     })?;
     let file = format!("{} and {}", names[0], names[1]);
     let verified = difference(&sides[0], &sides[1]);
-    let checked = [Checked { file, verified: Ok(verified.clone()) }];
+    let checked = [VerifiedFile { file, verified: Ok(verified.clone()) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;
     if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
         let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
@@ -98,10 +98,10 @@ fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
     }
     let scene = Scene::open(name)?;
     let mut request = plane_contact::engine::Request::new(&scene);
-    request.variant = of(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
-    request.reading = of(&args.reading, side, "--reading")?.unwrap_or_default();
-    let scalar = of(&args.scalar, side, "--scalar")?.unwrap_or_default();
-    let solver = of(&args.solver, side, "--solver")?;
+    request.variant = of_side(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
+    request.reading = of_side(&args.reading, side, "--reading")?.unwrap_or_default();
+    let scalar = of_side(&args.scalar, side, "--scalar")?.unwrap_or_default();
+    let solver = of_side(&args.solver, side, "--solver")?;
     let request = request.arithmetic(Arithmetic { scalar, solver, ..Arithmetic::default() });
     Snapshot::record(&scene, &[request], Bounds::Computed)
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
-use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
 
 use super::verify;
 use crate::commands::report_written;
@@ -39,7 +39,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let file = args.file.display().to_string();
     let differing = verified.runs.iter().find(|run| !run.differences.is_empty()).cloned();
     let input = verified.input.clone();
-    let status = verify::report(&[Checked { file, verified: Ok(verified) }], args.json)?;
+    let status = verify::report(&[VerifiedFile { file, verified: Ok(verified) }], args.json)?;
     if let (Some(folder), Some(run)) = (&args.out, differing) {
         let old = snapshot.runs.get(&run.name).expect("the run was read from there");
         let written = report::difference_files(folder, &input.build()?, [old, &run.run])?;

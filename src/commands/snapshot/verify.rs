@@ -7,7 +7,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::snapshot::{self as report, Checked};
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{self, Snapshot, Verified};
 
 use super::answers;
@@ -72,11 +72,11 @@ pub fn run(args: &Args) -> Result<u8> {
 
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
-pub fn report(checked: &[Checked], json: bool) -> Result<u8> {
+pub fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
     print_either(json, || report::json(checked), || report::report(checked))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
     let statuses: Vec<u8> = failures.map(report_error).collect();
-    let is_same = checked.iter().all(Checked::is_same);
+    let is_same = checked.iter().all(VerifiedFile::is_same);
     Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
 }
 
@@ -104,7 +104,7 @@ fn check(
     files: &[PathBuf],
     snapshots: Vec<Result<Snapshot>>,
     scene: Option<&Scene>,
-) -> Vec<Checked> {
+) -> Vec<VerifiedFile> {
     let runs = snapshots.iter().flatten().map(|snapshot| snapshot.runs.len()).sum();
     let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
     let check = |(file, snapshot): (&PathBuf, Result<Snapshot>)| {
@@ -113,7 +113,7 @@ fn check(
             let verified = snapshot::verify(&snapshot, scene, &|| bar.inc(1));
             verified.map_err(|error| within(error, &file))
         });
-        Checked { file, verified }
+        VerifiedFile { file, verified }
     };
     let checked = files.iter().zip(snapshots).map(check).collect();
     bar.finish_and_clear();

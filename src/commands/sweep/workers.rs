@@ -17,7 +17,7 @@ use crate::commands::progress;
 const TRIES: usize = 2;
 
 /// A case and its row, or why no process was started.
-type Ran = std::result::Result<(usize, Row), InputError>;
+type CaseRow = std::result::Result<(usize, Row), InputError>;
 
 /// Runs `cases` of the sweep in `file`, and hands each row to `done` as it comes.
 ///
@@ -41,7 +41,7 @@ pub fn run(
             scope.spawn(move || serve(file, queue, &send));
         }
         drop(send);
-        let taken: Result<()> = rows.iter().try_for_each(|row: Ran| {
+        let taken: Result<()> = rows.iter().try_for_each(|row: CaseRow| {
             let (case, row) = row?;
             bar.inc(1);
             done(case, row)
@@ -55,7 +55,7 @@ pub fn run(
 }
 
 /// Runs cases of the queue until there is none.
-fn serve(file: &Path, queue: &Mutex<VecDeque<usize>>, send: &mpsc::Sender<Ran>) {
+fn serve(file: &Path, queue: &Mutex<VecDeque<usize>>, send: &mpsc::Sender<CaseRow>) {
     let next = || queue.lock().expect("no thread panics with it").pop_front();
     let mut worker: Option<Worker> = None;
     while let Some(case) = next() {

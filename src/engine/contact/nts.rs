@@ -118,11 +118,11 @@ impl Surfaces {
     /// none lies in it. No normal has a say in it.
     pub fn deepest_contact_node(&self, model: &Model, shape: &[Vector]) -> Option<(NodeId, f64)> {
         let at = |node: &NodeId| shape[node.index()];
-        let near = Bounds::of(&self.nodes.iter().map(at).collect::<Vec<_>>());
+        let near = Bounds::around(&self.nodes.iter().map(at).collect::<Vec<_>>());
         let corners = |id: &TriangleId| model.triangle(*id).nodes.map(|node| at(&node));
         let target = model.target()?.triangles.iter().map(corners);
         let close: Vec<[Vector; 3]> =
-            target.filter(|corners| Bounds::of(corners).meets(near)).collect();
+            target.filter(|corners| Bounds::around(corners).meets(near)).collect();
         let is_inside = |p: Vector| {
             close.iter().any(|[a, b, c]| {
                 let sides = [[a, b], [b, c], [c, a]];

@@ -116,7 +116,7 @@ pub fn reactions(
 ) -> Vec<[Option<f64>; 2]> {
     let of_pairing = |pairing: &Pairing| {
         let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
-        let force = pairing.node.of(reaction);
+        let force = pairing.node.components(reaction);
         let [rx, ry] = [0, 1].map(|d| if restrained[d] { 0.0 } else { force[d] });
         let is_determined = match restrained {
             [false, false] => true,
@@ -137,7 +137,7 @@ fn over(a: f64, b: f64) -> Option<f64> {
 
 /// Returns the distance of each entry from the first along the undeformed contact surface, length.
 pub(crate) fn arcs(model: &Model) -> Vec<f64> {
-    let at = |i: usize| model.at(model.contact.nodes[i]);
+    let at = |i: usize| model.coordinates(model.contact.nodes[i]);
     let mut arcs = vec![0.0; model.contact.nodes.len()];
     for i in 1..arcs.len() {
         let ([ax, ay], [bx, by]) = (at(i - 1), at(i));

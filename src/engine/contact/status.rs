@@ -171,7 +171,7 @@ impl<T: Scalar> Target<T> {
         }
         let edge = |id: &EdgeId| {
             let beside = model.sides.beside(model.edge(*id).nodes).first()?;
-            let place = |node: NodeId| door::place(node_n, node);
+            let place = |node: NodeId| door::coordinates(node_n, node);
             let [a, b] = beside.nodes;
             let inner = T::orientation(place(a), place(b), place(beside.third));
             // A shape may be folded: the triangle's side is taken from the shape.
@@ -200,7 +200,7 @@ fn by_intersection<T: Scalar>(
 ) -> ContactStatus<T> {
     status.in_contact = is_near || intersects(model, target, node_n, status.node);
     if status.in_contact && status.edge.is_none() {
-        let nearest = target.nearest(door::place(node_n, status.node));
+        let nearest = target.nearest(door::coordinates(node_n, status.node));
         status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
     }
     status
@@ -208,9 +208,9 @@ fn by_intersection<T: Scalar>(
 
 /// Returns whether a side at contact node `n` leads out of the target.
 fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n: NodeId) -> bool {
-    let c = door::place(node_n, n);
+    let c = door::coordinates(node_n, n);
     sides(model, n).into_iter().any(|q| {
-        let q = door::place(node_n, q);
+        let q = door::coordinates(node_n, q);
         target.segments.iter().map(|edge| crossing(edge, c, q)).sum::<i32>() > 0
     })
 }
@@ -257,7 +257,7 @@ fn by_projection<T: Scalar>(
     node: NodeId,
 ) -> ContactStatus<T> {
     let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
-    let Some((edge, closest)) = target.nearest(door::place(node_n, node)) else {
+    let Some((edge, closest)) = target.nearest(door::coordinates(node_n, node)) else {
         return apart;
     };
     let distance = T::from_f64(0.0 - closest.distance());

@@ -67,14 +67,14 @@ impl<'a> Dual<'a> {
     /// Returns the estimated error of the largest displacement |u| of a node, length.
     pub fn error_of_largest(&self, u: &DVector<f64>) -> f64 {
         let size = |node: NodeId| {
-            let [x, y] = node.of(u);
+            let [x, y] = node.components(u);
             x.hypot(y)
         };
         // Of several the first.
         let largest = self.model.node_ids().rev().max_by(|a, b| size(*a).total_cmp(&size(*b)));
         let Some(node) = largest.filter(|node| size(*node) != 0.0) else { return 0.0 };
         let mut force = DVector::zeros(u.len());
-        for (dof, component) in node.dofs().into_iter().zip(node.of(u)) {
+        for (dof, component) in node.dofs().into_iter().zip(node.components(u)) {
             force[dof.index()] = component / size(node);
         }
         self.error(&force)

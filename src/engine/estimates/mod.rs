@@ -148,7 +148,8 @@ impl Estimates {
 /// Returns the point that leaves the largest displacement without a limit: a node that is held alone,
 /// from which all are measured, or the node under a force where it moves most.
 fn unlimited(solution: &Solution, points: &[Singular]) -> Option<(NodeId, Cause)> {
-    let size = |node: NodeId| max_displacement(&DVector::from_row_slice(&node.of(&solution.u)));
+    let size =
+        |node: NodeId| max_displacement(&DVector::from_row_slice(&node.components(&solution.u)));
     let largest = max_displacement(&solution.u);
     let counts = |point: &&Singular| {
         let moves_most = is_as_large(size(point.node), largest, largest);

@@ -37,7 +37,7 @@ const FARTHEST: usize = 8;
 /// site's material has no patch that fixes a slope.
 pub fn recover(patches: &Patches, stresses: &[Stress]) -> Vec<Option<Stress>> {
     let recovered = |site: u32| match own(patches, stresses, site) {
-        Some(polynomial) => Some(polynomial.at(patches.points[site as usize])),
+        Some(polynomial) => Some(polynomial.stress(patches.points[site as usize])),
         None => nearest(patches, stresses, site).or_else(|| enlarged(patches, stresses, site)),
     };
     (0..patches.points.len() as u32).map(recovered).collect()
@@ -53,7 +53,7 @@ fn own(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Linear> {
 fn nearest(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Stress> {
     let point = patches.points[site as usize];
     let read = |ring: &[u32]| {
-        let value = |s: &u32| Some(own(patches, stresses, *s)?.at(point));
+        let value = |s: &u32| Some(own(patches, stresses, *s)?.stress(point));
         let values: Vec<Stress> = ring.iter().filter_map(value).collect();
         (!values.is_empty()).then(|| values.iter().sum::<Stress>() / values.len() as f64)
     };
@@ -67,7 +67,7 @@ fn enlarged(patches: &Patches, stresses: &[Stress], site: u32) -> Option<Stress>
         triangles.extend(ring.iter().flat_map(|s| patches.around(*s)));
         let members: Vec<TriangleId> = triangles.iter().copied().collect();
         if let Some(polynomial) = Linear::fit(patches, &members, stresses) {
-            return Some(polynomial.at(patches.points[site as usize]));
+            return Some(polynomial.stress(patches.points[site as usize]));
         }
     }
     None
@@ -135,7 +135,7 @@ impl Linear {
         Some(Linear { origin, size, mean, slope: h * g.try_inverse()? })
     }
 
-    fn at(&self, point: [f64; 2]) -> Stress {
+    fn stress(&self, point: [f64; 2]) -> Stress {
         self.mean + self.slope * ((Vector2::from(point) - self.origin) / self.size)
     }
 }
@@ -232,7 +232,7 @@ fn sites(model: &Model) -> (Vec<[u32; 3]>, Vec<[f64; 2]>) {
             sites.iter().find(is_same).copied().unwrap_or_else(|| {
                 let site = points.len() as u32;
                 sites.push(site);
-                points.push(model.at(node));
+                points.push(model.coordinates(node));
                 materials.push(triangle.material);
                 site
             })

@@ -37,7 +37,7 @@ use crate::contact::Status;
 use crate::{Detail, Solution, Stiffness};
 use base::choices;
 use problem::element::Plane;
-use problem::model::{Beside, Force, Model, NodeId, TriangleId};
+use problem::model::{Force, Model, NodeId, TriangleId, TriangleSide};
 
 /// The turn of an outline below which it is taken for a chord of a curve and not for a corner, rad.
 const CHORD: f64 = PI / 6.0;
@@ -98,7 +98,7 @@ pub struct Singular {
 pub fn singular(solution: &Solution) -> Vec<Singular> {
     let model = &*solution.model;
     let outline = Outline::new(model);
-    let around = Around::new(model);
+    let around = TrianglesAtNodes::new(model);
     let all = |nodes: Vec<NodeId>, cause: Cause| nodes.into_iter().map(move |node| (node, cause));
     let points = outline.corners(model).into_iter();
     let points = points
@@ -122,15 +122,15 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
 }
 
 /// The triangles at each node.
-struct Around(Vec<Vec<TriangleId>>);
+struct TrianglesAtNodes(Vec<Vec<TriangleId>>);
 
-impl Around {
+impl TrianglesAtNodes {
     fn new(model: &Model) -> Self {
         let mut around = vec![Vec::new(); model.nodes.len()];
         for id in model.triangle_ids() {
             model.triangle(id).nodes.iter().for_each(|node| around[node.index()].push(id));
         }
-        Around(around)
+        TrianglesAtNodes(around)
     }
 
     fn two_rings(&self, model: &Model, nodes: &[NodeId]) -> BTreeSet<TriangleId> {
@@ -199,7 +199,7 @@ enum SideSupport {
 
 /// The sides at each node of the outline that two of them meet at: the one that comes, the one that
 /// goes, the body on their left.
-struct Outline(BTreeMap<NodeId, [Beside; 2]>);
+struct Outline(BTreeMap<NodeId, [TriangleSide; 2]>);
 
 impl Outline {
     fn new(model: &Model) -> Self {
@@ -214,25 +214,26 @@ impl Outline {
                 pinched.extend(coming.insert(b, side).map(|_| b));
             }
         }
-        let both = |(node, side): (NodeId, Beside)| Some((node, [side, *going.get(&node)?]));
+        let both = |(node, side): (NodeId, TriangleSide)| Some((node, [side, *going.get(&node)?]));
         let sides = coming.into_iter().filter(|(node, _)| !pinched.contains(node));
         Outline(sides.filter_map(both).collect())
     }
 
     /// Returns the angle of the body at a node of the outline, rad.
-    fn angle(model: &Model, [coming, going]: [Beside; 2]) -> f64 {
-        let [x, y] = model.at(going.nodes[0]);
+    fn angle(model: &Model, [coming, going]: [TriangleSide; 2]) -> f64 {
+        let [x, y] = model.coordinates(going.nodes[0]);
         let to = |node: NodeId| {
-            let [ax, ay] = model.at(node);
+            let [ax, ay] = model.coordinates(node);
             [ax - x, ay - y]
         };
         let ([ax, ay], [bx, by]) = (to(going.nodes[1]), to(coming.nodes[0]));
         (ax * by - ay * bx).atan2(ax * bx + ay * by).rem_euclid(TAU)
     }
 
-    fn held(model: &Model, side: Beside) -> SideSupport {
+    fn side_support(model: &Model, side: TriangleSide) -> SideSupport {
         let [a, b] = side.nodes.map(|node| model.restraints_of(node));
-        let ([ax, ay], [bx, by]) = (model.at(side.nodes[0]), model.at(side.nodes[1]));
+        let ([ax, ay], [bx, by]) =
+            (model.coordinates(side.nodes[0]), model.coordinates(side.nodes[1]));
         let along = [(bx - ax).abs(), (by - ay).abs()];
         match [a[0] && b[0], a[1] && b[1]] {
             [false, false] => SideSupport::Free,
@@ -245,8 +246,8 @@ impl Outline {
     /// Returns the corners of the outline where two sides meet at an angle beyond the widest one at
     /// which the stress has a limit.
     fn corners(&self, model: &Model) -> Vec<(NodeId, Cause)> {
-        let corner = |(node, sides): (&NodeId, &[Beside; 2])| {
-            let held = sides.map(|side| Outline::held(model, side));
+        let corner = |(node, sides): (&NodeId, &[TriangleSide; 2])| {
+            let held = sides.map(|side| Outline::side_support(model, side));
             let nu = model.triangle(sides[0].triangle).material.nu;
             let cause = match held {
                 [a, b] if a == b => Cause::Corner,
@@ -274,9 +275,9 @@ impl Outline {
             }
         }
         let turns = |node: NodeId, ends: &[NodeId]| {
-            let [x, y] = model.at(node);
+            let [x, y] = model.coordinates(node);
             let [[ax, ay], [bx, by]] = [ends[0], ends[1]].map(|end| {
-                let [ex, ey] = model.at(end);
+                let [ex, ey] = model.coordinates(end);
                 [ex - x, ey - y]
             });
             PI - (ax * by - ay * bx).abs().atan2(ax * bx + ay * by) > CHORD
@@ -324,7 +325,7 @@ impl Outline {
 fn flush(model: &Model, k: usize) -> bool {
     let nodes = &model.contact.nodes;
     let far = |a: NodeId, b: NodeId| {
-        let ([ax, ay], [bx, by]) = (model.at(a), model.at(b));
+        let ([ax, ay], [bx, by]) = (model.coordinates(a), model.coordinates(b));
         (bx - ax).hypot(by - ay)
     };
     let beside = if k == 0 { nodes.get(1) } else { nodes.get(k - 1) };

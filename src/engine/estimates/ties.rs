@@ -232,7 +232,7 @@ impl<'a> StateCheck<'a> {
         reaction: &DVector<Bounded>,
     ) {
         let [nx, ny] = pairing.normal.map(Bounded::from_f64);
-        let [rx, ry] = pairing.node.of(reaction);
+        let [rx, ry] = pairing.node.components(reaction);
         let zero = Bounded::from_f64(0.0);
         let (pressed, shear) = match self.solution.model.restraints_of(pairing.node) {
             [false, false] => (nx * rx + ny * ry, nx * ry - ny * rx),
@@ -255,7 +255,7 @@ impl<'a> StateCheck<'a> {
             }
             Status::Slip(sense) if sense.sign() != 0.0 => {
                 let [sx, sy] = pairing.map(Bounded::from_f64).motion(|node| {
-                    let [[ux, uy], [bx, by]] = [state.u, state.before].map(|u| node.of(u));
+                    let [[ux, uy], [bx, by]] = [state.u, state.before].map(|u| node.components(u));
                     [ux - bx, uy - by]
                 });
                 let slip = nx * sy - ny * sx;
@@ -287,8 +287,8 @@ impl<'a> StateCheck<'a> {
     fn gap(&self, pairing: &Pairing, u: &DVector<Bounded>) -> Bounded {
         let pairing = pairing.map(Bounded::from_f64);
         let model = &self.solution.model;
-        pairing.opening(|node| node.of(u))
-            + pairing.opening(|node| model.at(node).map(Bounded::from_f64))
+        pairing.opening(|node| node.components(u))
+            + pairing.opening(|node| model.coordinates(node).map(Bounded::from_f64))
     }
 
     /// Looks at which part of the target a node faces: of a node in contact, or of one that would touch

@@ -29,7 +29,7 @@ pub fn c_cnt<T: Scalar>(
     };
     let mut ct = Column::filled(rows(&sheet.cnt), 0);
     for i1 in 1..=rows(&sheet.cnt) {
-        for i2 in boxes.near(i1) {
+        for i2 in boxes.containing(i1) {
             mirror::edge(sheet, node_n, i1, i2, &mut ct)?;
         }
     }
@@ -47,7 +47,7 @@ impl<'a, T: Scalar> Boxes<'a, T> {
 
     /// Returns the rows of `trg`, ascending, whose boxes have contact node `i1`, among them all of
     /// which rounding leaves that open.
-    pub fn near(&self, i1: usize) -> Vec<usize> {
+    pub fn containing(&self, i1: usize) -> Vec<usize> {
         let at = [2, 3].map(|column| self.node_n[(self.sheet.cnt[i1], column)]);
         let (p, reach) = (at.map(Scalar::to_f64), at.map(room)[0].max(at.map(room)[1]));
         let mut found = Vec::new();

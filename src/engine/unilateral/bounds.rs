@@ -151,7 +151,7 @@ impl StateSearch<'_> {
     /// None where there are no forces.
     fn scaled(&self, entries: &[usize], size: usize) -> Option<(DMatrix<f64>, DVector<f64>)> {
         let forces = |apart: &DVector<f64>, loaded: bool| {
-            let all = self.held(entries, apart, loaded)?;
+            let all = self.forces_apart(entries, apart, loaded)?;
             Some(all.rows(0, size).into_owned())
         };
         let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
@@ -167,7 +167,12 @@ impl StateSearch<'_> {
 
     /// Returns the forces along all normals, then along all tangents, with every node held `apart`
     /// from its place on the target: gaps, then slips; `loaded` or by that alone.
-    fn held(&self, entries: &[usize], apart: &DVector<f64>, loaded: bool) -> Option<DVector<f64>> {
+    fn forces_apart(
+        &self,
+        entries: &[usize],
+        apart: &DVector<f64>,
+        loaded: bool,
+    ) -> Option<DVector<f64>> {
         let n = entries.len();
         let mut statuses = vec![Status::Open; self.config.pairings.len()];
         let held =

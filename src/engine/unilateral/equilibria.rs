@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
 use super::search::StateSearch;
 use crate::contact::{Sense, Status};
-use crate::solution::{Other, Uniqueness};
+use crate::solution::{OtherEquilibrium, Uniqueness};
 use problem::model::NodeId;
 
 /// The force of a node in contact, over the largest of the loads and of those of contact, below which
@@ -92,12 +92,12 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
     problem.search(&found.config, setting).unrestrained_node(&statuses)
 }
 
-fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Other {
+fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> OtherEquilibrium {
     let nodes = |wanted: fn(&Status) -> bool| {
         let entries = statuses.iter().zip(problem.surfaces.nodes());
         entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
     };
-    Other {
+    OtherEquilibrium {
         load,
         stick: nodes(|status| *status == Status::Stick),
         slip: nodes(|status| matches!(status, Status::Slip(_))),
@@ -146,10 +146,10 @@ impl Problem<'_> {
     }
 
     /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
-    fn others(&self, step: &TakenStep, states: &[Vec<Status>]) -> Vec<Other> {
+    fn others(&self, step: &TakenStep, states: &[Vec<Status>]) -> Vec<OtherEquilibrium> {
         let setting = setting(self, step);
         let scale = step.u.amax();
-        let mut others: Vec<(DVector<f64>, Other)> = Vec::new();
+        let mut others: Vec<(DVector<f64>, OtherEquilibrium)> = Vec::new();
         for statuses in states {
             let Some(solution) = self.search(&step.config, &setting).try_statuses(statuses) else {
                 continue;

@@ -86,7 +86,7 @@ pub(super) fn add(pairing: &Pairing, force: ContactForce, factor: f64, load: &mu
 /// Returns the forces on a contact node from its own equations; None where restraints take them.
 fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<ContactForce> {
     let Contact { pairing, sticks } = contact;
-    let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.of(reaction));
+    let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.components(reaction));
     let along = |n: f64, r: f64| {
         (!sticks && n.abs() >= STEEP)
             .then(|| ContactForce { normal: r / n, ..ContactForce::default() })

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, ContactForce, forces};
 use super::problem::{Configuration, Outcome, Problem, StateSolution};
-use super::reduced::{OnSurface, OnWhole, Response};
+use super::reduced::{OnSurface, Response, WholeBodies};
 use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
@@ -37,7 +37,7 @@ impl StateSearch<'_> {
             }
         }
         let t = Elimination::closing(&self.problem.model.restrained, constraints);
-        let whole = OnWhole::new(self.problem, &t, constraints, load);
+        let whole = WholeBodies::new(self.problem, &t, constraints, load);
         match whole.and_then(|whole| Ok((whole.displacements()?, whole))) {
             Ok((solved, whole)) => self.solved(statuses, solved, &whole),
             Err(singular) => {

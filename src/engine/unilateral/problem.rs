@@ -233,7 +233,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
     fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
-        pairing.opening(|n| self.model.at(n)) + pairing.opening(|n| n.of(u))
+        pairing.opening(|n| self.model.coordinates(n)) + pairing.opening(|n| n.components(u))
     }
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
@@ -329,11 +329,11 @@ impl StateSearch<'_> {
         let StateSearch { problem, config, setting } = self;
         let constraint = |(pairing, status): (&Option<Pairing>, &Status)| {
             let pairing = pairing.as_ref().filter(|_| status.is_closed())?;
-            let closing = -pairing.opening(|n| problem.model.at(n));
+            let closing = -pairing.opening(|n| problem.model.coordinates(n));
             let motion = match status {
                 Status::Stick => {
                     let ([tx, ty], [bx, by]) =
-                        (tangent(pairing), pairing.motion(|n| n.of(setting.before)));
+                        (tangent(pairing), pairing.motion(|n| n.components(setting.before)));
                     let kept = tx * bx + ty * by;
                     let [nx, ny] = pairing.normal;
                     Motion::Both([closing * nx + kept * tx, closing * ny + kept * ty])

@@ -60,7 +60,7 @@ impl Response for OnSurface {
 }
 
 /// The equations of the whole bodies.
-pub(super) struct OnWhole<'a> {
+pub(super) struct WholeBodies<'a> {
     problem: &'a Problem<'a>,
     t: &'a Elimination,
     /// By degree of freedom, force.
@@ -74,7 +74,7 @@ enum Factors {
     Sparse(Box<SparseCholesky>),
 }
 
-impl<'a> OnWhole<'a> {
+impl<'a> WholeBodies<'a> {
     /// Factors on the condensed bodies; where that cannot be, factors the whole matrix.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl<'a> OnWhole<'a> {
             Some(condensed) => Factors::Condensed(condensed),
             None => Factors::Sparse(Box::new(SparseCholesky::new(stiffness.reduced(t))?)),
         };
-        Ok(OnWhole { problem, t, load, factors })
+        Ok(WholeBodies { problem, t, load, factors })
     }
 
     /// Returns the displacements by degree of freedom, length, and their relative residual.
@@ -118,7 +118,7 @@ impl<'a> OnWhole<'a> {
     }
 }
 
-impl Response for OnWhole<'_> {
+impl Response for WholeBodies<'_> {
     fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>) {
         (u, None)
     }

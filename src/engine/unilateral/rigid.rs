@@ -145,7 +145,7 @@ impl<'a> RigidMotions<'a> {
 
     /// Returns a degree of freedom in each rigid motion.
     fn along(&self, dof: Dof) -> DVector<f64> {
-        self.of(dof.node(), [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 }))
+        self.motion(dof.node(), [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 }))
     }
 
     /// Returns the component along `direction` of a node's motion less that of its masters in each
@@ -156,12 +156,12 @@ impl<'a> RigidMotions<'a> {
         masters: &[(NodeId, f64)],
         direction: [f64; 2],
     ) -> DVector<f64> {
-        let target = masters.iter().map(|(master, w)| self.of(*master, direction) * *w);
-        target.fold(self.of(node, direction), |row, part| row - part)
+        let target = masters.iter().map(|(master, w)| self.motion(*master, direction) * *w);
+        target.fold(self.motion(node, direction), |row, part| row - part)
     }
 
     /// Returns the component of a node's motion along `direction` in each rigid motion.
-    fn of(&self, node: NodeId, [dx, dy]: [f64; 2]) -> DVector<f64> {
+    fn motion(&self, node: NodeId, [dx, dy]: [f64; 2]) -> DVector<f64> {
         let mut row = DVector::zeros(self.count());
         if let Some(b) = self.body[node.index()] {
             let ([x, y], [mx, my]) = (self.shape[node.index()], self.middle[b]);

@@ -338,8 +338,8 @@ impl StateSearch<'_> {
 
     /// Returns how far a node slipped along the tangent in a step of the load, length.
     fn slip(&self, pairing: &Pairing, iteration: &Iteration) -> f64 {
-        let [ux, uy] = pairing.motion(|n| n.of(&iteration.solution.u));
-        let [bx, by] = pairing.motion(|n| n.of(self.setting.before));
+        let [ux, uy] = pairing.motion(|n| n.components(&iteration.solution.u));
+        let [bx, by] = pairing.motion(|n| n.components(self.setting.before));
         let [tx, ty] = tangent(pairing);
         tx * (ux - bx) + ty * (uy - by)
     }

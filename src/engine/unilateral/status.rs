@@ -90,7 +90,7 @@ pub(super) fn next_closed(
 ) -> Option<usize> {
     let time = |(i, p): (usize, &Option<Pairing>)| {
         let p = p.as_ref().filter(|_| statuses[i] == Status::Open)?;
-        let closing = -p.opening(|n| n.of(u));
+        let closing = -p.opening(|n| n.components(u));
         (closing > STANDING * u.amax()).then(|| (gaps[i].unwrap_or(0.0).max(0.0) / closing, i))
     };
     let times = pairings.iter().enumerate().filter_map(time);

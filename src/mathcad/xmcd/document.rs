@@ -140,7 +140,7 @@ fn settings(root: Node<'_, '_>) -> Settings {
 /// from left to right.
 fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
     let regions = list.children().filter(|node| node.tag_name().name() == "region");
-    let mut placed: Vec<_> = regions.map(|node| (place(node), node)).collect();
+    let mut placed: Vec<_> = regions.map(|node| (page_position(node), node)).collect();
     placed.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     for (_, node) in placed {
         match child(node, "area") {
@@ -156,7 +156,7 @@ fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
     }
 }
 
-fn place(node: Node<'_, '_>) -> (f64, f64) {
+fn page_position(node: Node<'_, '_>) -> (f64, f64) {
     let number = |name| node.attribute(name).and_then(|x| x.parse::<f64>().ok());
     (number("align-y").or(number("top")).unwrap_or(0.0), number("left").unwrap_or(0.0))
 }

@@ -35,7 +35,7 @@ pub struct Unsure {
 
 impl Unsure {
     /// Returns what leaves the comparison of two numbers with bounds to rounding; None where it is sure.
-    pub fn of<T: Scalar>(x: T, y: T) -> Option<Self> {
+    pub fn from_comparison<T: Scalar>(x: T, y: T) -> Option<Self> {
         let difference = x + -y;
         let (margin, bound) = (difference.to_f64().abs(), difference.error_bound().unwrap_or(0.0));
         // Where both are exact, so is the comparison, also of equal ones.
@@ -198,7 +198,7 @@ impl<V: Rounded> WithBound<V> {
     fn note(self, y: Self) {
         UNSURE.with_borrow_mut(|unsure| {
             if let Some(unsure) = unsure {
-                unsure.extend(Unsure::of(self, y));
+                unsure.extend(Unsure::from_comparison(self, y));
             }
         });
     }
@@ -315,8 +315,8 @@ impl<V: Rounded> PartialOrd for WithBound<V> {
 }
 
 impl<V: Rounded> Subscript for WithBound<V> {
-    fn at(self) -> usize {
-        self.value.at()
+    fn index(self) -> usize {
+        self.value.index()
     }
 }
 

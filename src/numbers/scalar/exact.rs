@@ -161,7 +161,7 @@ impl PartialOrd for Exact {
 }
 
 impl Subscript for Exact {
-    fn at(self) -> usize {
+    fn index(self) -> usize {
         let whole =
             self.with(|x| if x.is_int() { usize::try_from(x.numerator()).ok() } else { None });
         whole.flatten().unwrap_or_else(|| panic!("{self} is no subscript"))

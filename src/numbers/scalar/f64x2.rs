@@ -144,9 +144,9 @@ fn two_product(a: f64, b: f64) -> [f64; 2] {
 }
 
 impl Subscript for F64x2 {
-    fn at(self) -> usize {
+    fn index(self) -> usize {
         debug_assert!(self.lo == 0.0, "{self} is no subscript");
-        self.hi.at()
+        self.hi.index()
     }
 }
 

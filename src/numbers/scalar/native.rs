@@ -5,21 +5,21 @@ use robust::{Coord, orient2d};
 use super::number::{Scalar, Subscript};
 
 impl Subscript for usize {
-    fn at(self) -> usize {
+    fn index(self) -> usize {
         self
     }
 }
 
 impl Subscript for f64 {
-    fn at(self) -> usize {
+    fn index(self) -> usize {
         debug_assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
         self as usize
     }
 }
 
 impl Subscript for f32 {
-    fn at(self) -> usize {
-        f64::from(self).at()
+    fn index(self) -> usize {
+        f64::from(self).index()
     }
 }
 

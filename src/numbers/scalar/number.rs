@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 /// (`k_cnt` has node numbers beside weights).
 pub trait Subscript: Copy {
     /// Returns the subscript as a whole number.
-    fn at(self) -> usize;
+    fn index(self) -> usize;
 }
 
 /// What the listings ask of a number: `+ − · /`, comparison, absolute value, min and max. No

@@ -29,7 +29,7 @@ impl DenseLu {
     /// body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
         let n = matrix.nrows();
-        let (entries, mut factors) = (SparseSquare::of(&matrix), matrix);
+        let (entries, mut factors) = (SparseSquare::from_dense(&matrix), matrix);
         let [mut order, mut back] = [0, 0].map(|at| vec![at; n]);
         // One thread: faer's bits depend on the number of threads.
         let (par, params) = (Par::Seq, Default::default());

@@ -23,16 +23,16 @@ const P: u64 = (1 << 61) - 1;
 struct Residue(u64);
 
 impl Residue {
-    fn of(x: &IBig) -> Self {
+    fn from_integer(x: &IBig) -> Self {
         let remainder = i64::try_from(x % IBig::from(P)).expect("a remainder is below p");
         Residue(remainder.rem_euclid(P as i64) as u64)
     }
 
     /// Returns x modulo p, or nothing where p divides its denominator.
     fn of_fraction(x: &RBig) -> Option<Self> {
-        let denominator = Residue::of(&IBig::from(x.denominator().clone()));
+        let denominator = Residue::from_integer(&IBig::from(x.denominator().clone()));
         let defined = !denominator.vanishes();
-        defined.then(|| Residue::of(x.numerator()).over(&denominator))
+        defined.then(|| Residue::from_integer(x.numerator()).over(&denominator))
     }
 
     fn times(&self, other: &Self) -> Self {
@@ -94,7 +94,7 @@ pub fn lift(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<Vec<RBig>> {
     let mut x: Vec<Vec<u64>> = vec![Vec::with_capacity(digits); b.len()];
     for _ in 0..digits {
         let rest: Vec<Residue> =
-            rows.iter().map(|row| Residue::of(&row.rest).times(&row.scale)).collect();
+            rows.iter().map(|row| Residue::from_integer(&row.rest).times(&row.scale)).collect();
         let digit = factors.solve(&rest);
         for row in &mut rows {
             for (j, a) in &row.entries {
@@ -126,7 +126,7 @@ fn whole_rows(matrix: &SparseSymmetric<RBig>, b: &[RBig]) -> Option<(Vec<Row>, u
         let rest = whole(b);
         let squares = entries.iter().fold(&rest * &rest, |sum, (_, a)| sum + a * a);
         length += squares.bit_len().div_ceil(2);
-        let scale = Residue::of(&IBig::from(common.clone()));
+        let scale = Residue::from_integer(&IBig::from(common.clone()));
         if scale.vanishes() {
             return None;
         }

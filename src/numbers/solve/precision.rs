@@ -126,7 +126,7 @@ impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
     /// of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let a = SparseSquare::of(&a);
+        let a = SparseSquare::from_dense(&a);
         let (values, f) = (a.map(Scalar::to_f64).dense(), b.map(Scalar::to_f64));
         match by {
             Solver::SparseLu => Self::solve_sparse(&a, b),
@@ -152,7 +152,7 @@ impl Precision for BoundedDouble {
     /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
     /// largest error of an entry.
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self> {
-        let entries = SparseSquare::of(&a);
+        let entries = SparseSquare::from_dense(&a);
         let factors = SparseLu::new(&entries.map(Scalar::to_f64))?;
         let solved = F64x2::solve(a.map(WithBound::value), &b.map(WithBound::value), by, tol)?;
         Ok(with_bound(&factors, &entries, b, solved))
@@ -235,7 +235,7 @@ fn native(a: DMatrix<f64>, b: &DVector<f64>, by: Solver, tol: Option<f64>) -> Ou
     let symmetric = SparseSymmetric::of_lower(&a);
     let x = match by {
         Solver::DenseLu => return Ok(solved(&DenseLu::new(a)?, b)),
-        Solver::SparseLu => return f64::solve_sparse(&SparseSquare::of(&a), b),
+        Solver::SparseLu => return f64::solve_sparse(&SparseSquare::from_dense(&a), b),
         Solver::Cg | Solver::Refined => return f64::iterate(&symmetric, b, by, tol),
         Solver::DenseCholesky => DenseCholesky::new(&a)?.solve(b),
         Solver::SparseCholesky => SparseCholesky::new(symmetric.clone())?.solve(b),

@@ -21,7 +21,7 @@ impl<T: Scalar> SparseSquare<T> {
     }
 
     /// Takes the entries of a dense matrix, zeros left out.
-    pub fn of(matrix: &DMatrix<T>) -> Self {
+    pub fn from_dense(matrix: &DMatrix<T>) -> Self {
         let entries = |(i, value): (usize, &T)| (!value.is_zero()).then_some((i, *value));
         let column = |j| matrix.column(j).into_iter().enumerate().filter_map(entries).collect();
         SparseSquare { columns: (0..matrix.ncols()).map(column).collect(), zero: T::zero() }

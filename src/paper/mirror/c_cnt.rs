@@ -108,13 +108,13 @@ pub fn edge_box<T: Scalar>(
     let here = Line { i1, ct: trg[i2], ..Line::default() };
     //#  5 ntx ← (node_n[elem[trg[i2],6],2] − c_tll   node_n[elem[trg[i2],7],2] + c_tll)ᵀ
     let ntx = [
-        here.at(5).finite(node_n[(elem[(trg[i2], 6)], 2)] - *c_tll)?,
-        here.at(5).finite(node_n[(elem[(trg[i2], 7)], 2)] + *c_tll)?,
+        here.at_line(5).finite(node_n[(elem[(trg[i2], 6)], 2)] - *c_tll)?,
+        here.at_line(5).finite(node_n[(elem[(trg[i2], 7)], 2)] + *c_tll)?,
     ];
     //#  6 nty ← (node_n[elem[trg[i2],6],3] − c_tll   node_n[elem[trg[i2],7],3] + c_tll)ᵀ
     let nty = [
-        here.at(6).finite(node_n[(elem[(trg[i2], 6)], 3)] - *c_tll)?,
-        here.at(6).finite(node_n[(elem[(trg[i2], 7)], 3)] + *c_tll)?,
+        here.at_line(6).finite(node_n[(elem[(trg[i2], 6)], 3)] - *c_tll)?,
+        here.at_line(6).finite(node_n[(elem[(trg[i2], 7)], 3)] + *c_tll)?,
     ];
     Ok((ntx, nty))
 }
@@ -158,8 +158,8 @@ pub fn distances<T: Scalar>(
         yt[i1] = T::zero();
         //# 10 yt[i1] ← ((node_n[elem[ct[i1],7],3] − node_n[elem[ct[i1],6],3]) / (node_n[elem[ct[i1],7],2] − node_n[elem[ct[i1],6],2])) · (node_n[cnt[i1],2] − node_n[elem[ct[i1],6],2]) + node_n[elem[ct[i1],6],3] − node_n[cnt[i1],3] if ct[i1] > 0
         if ct[i1] > 0 {
-            yt[i1] = here.at(10).finite(
-                here.at(10).quotient(
+            yt[i1] = here.at_line(10).finite(
+                here.at_line(10).quotient(
                     node_n[(elem[(ct[i1], 7)], 3)] - node_n[(elem[(ct[i1], 6)], 3)],
                     node_n[(elem[(ct[i1], 7)], 2)] - node_n[(elem[(ct[i1], 6)], 2)],
                 )? * (node_n[(cnt[i1], 2)] - node_n[(elem[(ct[i1], 6)], 2)])
@@ -259,19 +259,21 @@ pub fn link<T: Scalar>(
         k_cnt[(cnt[i1], 1)] = T::from_number(elem[(ct[i1], 6)]);
         let [k1, k2] = own_weights(sheet, reading, node_n, ct, i1)?;
         //# 24 k_cnt[cnt[i1],2] ← k1 + k_cnt[cnt[i1],2]
-        k_cnt[(cnt[i1], 2)] = here.at(24).finite(k1 + k_cnt[(cnt[i1], 2)])?;
+        k_cnt[(cnt[i1], 2)] = here.at_line(24).finite(k1 + k_cnt[(cnt[i1], 2)])?;
         //# 25 k_cnt[cnt[i1],3] ← elem[ct[i1],7]
         k_cnt[(cnt[i1], 3)] = T::from_number(elem[(ct[i1], 7)]);
         //# 26 k_cnt[cnt[i1],4] ← k2 + k_cnt[cnt[i1],4]
-        k_cnt[(cnt[i1], 4)] = here.at(26).finite(k2 + k_cnt[(cnt[i1], 4)])?;
+        k_cnt[(cnt[i1], 4)] = here.at_line(26).finite(k2 + k_cnt[(cnt[i1], 4)])?;
         //# 27 k_cnt[elem[ct[i1],6],1] ← cnt[i1]
         k_cnt[(elem[(ct[i1], 6)], 1)] = T::from_number(cnt[i1]);
         //# 28 k_cnt[elem[ct[i1],6],2] ← k1 + k_cnt[elem[ct[i1],6],2]
-        k_cnt[(elem[(ct[i1], 6)], 2)] = here.at(28).finite(k1 + k_cnt[(elem[(ct[i1], 6)], 2)])?;
+        k_cnt[(elem[(ct[i1], 6)], 2)] =
+            here.at_line(28).finite(k1 + k_cnt[(elem[(ct[i1], 6)], 2)])?;
         //# 29 k_cnt[elem[ct[i1],7],1] ← cnt[i1]
         k_cnt[(elem[(ct[i1], 7)], 1)] = T::from_number(cnt[i1]);
         //# 30 k_cnt[elem[ct[i1],7],2] ← k2 + k_cnt[elem[ct[i1],7],2]
-        k_cnt[(elem[(ct[i1], 7)], 2)] = here.at(30).finite(k2 + k_cnt[(elem[(ct[i1], 7)], 2)])?;
+        k_cnt[(elem[(ct[i1], 7)], 2)] =
+            here.at_line(30).finite(k2 + k_cnt[(elem[(ct[i1], 7)], 2)])?;
     }
     Ok(())
 }
@@ -292,17 +294,17 @@ pub fn own_weights<T: Scalar>(
     // AMBIGUOUS R5: initial coordinates, as printed, or current ones.
     let node = weights_from(sheet, reading, node_n);
     //# 22 k1 ← 1 − (node[cnt[i1],2] − node[elem[ct[i1],6],2]) / (node[elem[ct[i1],7],2] − node[elem[ct[i1],6],2])
-    let k1 = here.at(22).finite(
+    let k1 = here.at_line(22).finite(
         T::one()
-            - here.at(22).quotient(
+            - here.at_line(22).quotient(
                 node[(cnt[i1], 2)] - node[(elem[(ct[i1], 6)], 2)],
                 node[(elem[(ct[i1], 7)], 2)] - node[(elem[(ct[i1], 6)], 2)],
             )?,
     )?;
     //# 23 k2 ← 1 − (node[elem[ct[i1],7],2] − node[cnt[i1],2]) / (node[elem[ct[i1],7],2] − node[elem[ct[i1],6],2])
-    let k2 = here.at(23).finite(
+    let k2 = here.at_line(23).finite(
         T::one()
-            - here.at(23).quotient(
+            - here.at_line(23).quotient(
                 node[(elem[(ct[i1], 7)], 2)] - node[(cnt[i1], 2)],
                 node[(elem[(ct[i1], 7)], 2)] - node[(elem[(ct[i1], 6)], 2)],
             )?,

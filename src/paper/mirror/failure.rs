@@ -69,7 +69,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    pub fn at(self, line: usize) -> Self {
+    pub fn at_line(self, line: usize) -> Self {
         Line { line, ..self }
     }
 

@@ -78,12 +78,12 @@ pub fn Km<T: Scalar>(
             //# 17 if c_cnt[EL[n,i1+ind_1−1],1] > 0
             if c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)] > zero {
                 //# 18 W[2·i1−1] ← 2·c_cnt[EL[n,i1+ind_1−1],1] − 1 if S[2·c_cnt[EL[n,i1+ind_1−1],1] − 1] = 0
-                if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].at() - 1] == 0 {
-                    W[2 * i1 - 1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].at() - 1;
+                if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].index() - 1] == 0 {
+                    W[2 * i1 - 1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].index() - 1;
                 }
                 //# 19 W[2·i1] ← 2·c_cnt[EL[n,i1+ind_1−1],1] if S[2·c_cnt[EL[n,i1+ind_1−1],1]] = 0
-                if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].at()] == 0 {
-                    W[2 * i1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].at();
+                if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].index()] == 0 {
+                    W[2 * i1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 1)].index();
                 }
                 //# 20 fl ← c_cnt[EL[n,i1+ind_1−1],2]
                 fl = c_cnt[(EL[(n, i1 + ind_1 - 1)], 2)];
@@ -116,12 +116,12 @@ pub fn Km<T: Scalar>(
                 //# 27 if c_cnt[EL[n,i1+ind_1−1],3] > 0
                 if c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)] > zero {
                     //# 28 W[2·i1−1] ← 2·c_cnt[EL[n,i1+ind_1−1],3] − 1 if S[2·c_cnt[EL[n,i1+ind_1−1],3] − 1] = 0
-                    if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].at() - 1] == 0 {
-                        W[2 * i1 - 1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].at() - 1;
+                    if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].index() - 1] == 0 {
+                        W[2 * i1 - 1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].index() - 1;
                     }
                     //# 29 W[2·i1] ← 2·c_cnt[EL[n,i1+ind_1−1],3] if S[2·c_cnt[EL[n,i1+ind_1−1],3]] = 0
-                    if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].at()] == 0 {
-                        W[2 * i1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].at();
+                    if S[2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].index()] == 0 {
+                        W[2 * i1] = 2 * c_cnt[(EL[(n, i1 + ind_1 - 1)], 3)].index();
                     }
                     //# 30 fl ← c_cnt[EL[n,i1+ind_1−1],4]
                     fl = c_cnt[(EL[(n, i1 + ind_1 - 1)], 4)];

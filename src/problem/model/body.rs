@@ -82,7 +82,7 @@ fn number_equal_names(bodies: &mut [Body]) {
 /// in words; None where it cannot move.
 pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
     let count = nodes.len() as f64;
-    let points = || nodes.iter().map(|&n| model.at(n));
+    let points = || nodes.iter().map(|&n| model.coordinates(n));
     let sum = points().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let centre = [sum[0] / count, sum[1] / count];
     let size = points().map(|[x, y]| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
@@ -90,7 +90,7 @@ pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
     // Gram matrix has full rank.
     let mut gram = Matrix3::zeros();
     for &n in nodes {
-        let [x, y] = model.at(n);
+        let [x, y] = model.coordinates(n);
         let motions = [
             Vector3::new(1.0, 0.0, -(y - centre[1]) / size),
             Vector3::new(0.0, 1.0, (x - centre[0]) / size),

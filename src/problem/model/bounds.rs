@@ -9,7 +9,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// Returns the smallest box around `points`, at least one.
-    pub fn of<'a>(points: impl IntoIterator<Item = &'a [f64; 2]>) -> Self {
+    pub fn around<'a>(points: impl IntoIterator<Item = &'a [f64; 2]>) -> Self {
         let nothing = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         points.into_iter().fold(nothing, |bounds, point| Self {
             low: [0, 1].map(|axis| bounds.low[axis].min(point[axis])),

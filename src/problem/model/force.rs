@@ -42,7 +42,7 @@ impl Force {
             Force::Pressure(edge, pressure) => (edge, Some(number(pressure)), [T::zero(); 2]),
             Force::Traction(edge, traction) => (edge, None, traction.map(number)),
         };
-        let [[ax, ay], [bx, by]] = edge.map(|node| model.at(node).map(number));
+        let [[ax, ay], [bx, by]] = edge.map(|node| model.coordinates(node).map(number));
         let length = T::length(bx - ax, by - ay);
         let inward = [-(by - ay) / length, (bx - ax) / length];
         let per_area = pressure.map_or(traction, |p| inward.map(|n| p * n));

@@ -128,7 +128,7 @@ impl NodeId {
     }
 
     /// Returns its two components of a field over all degrees of freedom.
-    pub fn of<T: Copy>(self, field: &DVector<T>) -> [T; 2] {
+    pub fn components<T: Copy>(self, field: &DVector<T>) -> [T; 2] {
         self.dofs().map(|dof| field[dof.index()])
     }
 }

@@ -18,7 +18,7 @@ pub use body::{Body, bodies, freedom};
 pub use bounds::Bounds;
 pub use force::Force;
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
-pub use sides::{Beside, Sides, unordered};
+pub use sides::{Sides, TriangleSide, unordered};
 
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;
@@ -141,7 +141,9 @@ impl Model {
 
     /// Returns the smallest box around the nodes of the triangles.
     pub fn bounds(&self) -> Bounds {
-        Bounds::of(self.bodies.iter().flat_map(|body| &body.nodes).map(|n| &self.nodes[n.index()]))
+        Bounds::around(
+            self.bodies.iter().flat_map(|body| &body.nodes).map(|n| &self.nodes[n.index()]),
+        )
     }
 
     /// Returns every triangle, in order.
@@ -155,7 +157,7 @@ impl Model {
     }
 
     /// Returns the coordinates of a node, length.
-    pub fn at(&self, node: NodeId) -> [f64; 2] {
+    pub fn coordinates(&self, node: NodeId) -> [f64; 2] {
         self.nodes[node.index()]
     }
 
@@ -169,7 +171,7 @@ impl Model {
 
     /// Returns the coordinates of the corners of a triangle, length.
     pub fn corners(&self, id: TriangleId) -> Corners<f64> {
-        self.triangle(id).nodes.map(|node| self.at(node))
+        self.triangle(id).nodes.map(|node| self.coordinates(node))
     }
 
     pub fn is_restrained(&self, dof: Dof) -> bool {
@@ -244,7 +246,7 @@ impl Model {
     /// Returns the coordinates of each node after displacements `u`, length.
     pub fn shape(&self, u: &DVector<f64>) -> Vec<[f64; 2]> {
         let moved = |(node, [x, y]): (NodeId, &[f64; 2])| {
-            let [ux, uy] = node.of(u);
+            let [ux, uy] = node.components(u);
             [x + ux, y + uy]
         };
         self.node_ids().zip(&self.nodes).map(moved).collect()

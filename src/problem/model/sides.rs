@@ -8,11 +8,11 @@ use serde::Serialize;
 pub struct Sides {
     /// Where the sides of each lower node start, and where the last ones end.
     starts: Vec<u32>,
-    beside: Vec<Beside>,
+    beside: Vec<TriangleSide>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Beside {
+pub struct TriangleSide {
     pub triangle: TriangleId,
     /// The side's two nodes, in the order that leaves the triangle on their left.
     pub nodes: [NodeId; 2],
@@ -25,12 +25,12 @@ impl Sides {
         let of_triangle = |(index, corners): (usize, [NodeId; 3])| {
             [0, 1, 2].map(|k| {
                 let [a, b, third] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k]);
-                Beside { triangle: TriangleId::new(index), nodes: [a, b], third }
+                TriangleSide { triangle: TriangleId::new(index), nodes: [a, b], third }
             })
         };
         // They are gone through three times, so that only one list of them is held.
         let given = triangles.enumerate().flat_map(of_triangle);
-        let lower = |one: &Beside| unordered(one.nodes)[0].index();
+        let lower = |one: &TriangleSide| unordered(one.nodes)[0].index();
         let nodes = given.clone().map(|one| lower(&one)).max().map_or(0, |last| last + 1);
         let mut starts = vec![0; nodes + 1];
         given.clone().for_each(|one| starts[lower(&one) + 1] += 1);
@@ -49,13 +49,13 @@ impl Sides {
     }
 
     /// Returns the triangles that have the side between two nodes in any order, ascending.
-    pub fn beside(&self, nodes: [NodeId; 2]) -> &[Beside] {
+    pub fn beside(&self, nodes: [NodeId; 2]) -> &[TriangleSide] {
         let [lower, higher] = unordered(nodes);
         let Some([from, to]) = self.starts.get(lower.index()..lower.index() + 2) else {
             return &[];
         };
         let of_lower = &self.beside[*from as usize..*to as usize];
-        let higher_of = |one: &Beside| unordered(one.nodes)[1];
+        let higher_of = |one: &TriangleSide| unordered(one.nodes)[1];
         let from = of_lower.partition_point(|one| higher_of(one) < higher);
         let to = of_lower.partition_point(|one| higher_of(one) <= higher);
         &of_lower[from..to]
@@ -63,7 +63,7 @@ impl Sides {
 
     /// Returns the one triangle that has this side, where the side bounds the body; None for an
     /// inner side and for two nodes without a common side.
-    pub fn boundary(&self, nodes: [NodeId; 2]) -> Option<Beside> {
+    pub fn boundary(&self, nodes: [NodeId; 2]) -> Option<TriangleSide> {
         match self.beside(nodes) {
             [one] => Some(*one),
             _ => None,

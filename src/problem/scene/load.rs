@@ -33,7 +33,7 @@ pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> R
     memory::check_bytes((2 * count * size_of::<Force>()) as f64, "loads", &whose, fix)?;
     let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
     for (k, load) in loads.iter().enumerate() {
-        let own = parts(mesh, groups, &model.sides, load, &place(k))?;
+        let own = parts(mesh, groups, &model.sides, load, &load_field(k))?;
         add(&own, &mut total, model, k)?;
         forces.push(own);
     }
@@ -44,7 +44,7 @@ pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> R
     Ok(Loading { forces: forces.into_iter().flatten().collect(), total, stages })
 }
 
-fn place(k: usize) -> String {
+fn load_field(k: usize) -> String {
     format!("loads[{k}]")
 }
 
@@ -55,7 +55,7 @@ fn add(own: &[Force], f: &mut DVector<f64>, model: &Model, k: usize) -> Result<(
     if dofs.all(|dof| f[dof.index()].is_finite()) {
         return Ok(());
     }
-    Err(InputError::new(place(k), "the load is too large to represent", "choose other units"))
+    Err(InputError::new(load_field(k), "the load is too large to represent", "choose other units"))
 }
 
 /// Returns the number of stages of the load.
@@ -63,7 +63,7 @@ fn stages(loads: &[Load], model: &Model) -> Result<usize> {
     let numbers: BTreeSet<usize> = loads.iter().map(|load| load.stage.unwrap_or(1)).collect();
     let last = numbers.last().copied().unwrap_or(1);
     if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
-        let place = format!("{}.stage", place(k));
+        let place = format!("{}.stage", load_field(k));
         return Err(InputError::new(place, "stages count from 1", "give 1 or more"));
     }
     if let Some(k) = (1..=loads.len().min(last)).find(|k| !numbers.contains(k)) {

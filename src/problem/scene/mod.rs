@@ -92,7 +92,7 @@ impl Scene {
     /// The scene file, the mesh file, or the two together are at fault.
     pub fn of_file(file: &SceneFile) -> Result<Self> {
         let built = Scene::build(&file.name, &file.text, |beside| file.beside(beside));
-        built.map_err(|error| match file.place() {
+        built.map_err(|error| match file.path() {
             Some(place) => error.within(place),
             None => error,
         })

@@ -48,7 +48,7 @@ impl SceneFile {
         let path = Path::new(name_or_path);
         let path = if path.is_dir() { path.join("scene.json") } else { path.into() };
         let text = files::read(&path);
-        Self::at(&path, text, name_or_path)
+        Self::from_read(&path, text, name_or_path)
     }
 
     /// Reads the file of an embedded scene by its name, or at a path to it or to its folder that a file
@@ -64,7 +64,7 @@ impl SceneFile {
         let is_folder = folder.join(name).is_dir();
         let name = if is_folder { name.join("scene.json") } else { name.into() };
         let text = Folder::open(folder).and_then(|folder| folder.read(&name, files::MOST));
-        Self::at(&folder.join(name), text, name_or_path)
+        Self::from_read(&folder.join(name), text, name_or_path)
     }
 
     fn embedded(name: &str) -> Option<Self> {
@@ -74,7 +74,7 @@ impl SceneFile {
     }
 
     /// Returns the scene file at `path`, asked for as `name`, with what was read there.
-    fn at(path: &Path, text: io::Result<Vec<u8>>, name: &str) -> Result<Self> {
+    fn from_read(path: &Path, text: io::Result<Vec<u8>>, name: &str) -> Result<Self> {
         let text = text.map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
@@ -92,7 +92,7 @@ impl SceneFile {
     }
 
     /// Returns where an error of the scene stands; None of an embedded scene.
-    pub fn place(&self) -> Option<&str> {
+    pub fn path(&self) -> Option<&str> {
         match &self.files {
             Files::Embedded(_) => None,
             Files::Folder(_, path) => Some(path),

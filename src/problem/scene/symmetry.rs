@@ -50,7 +50,7 @@ pub fn half(scene: &Scene) -> Option<Half> {
     let nodes: BTreeSet<NodeId> =
         triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
     let nodes: Vec<NodeId> = nodes.into_iter().collect();
-    let departure = nodes.iter().map(|&n| mirror.distance(n, images.of(n))).fold(0.0, f64::max);
+    let departure = nodes.iter().map(|&n| mirror.distance(n, images.image(n))).fold(0.0, f64::max);
     let model = Restriction::new(&mirror, &nodes, &triangles).model();
     let scene = Scene { model: Arc::new(model), source: None, ..scene.clone() };
     Some(Half { scene, nodes, triangles, at: mirror.at, departure })
@@ -68,7 +68,7 @@ struct Mirror<'a> {
 struct Images(Vec<NodeId>);
 
 impl Images {
-    fn of(&self, node: NodeId) -> NodeId {
+    fn image(&self, node: NodeId) -> NodeId {
         self.0[node.index()]
     }
 }
@@ -87,13 +87,13 @@ impl<'a> Mirror<'a> {
 
     /// Returns -1 for a node left of the line, 0 on it, 1 right of it.
     fn side(&self, node: NodeId) -> i32 {
-        let x = self.model.at(node)[0] - self.at;
+        let x = self.model.coordinates(node)[0] - self.at;
         if x.abs() <= self.place { 0 } else { x.signum() as i32 }
     }
 
     /// Returns the distance of node `m` from the place of the image of node `n`, length.
     fn distance(&self, n: NodeId, m: NodeId) -> f64 {
-        let ([nx, ny], [mx, my]) = (self.model.at(n), self.model.at(m));
+        let ([nx, ny], [mx, my]) = (self.model.coordinates(n), self.model.coordinates(m));
         (2.0 * self.at - nx - mx).hypot(ny - my)
     }
 
@@ -102,14 +102,14 @@ impl<'a> Mirror<'a> {
         let cell = |x: f64| (x / (4.0 * self.place)).round() as i64;
         let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
         for n in self.model.node_ids().filter(|n| !self.model.is_dropped(*n)) {
-            cells.entry(self.model.at(n).map(cell)).or_default().push(n);
+            cells.entry(self.model.coordinates(n).map(cell)).or_default().push(n);
         }
         let body = |n: NodeId| self.model.bodies.iter().position(|b| b.has(n));
         let image = |n: NodeId| {
             if self.model.is_dropped(n) {
                 return Some(n);
             }
-            let [x, y] = self.model.at(n);
+            let [x, y] = self.model.coordinates(n);
             let [x, y] = [cell(2.0 * self.at - x), cell(y)];
             let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
             let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
@@ -121,7 +121,7 @@ impl<'a> Mirror<'a> {
             }
         };
         let images = Images(self.model.node_ids().map(image).collect::<Option<_>>()?);
-        let returns = |n: NodeId| images.of(images.of(n)) == n;
+        let returns = |n: NodeId| images.image(images.image(n)) == n;
         self.model.node_ids().all(returns).then_some(images)
     }
 
@@ -132,15 +132,15 @@ impl<'a> Mirror<'a> {
         };
         let triangles = || self.model.triangles.iter();
         let all: HashSet<_> = triangles().map(|t| key(t.nodes, t)).collect();
-        triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.of(n)), t)))
+        triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.image(n)), t)))
     }
 
     fn surfaces(&self, images: &Images) -> bool {
         let contact: HashSet<NodeId> = self.model.contact.nodes.iter().copied().collect();
         let target: HashSet<[NodeId; 2]> =
             self.model.target_edges().map(|edge| unordered(edge.nodes)).collect();
-        contact.iter().all(|n| contact.contains(&images.of(*n)))
-            && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.of(n)))))
+        contact.iter().all(|n| contact.contains(&images.image(*n)))
+            && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.image(n)))))
     }
 
     fn conditions(&self, images: &Images) -> bool {
@@ -148,12 +148,12 @@ impl<'a> Mirror<'a> {
         let same_load = |load: &DVector<f64>| {
             let near = LOAD * load.amax();
             model.node_ids().all(|n| {
-                let ([nx, ny], [mx, my]) = (n.of(load), images.of(n).of(load));
+                let ([nx, ny], [mx, my]) = (n.components(load), images.image(n).components(load));
                 (nx + mx).abs() <= near && (ny - my).abs() <= near
             })
         };
         let same_restraints =
-            |n: NodeId| model.restraints_of(n) == model.restraints_of(images.of(n));
+            |n: NodeId| model.restraints_of(n) == model.restraints_of(images.image(n));
         model.node_ids().all(same_restraints) && model.stages.iter().all(same_load)
     }
 }
@@ -186,9 +186,9 @@ impl<'a> Restriction<'a> {
         });
         let bodies = whole.bodies.iter().map(|body| self.body(body));
         let load = self.load(&whole.load);
-        let force = |node: NodeId| Force::Node(node, node.of(&load));
+        let force = |node: NodeId| Force::Node(node, node.components(&load));
         Model {
-            nodes: self.nodes.iter().map(|n| whole.at(*n)).collect(),
+            nodes: self.nodes.iter().map(|n| whole.coordinates(*n)).collect(),
             sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
             triangles,
             edges: edges.collect(),

@@ -10,7 +10,7 @@ use super::{Compared, WORST};
 use crate::json;
 use crate::model::Table;
 use crate::picture::{self, Drawing, Field};
-use crate::quantities::{Measured, measured};
+use crate::quantities::{MeasuredValue, measured};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
@@ -134,7 +134,7 @@ struct ElementRow {
     /// The quantities that both know, by their names as in `result.json`; those of CalculiX end in
     /// `_calculix`.
     #[serde(flatten)]
-    values: BTreeMap<String, Measured>,
+    values: BTreeMap<String, MeasuredValue>,
 }
 
 fn document(compared: &Compared, nodes: &[NodeRow], elements: &[ElementRow]) -> String {
@@ -197,7 +197,7 @@ fn of_triangle(comparison: &Comparison, id: TriangleId) -> [TriangleValues; 2] {
 }
 
 fn nodes_csv(rows: &[NodeRow]) -> String {
-    Table::of(rows)
+    Table::from_rows(rows)
         .column("node", |row| row.n)
         .column("u_x", |row| row.u[0])
         .column("u_y", |row| row.u[1])
@@ -218,7 +218,7 @@ fn elements_csv(elements: &[ElementRow]) -> String {
         let components = quantity.components().into_iter().map(|name| name + "_calculix");
         (format!("{}_calculix", quantity.name), components.collect())
     });
-    let table = Table::of(elements).column("element", |row| row.n);
+    let table = Table::from_rows(elements).column("element", |row| row.n);
     let table = ours.chain(theirs).fold(table, |table, (name, components): (_, Vec<String>)| {
         components.iter().enumerate().fold(table, |table, (k, component)| {
             table.column(component, |row| row.values[&name].numbers()[k])

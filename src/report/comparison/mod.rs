@@ -5,7 +5,7 @@ mod files;
 use std::fmt::Display;
 
 use super::model::{Cell, Report, Table};
-use super::numbers::{place, quantity, short, with_unit};
+use super::numbers::{coordinates, quantity, short, with_unit};
 use super::tables::certainty;
 use engine::estimates::Certainty;
 use problem::element::Plane;
@@ -98,7 +98,12 @@ fn differences(compared: &Compared) -> Table {
     Table::new(
         ["of", "largest difference", "over CalculiX's", "which is", "at", "at x, y", "rms"],
         [
-            row(quantity("displacement", &scene.units.length), u, "node", model.at(u.largest.at)),
+            row(
+                quantity("displacement", &scene.units.length),
+                u,
+                "node",
+                model.coordinates(u.largest.at),
+            ),
             row(quantity("stress", &scene.units.stress), s, "triangle", centre),
         ],
     )
@@ -118,13 +123,13 @@ fn row<Place: Display>(
         largest.relative.map(|relative| Cell::scientific(relative, 1)).into(),
         largest.scale.into(),
         format!("{kind} {}", largest.at).into(),
-        place(at, 3).into(),
+        coordinates(at, 3).into(),
         Cell::scientific(difference.rms, 3),
     ]
 }
 
 fn bodies(comparison: &Comparison) -> Table<Vec<&BodyStress>> {
-    Table::of(&comparison.bodies)
+    Table::from_rows(&comparison.bodies)
         .column("body", |body| body.name.clone())
         .column("here", |body| body.ours)
         .column("CalculiX", |body| body.calculix)
@@ -140,9 +145,9 @@ fn worst(compared: &Compared) -> Table<Vec<NodeId>> {
     let component = |u: &[[f64; 2]], node: NodeId, axis: usize| {
         Cell::scientific(u[node.index()][axis] + 0.0, 6)
     };
-    Table::of(displacement.worst(WORST))
+    Table::from_rows(displacement.worst(WORST))
         .column("node", |n| *n)
-        .column("x, y", |n| place(model.at(*n), 3))
+        .column("x, y", |n| coordinates(model.coordinates(*n), 3))
         .column("u_x here", |n| component(&ours.u, *n, 0))
         .column("u_y here", |n| component(&ours.u, *n, 1))
         .column("u_x CalculiX", |n| component(&theirs.u, *n, 0))

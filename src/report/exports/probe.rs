@@ -1,6 +1,6 @@
 //! Small regions that ask Mathcad what no source says, and what each answer decides.
 
-use ::mathcad::worksheet::Checked;
+use ::mathcad::worksheet::ExecutedRegion;
 use ::mathcad::xmcd::document::{Content, Saved, Worksheet};
 use ::mathcad::xmcd::{page::Page, write};
 use ::mathcad::{Listing, Settings, Value};
@@ -258,7 +258,7 @@ fn shown(answer: &Answer) -> String {
 
 /// Returns, for a worksheet of probes, what each saved result decides; nothing for another
 /// worksheet.
-pub fn decided(worksheet: &Worksheet, checked: &[Checked]) -> Vec<(String, String)> {
+pub fn decided(worksheet: &Worksheet, checked: &[ExecutedRegion]) -> Vec<(String, String)> {
     let mut decided = Vec::new();
     for probe in &PROBES {
         let tag = format!("probe {}", probe.tag);

@@ -50,7 +50,7 @@ impl Decimal {
     }
 
     /// Returns the place of its last digit: −2 for hundredths.
-    pub fn place(self) -> i32 {
+    pub fn last_place(self) -> i32 {
         self.place
     }
 

@@ -11,7 +11,7 @@ pub fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     let last = (high / step.value() + SLACK).floor() as i64;
     let tick = |index: i64| {
         let value = index as f64 * step.value();
-        (value, minus(&format!("{value:.*}", decimals(step.place()))))
+        (value, minus(&format!("{value:.*}", decimals(step.last_place()))))
     };
     (first..=last).map(tick).collect()
 }

@@ -30,7 +30,8 @@ pub fn uncertain(value: f64, unit: &str, errors: &[(Option<f64>, &str)]) -> Stri
     let error_in_words = |(k, (error, source)): (usize, &(Option<f64>, &str))| {
         let Some(error) = error else { return format!("error unknown ({source})") };
         let rounded = Decimal::at_least(error.abs(), known && error.abs() == largest);
-        let rounded = rounded.map_or("0".into(), |r| to_place(r.value(), r.place(), HANDY_ERRORS));
+        let rounded =
+            rounded.map_or("0".into(), |r| to_place(r.value(), r.last_place(), HANDY_ERRORS));
         let unit = if known && k == 0 { unit } else { "" };
         format!("+- {} ({source})", with_unit(&rounded, unit))
     };
@@ -40,7 +41,7 @@ pub fn uncertain(value: f64, unit: &str, errors: &[(Option<f64>, &str)]) -> Stri
         return format!("about {}, {words}", with_unit(&at_place(value, place), unit));
     }
     let shown = match Decimal::at_least(largest, true) {
-        Some(error) => at_place(value, error.place()),
+        Some(error) => at_place(value, error.last_place()),
         None => shortest(value),
     };
     format!("{shown} {words}")

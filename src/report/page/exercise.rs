@@ -18,7 +18,7 @@ pub fn html(exercise: Exercise) -> String {
     let mut nodes: Vec<_> = surface.chain(scene.model.contact.nodes.iter().copied()).collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let node = |n: &problem::model::NodeId| (n.number(), scene.model.at(*n));
+    let node = |n: &problem::model::NodeId| (n.number(), scene.model.coordinates(*n));
     let edges = scene.model.target_edges().map(|edge| (edge.number, edge.nodes));
     let picture = BASE64_STANDARD.encode(picture::mesh(&Drawing::new(&scene, "")));
     let data = json!({

@@ -15,7 +15,7 @@ use crate::picture::points;
 use mathcad::Listing;
 use problem::model::Model;
 use problem::scene::Scene;
-use studies::audit::findings::{Finding, Measured};
+use studies::audit::findings::{Evidence, Finding};
 use studies::audit::trace::{Access, Step};
 use studies::lesson::{Program, Run, figure_numbers};
 
@@ -24,7 +24,7 @@ pub struct Chapter {
     pub scene: Scene,
     pub runs: Vec<Run>,
     /// What the scene is there to show, and what was measured on it.
-    pub finding: Option<(&'static Finding, Measured)>,
+    pub finding: Option<(&'static Finding, Evidence)>,
 }
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
@@ -60,13 +60,13 @@ pub fn html(chapters: &[Chapter]) -> String {
 
 /// Values by their place, each once.
 #[derive(Default)]
-struct Once {
+struct DistinctValues {
     items: Vec<Value>,
     places: HashMap<String, usize>,
 }
 
-impl Once {
-    fn place(&mut self, item: Value) -> usize {
+impl DistinctValues {
+    fn index(&mut self, item: Value) -> usize {
         let next = self.items.len();
         let place = *self.places.entry(item.to_string()).or_insert(next);
         if place == next {
@@ -79,10 +79,10 @@ impl Once {
 /// What the steps of all runs share.
 #[derive(Default)]
 struct Shared {
-    names: Once,
-    values: Once,
-    accesses: Once,
-    steps: Once,
+    names: DistinctValues,
+    values: DistinctValues,
+    accesses: DistinctValues,
+    steps: DistinctValues,
 }
 
 impl Shared {
@@ -138,13 +138,13 @@ impl Shared {
         // An access that is read twice in a step is shown once.
         let mut seen = std::collections::HashSet::new();
         reads.retain(|read| seen.insert(*read));
-        self.steps.place(json!([line, step.held, step.operands, reads, writes]))
+        self.steps.index(json!([line, step.held, step.operands, reads, writes]))
     }
 
     fn access(&mut self, access: &Access) -> usize {
-        let name = self.names.place(access.name.clone().into());
-        let value = self.values.place(access.value.clone());
-        self.accesses.place(json!([name, value]))
+        let name = self.names.index(access.name.clone().into());
+        let value = self.values.index(access.value.clone());
+        self.accesses.index(json!([name, value]))
     }
 }
 

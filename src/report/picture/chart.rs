@@ -60,7 +60,7 @@ impl Style {
 pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[String]) -> String {
     let mut page = Page::new(title);
     page.paragraph(y.label);
-    let scales = [Scale::of(&x, series, 0), Scale::of(&y, series, 1)];
+    let scales = [Scale::from_series(&x, series, 0), Scale::from_series(&y, series, 1)];
     let curves = series.iter().filter(|series| series.style.is_curve());
     let names = curves.map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
     let plot = Plot { scales, top: page.y + 6.0, width: INNER - LEFT - names.fold(0.0, f64::max) };
@@ -103,7 +103,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(axis: &Axis, series: &[Series], column: usize) -> Self {
+    fn from_series(axis: &Axis, series: &[Series], column: usize) -> Self {
         let logarithmic = axis.logarithmic;
         let points = series.iter().flat_map(|series| &series.points);
         let shown = points.filter_map(|point| on_axis(point[column], logarithmic));
@@ -119,7 +119,7 @@ impl Scale {
     }
 
     /// Returns where a number of the range stands between the ends of the axis, 0 to 1.
-    fn place(&self, number: f64) -> f64 {
+    fn fraction(&self, number: f64) -> f64 {
         (number - self.low) / (self.high - self.low)
     }
 
@@ -127,12 +127,12 @@ impl Scale {
     fn ticks(&self) -> Vec<(f64, String)> {
         if !self.logarithmic {
             let marked = ticks(self.low, self.high).into_iter();
-            return marked.map(|(value, words)| (self.place(value), words)).collect();
+            return marked.map(|(value, words)| (self.fraction(value), words)).collect();
         }
         let (low, high) = (self.low as i32, self.high as i32);
         let step = ((high - low) / 9 + 1) as usize;
         let marked = (low..=high).step_by(step);
-        marked.map(|e| (self.place(f64::from(e)), power_of_ten(e))).collect()
+        marked.map(|e| (self.fraction(f64::from(e)), power_of_ten(e))).collect()
     }
 }
 
@@ -149,7 +149,7 @@ struct Plot {
 }
 
 impl Plot {
-    fn at(&self, x: f64, y: f64) -> Pixel {
+    fn pixel(&self, x: f64, y: f64) -> Pixel {
         [MARGIN + LEFT + x * self.width, self.top + (1.0 - y) * HEIGHT]
     }
 
@@ -157,27 +157,27 @@ impl Plot {
         let mut lines = group().stroke(GRID, 1.0);
         let mut words = group();
         for (x, label) in self.scales[0].ticks() {
-            lines.push(line(self.at(x, 0.0), self.at(x, 1.0)));
-            let [px, py] = self.at(x, 0.0);
+            lines.push(line(self.pixel(x, 0.0), self.pixel(x, 1.0)));
+            let [px, py] = self.pixel(x, 0.0);
             words.push(text([px, py + 18.0], Anchor::Middle, &label));
         }
         for (y, label) in self.scales[1].ticks() {
-            lines.push(line(self.at(0.0, y), self.at(1.0, y)));
-            let [px, py] = self.at(0.0, y);
+            lines.push(line(self.pixel(0.0, y), self.pixel(1.0, y)));
+            let [px, py] = self.pixel(0.0, y);
             words.push(text([px - 8.0, py + 5.0], Anchor::End, &label));
         }
         let axes = group()
             .stroke(DARK, 1.0)
-            .with(line(self.at(0.0, 0.0), self.at(1.0, 0.0)))
-            .with(line(self.at(0.0, 0.0), self.at(0.0, 1.0)));
+            .with(line(self.pixel(0.0, 0.0), self.pixel(1.0, 0.0)))
+            .with(line(self.pixel(0.0, 0.0), self.pixel(0.0, 1.0)));
         group().with(lines).with(axes).with(words)
     }
 
     /// Returns the points of a series that the axes can show.
     fn points(&self, series: &Series) -> Vec<Pixel> {
-        let place = |scale: &Scale, value| Some(scale.place(on_axis(value, scale.logarithmic)?));
+        let place = |scale: &Scale, value| Some(scale.fraction(on_axis(value, scale.logarithmic)?));
         let [scale_x, scale_y] = &self.scales;
-        let place = |[x, y]: &[f64; 2]| Some(self.at(place(scale_x, *x)?, place(scale_y, *y)?));
+        let place = |[x, y]: &[f64; 2]| Some(self.pixel(place(scale_x, *x)?, place(scale_y, *y)?));
         series.points.iter().filter_map(place).collect()
     }
 
@@ -192,7 +192,7 @@ impl Plot {
         ends.sort_by_key(|(end, ..)| (100.0 * end[1]).round() as i64);
         // No name stands so low that those after it do not fit above the axis.
         let lowest = self.top + HEIGHT;
-        let [mut y, x] = [self.top - LINE, self.at(1.0, 0.0)[0] + 14.0];
+        let [mut y, x] = [self.top - LINE, self.pixel(1.0, 0.0)[0] + 14.0];
         let mut names = group();
         let count = ends.len();
         for (k, (end, name, colour)) in ends.into_iter().enumerate() {

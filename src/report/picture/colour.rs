@@ -29,7 +29,7 @@ impl ColourScale {
     pub const HEIGHT: f64 = 42.0;
 
     /// Spans the colours from the smallest to the largest of finite `values`, at least one.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn from_values(values: &[f64]) -> Self {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Self { low, high }

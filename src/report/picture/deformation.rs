@@ -13,7 +13,7 @@ pub fn magnification(points: &[[f64; 2]], displacement: &[[f64; 2]]) -> Decimal 
     if largest == 0.0 {
         return Decimal::ONE;
     }
-    let ratio = Bounds::of(points).larger_side() / largest * DRAWN_DISPLACEMENT;
+    let ratio = Bounds::around(points).larger_side() / largest * DRAWN_DISPLACEMENT;
     Decimal::nearest_round(ratio.clamp(1e-300, 1e300))
 }
 

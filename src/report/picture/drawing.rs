@@ -64,7 +64,7 @@ impl Drawing {
                 nodes: model.contact.nodes.iter().map(|node| node.index()).collect(),
                 edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
             }),
-            search: Search::of(model),
+            search: Search::from_model(model),
         }
     }
 
@@ -91,6 +91,6 @@ fn regions(model: &Model) -> (Vec<usize>, Vec<String>) {
 pub fn points(model: &Model) -> Vec<[f64; 2]> {
     let mut points = model.nodes.clone();
     let other = model.triangles[0].nodes[0];
-    model.dropped.iter().for_each(|n| points[n.index()] = model.at(other));
+    model.dropped.iter().for_each(|n| points[n.index()] = model.coordinates(other));
     points
 }

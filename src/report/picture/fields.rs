@@ -34,7 +34,7 @@ impl<'a> FieldPicture<'a> {
     /// Prepares a picture of `field`.
     pub fn new(drawing: &'a Drawing, field: &'a Field<'a>) -> Self {
         let [smallest, largest] = extremes(field.values);
-        let scale = ColourScale::of(field.values);
+        let scale = ColourScale::from_values(field.values);
         let magnification = magnification(&drawing.points, field.displacement);
         let deformed = deformed(&drawing.points, field.displacement, magnification);
         let boundary = boundary_edges(&drawing.triangles);
@@ -150,7 +150,7 @@ impl<'a> FieldPicture<'a> {
 
     /// Writes a place of the mesh before the deformation.
     fn place_in_words(&self, place: [f64; 2]) -> String {
-        let round_off = Bounds::of(&self.drawing.points).larger_side() * 1e-6;
+        let round_off = Bounds::around(&self.drawing.points).larger_side() * 1e-6;
         let [x, y] = place.map(|x| significant(if x.abs() < round_off { 0.0 } else { x }, 4));
         // No-break spaces: a line must not end with the sign.
         format!("x\u{a0}=\u{a0}{x}, y\u{a0}=\u{a0}{}", with_unit(&y, &self.drawing.length_unit))

@@ -85,11 +85,11 @@ fn put_panels(
     drawn: &[[f64; 2]],
     draw: impl Fn(&View) -> Element,
 ) {
-    let whole = Bounds::of(drawing.points.iter().chain(drawn));
+    let whole = Bounds::around(drawing.points.iter().chain(drawn));
     let contact = drawing.contact.as_ref().filter(|contact| !contact.nodes.is_empty());
     let zone = contact.map(|contact| {
         let nodes = contact.nodes.iter();
-        let tight = Bounds::of(nodes.flat_map(|&node| [&drawing.points[node], &drawn[node]]));
+        let tight = Bounds::around(nodes.flat_map(|&node| [&drawing.points[node], &drawn[node]]));
         tight.padded(0.12 * tight.larger_side().max(0.1 * whole.larger_side()))
     });
     let zone = zone.filter(|zone| zone.larger_side() < ENLARGED_UP_TO * whole.larger_side());

@@ -168,7 +168,7 @@ impl Page {
 fn window(whole: &View, enlarged: &View) -> Element {
     let ratio = whole.scale / enlarged.scale;
     let size = enlarged.frame.size.map(|side| side * ratio);
-    let centre = whole.at(enlarged.centre);
+    let centre = whole.pixel(enlarged.centre);
     let corner = [0, 1].map(|axis| centre[axis] - size[axis] / 2.0);
     let line = |colour, width| rect(corner, size).fill("none").stroke(colour, width);
     // White under the line: it stands out from any colour.

@@ -45,7 +45,7 @@ impl Raster {
     /// Fills the pixels whose middle lies in the triangle with a colour, by its number. Triangles
     /// that share an edge leave no pixel between them.
     pub fn triangle(&mut self, corners: [Pixel; 3], colour: u8) {
-        let [a, b, c] = corners.map(|corner| self.place(corner));
+        let [a, b, c] = corners.map(|corner| self.image_pixel(corner));
         let low = a[1].min(b[1]).min(c[1]);
         let high = a[1].max(b[1]).max(c[1]);
         for row in middles(low, high, self.size[1]) {
@@ -62,7 +62,7 @@ impl Raster {
 
     /// Changes the colours under the edges of a triangle, unless it is too small for them.
     pub fn ring(&mut self, corners: [Pixel; 3], change: impl Fn(u8) -> u8) {
-        let [a, b, c] = corners.map(|corner| self.place(corner));
+        let [a, b, c] = corners.map(|corner| self.image_pixel(corner));
         let sides = [[a, b], [b, c], [c, a]];
         let length = |[from, to]: [Pixel; 2]| (to[0] - from[0]).hypot(to[1] - from[1]);
         if sides.into_iter().map(length).fold(0.0, f64::max) >= LEAST_SIDE {
@@ -114,7 +114,7 @@ impl Raster {
     }
 
     /// Returns a place of the page in pixels of the image.
-    fn place(&self, at: Pixel) -> Pixel {
+    fn image_pixel(&self, at: Pixel) -> Pixel {
         let scale = |axis: usize| self.size[axis] as f64 / self.frame.size[axis];
         [0, 1].map(|axis| (at[axis] - self.frame.corner[axis]) * scale(axis))
     }

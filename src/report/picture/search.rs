@@ -41,7 +41,7 @@ struct Found {
 
 impl Search {
     /// Returns the search of a small model with contact; None where it is large, or `c_cnt` fails.
-    pub fn of(model: &Model) -> Option<Self> {
+    pub fn from_model(model: &Model) -> Option<Self> {
         model.target().filter(|_| model.nodes.len() <= MOST_NODES)?;
         let call = Call::c_cnt(model, &Reading::default(), &model.nodes).ok()?;
         let c_tll = model.contact.tolerance;
@@ -72,7 +72,7 @@ pub fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
 /// indices of `points`.
 pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search: &Search) {
     let own = search.nodes.iter().map(|found| &points[found.node]);
-    let bounds = Bounds::of(search.boxes.iter().flatten().chain(own));
+    let bounds = Bounds::around(search.boxes.iter().flatten().chain(own));
     let [width, height] = bounds.size();
     if !(width > 0.0 && height > 0.0) {
         return;

@@ -44,7 +44,7 @@ impl View {
     }
 
     /// Returns where a point of the mesh is drawn.
-    pub fn at(&self, point: [f64; 2]) -> Pixel {
+    pub fn pixel(&self, point: [f64; 2]) -> Pixel {
         let away = [0, 1].map(|axis| (point[axis] - self.centre[axis]) * self.scale);
         let middle = [0, 1].map(|axis| self.frame.corner[axis] + self.frame.size[axis] / 2.0);
         [middle[0] + away[0], middle[1] - away[1]]
@@ -52,7 +52,7 @@ impl View {
 
     /// Returns where each of `points` is drawn.
     pub fn all(&self, points: &[[f64; 2]]) -> Vec<Pixel> {
-        points.iter().map(|&point| self.at(point)).collect()
+        points.iter().map(|&point| self.pixel(point)).collect()
     }
 
     /// Returns whether a shape with these corners can be seen: whether its box overlaps the frame.

@@ -20,13 +20,13 @@ use studies::snapshot::{
 };
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
-pub struct Checked {
+pub struct VerifiedFile {
     /// The name of the file, as given.
     pub file: String,
     pub verified: Result<Verified, Error>,
 }
 
-impl Checked {
+impl VerifiedFile {
     /// Returns whether something was compared and nothing differs.
     pub fn is_same(&self) -> bool {
         self.verified.as_ref().is_ok_and(Verified::is_same)
@@ -78,8 +78,9 @@ fn verdict(run: &VerifiedRun) -> String {
 }
 
 /// Reports what verifying found: file by file its runs, and why they differ and in what.
-pub fn report(checked: &[Checked]) -> Report {
-    checked.iter().fold(Report::default(), |report, Checked { file, verified }| match verified {
+pub fn report(checked: &[VerifiedFile]) -> Report {
+    checked.iter().fold(Report::default(), |report, VerifiedFile { file, verified }| match verified
+    {
         Err(why) => report
             .line(format!("{file}: error, it cannot be verified"))
             .code(format!("error: {why}\n")),
@@ -115,11 +116,11 @@ fn run_words(run: &VerifiedRun) -> String {
 }
 
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
-pub fn junit(checked: &[Checked]) -> String {
+pub fn junit(checked: &[VerifiedFile]) -> String {
     Element::new("testsuites").with_all(checked.iter().map(suite)).document()
 }
 
-fn suite(checked: &Checked) -> Element {
+fn suite(checked: &VerifiedFile) -> Element {
     let runs = checked.runs();
     let alone = match &checked.verified {
         Err(why) => {
@@ -209,8 +210,8 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
     }
 }
 
-impl<'a> From<&'a Checked> for FileRow<'a> {
-    fn from(checked: &'a Checked) -> Self {
+impl<'a> From<&'a VerifiedFile> for FileRow<'a> {
+    fn from(checked: &'a VerifiedFile) -> Self {
         let scene = checked.verified.as_ref().ok().map(|Verified { input, .. }| OnScene {
             units: input.units(),
             scene_sha256: input.scene_sha256.clone(),
@@ -227,8 +228,8 @@ impl<'a> From<&'a Checked> for FileRow<'a> {
 }
 
 /// Returns what verifying found as JSON.
-pub fn json(checked: &[Checked]) -> String {
-    let same = checked.iter().all(Checked::is_same);
+pub fn json(checked: &[VerifiedFile]) -> String {
+    let same = checked.iter().all(VerifiedFile::is_same);
     json::line(None, &Document { same, files: checked.iter().map(FileRow::from).collect() })
 }
 

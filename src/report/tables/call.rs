@@ -14,7 +14,7 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
     let number = |edge: Option<EdgeId>| edge.map_or(0, |edge| model.edge(edge).number);
     let in_figure = |node: NodeId| in_figure(scene, model, node);
     let is_figure = scene.name == "fig1";
-    let mut found = Table::of(call.statuses.iter().enumerate())
+    let mut found = Table::from_rows(call.statuses.iter().enumerate())
         .column("i1", |(k, _)| k + 1)
         .column("cnt", |(_, status)| status.node)
         .column("ct", |(_, status)| number(status.edge))
@@ -23,7 +23,7 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
     let linked: Vec<NodeId> =
         model.node_ids().filter(|n| call.row(*n).iter().any(|x| *x != 0.0)).collect();
     let count = linked.len();
-    let mut rows = Table::of(linked)
+    let mut rows = Table::from_rows(linked)
         .column("node", |node| *node)
         .column("tied to", |node| Cell::decimals(call.row(*node)[0], 0))
         .column("weight", |node| call.row(*node)[1])

@@ -4,7 +4,7 @@ use crate::model::{Cell, Report, Table};
 use crate::numbers::{percent, quantity, reason, short};
 use crate::pressure;
 use engine::error::Error;
-use engine::{Assessment, Measured, Solution};
+use engine::{Assessment, Solution, SolutionDistance};
 
 /// Reports the distance of a run from the reference solution and from the equilibrium under the
 /// scene's own friction, or why there is none.
@@ -19,7 +19,11 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> Report {
     })
 }
 
-fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error>) -> Report {
+fn distance_from(
+    solution: &Solution,
+    what: &str,
+    other: &Result<SolutionDistance, Error>,
+) -> Report {
     let measured = match other {
         Err(why) => return Report::default().heading(format!("No {what} to compare with: {why}")),
         Ok(measured) => measured,
@@ -32,7 +36,7 @@ fn distance_from(solution: &Solution, what: &str, other: &Result<Measured, Error
         reference.request.contact.geometry,
         reference.in_contact().count()
     );
-    let table = Table::of(&distance.bodies)
+    let table = Table::from_rows(&distance.bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("largest von Mises stress", &units.stress), |body| body.von_mises_stress)
         .column("there", |body| body.reference)

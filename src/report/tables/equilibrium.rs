@@ -3,7 +3,7 @@
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{short, with_unit};
-use engine::{Equilibrium, Other, Solution, Uniqueness};
+use engine::{Equilibrium, OtherEquilibrium, Solution, Uniqueness};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
 
@@ -62,7 +62,7 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
         Uniqueness::Tried { others, .. } => &others[..],
         Uniqueness::Unique | Uniqueness::Indifferent { .. } | Uniqueness::Unknown { .. } => &[],
     };
-    let other = |other: &Other| {
+    let other = |other: &OtherEquilibrium| {
         let nodes = |nodes: &[NodeId]| match nodes {
             [] => "none".into(),
             nodes => format!("nodes {}", listed(nodes)),

@@ -42,7 +42,7 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> 
     let count = |row: &usize, is_counted: fn(&Status) -> bool| {
         own(row).statuses.iter().filter(|status| is_counted(status)).count()
     };
-    let table = Table::of(0..last.len())
+    let table = Table::from_rows(0..last.len())
         .column("load", |row| own(row).load)
         .column("iterations", |row| last[*row] + 1 - first(row))
         .column("stick", |row| count(row, |status| *status == Status::Stick))

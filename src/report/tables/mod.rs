@@ -140,7 +140,7 @@ pub fn probes(solution: &Solution, assessment: &Assessment) -> Report {
 fn probe(units: &Units, probe: &Probe) -> Report {
     let [x, y] = probe.at;
     let title = format!("At {x}, {y}: body {}, triangle {}", probe.body, probe.triangle);
-    let table = Table::of(&probe.quantities)
+    let table = Table::from_rows(&probe.quantities)
         .column("quantity", |q| quantity(&q.name, q.unit.in_scene(units)))
         .column("value", |q| q.value)
         .column("recovered", |q| q.recovered)

@@ -58,7 +58,7 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
 /// Width and height of a set of nodes, length.
 fn across(model: &Model, nodes: &[NodeId]) -> [f64; 2] {
     [0, 1].map(|axis| {
-        let places = nodes.iter().map(|node| model.at(*node)[axis]);
+        let places = nodes.iter().map(|node| model.coordinates(*node)[axis]);
         places.clone().fold(f64::MIN, f64::max) - places.fold(f64::MAX, f64::min)
     })
 }

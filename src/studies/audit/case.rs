@@ -31,7 +31,7 @@ pub struct Case {
 impl Case {
     /// The case of a scene under the default reading, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
-        Case::of(Request::new(&scene))
+        Case::from_request(Request::new(&scene))
     }
 
     /// The same, where the `Km` that an audit builds fits in memory once for each of two cores.
@@ -44,7 +44,7 @@ impl Case {
     }
 
     /// The case of a request's scene, its variant aside.
-    pub fn of(base: Request) -> Self {
+    pub fn from_request(base: Request) -> Self {
         Case {
             scene: base.scene.clone(),
             base,
@@ -70,14 +70,14 @@ impl Case {
     /// The run of a variant, or why there is none.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
         let run = || self.session.solve(&self.request(variant), &mut |_| ());
-        self.runs[place(variant)].get_or_init(run).as_ref()
+        self.runs[variant_index(variant)].get_or_init(run).as_ref()
     }
 
     /// The run of a variant, in double-doubles where rounding decides nothing but in those
     /// ([`certain`]); or why there is none.
     pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
         let run = self.run(variant)?;
-        Ok(self.certain[place(variant)].get_or_init(|| certain(run.clone(), &self.session)))
+        Ok(self.certain[variant_index(variant)].get_or_init(|| certain(run.clone(), &self.session)))
     }
 
     /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
@@ -152,6 +152,6 @@ impl Case {
 }
 
 /// Returns where the run of a variant stands.
-fn place(variant: Variant) -> usize {
+fn variant_index(variant: Variant) -> usize {
     Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant")
 }

@@ -17,10 +17,10 @@ use serde::Serialize;
 pub use assumptions::{Assumption, assumptions};
 pub use case::Case;
 
-use claims::{CLAIMS, Judged};
+use claims::{CLAIMS, JudgedClaim};
 use engine::contact::ContactNode;
 use engine::{BodySummary, Request, Solution, solve, summaries};
-use findings::{FINDINGS, Finding, Measured};
+use findings::{Evidence, FINDINGS, Finding};
 use problem::modelling::{ContactModel, Friction};
 use range::Range;
 use readings::Effect;
@@ -28,13 +28,13 @@ use variants::VariantRow;
 
 pub struct Audit {
     /// What the paper says, each with its verdict, in the order of its text.
-    pub claims: Vec<Judged>,
+    pub claims: Vec<JudgedClaim>,
     /// What the paper leaves open, and what the scene has in its place.
     pub assumptions: Vec<Assumption>,
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
     /// What the scene shows of each finding, in the order of the register.
-    pub findings: Vec<(&'static Finding, Measured)>,
+    pub findings: Vec<(&'static Finding, Evidence)>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
     /// The equilibrium under the scene's own friction, which the variants are measured against;
@@ -43,7 +43,7 @@ pub struct Audit {
     /// The reference solution; nothing without contact, and where it does not run.
     pub reference: Option<Compared>,
     /// The contact under other coefficients of friction.
-    pub friction: Vec<Rubbing>,
+    pub friction: Vec<FrictionContact>,
 }
 
 /// The coefficients of friction under which contact is shown: none, dry concrete on steel by and
@@ -52,7 +52,7 @@ pub const FRICTION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, f64::INFINITY];
 
 /// The contact under a coefficient of friction.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Rubbing {
+pub struct FrictionContact {
     /// The coefficient.
     pub friction: Friction,
     /// The contact nodes in contact; or why there is no equilibrium.
@@ -121,14 +121,14 @@ fn compared(solution: &Solution) -> Compared {
 }
 
 /// Returns the contact under each coefficient.
-fn friction(case: &Case) -> Vec<Rubbing> {
+fn friction(case: &Case) -> Vec<FrictionContact> {
     let rubbing = |mu: &f64| {
         let friction = Friction::new(*mu).expect("the coefficients are not negative");
         let request = Request::new(&case.scene).equilibrium();
         let contact = ContactModel { friction, ..request.contact };
         let solution = solve(&request.contact(contact), &mut |_| ());
         let nodes = solution.map(|solution| solution.in_contact().cloned().collect());
-        Rubbing { friction, nodes: nodes.map_err(|why| why.to_string()) }
+        FrictionContact { friction, nodes: nodes.map_err(|why| why.to_string()) }
     };
     FRICTION.par_iter().map(rubbing).collect()
 }

@@ -53,7 +53,7 @@ impl Parameter {
     }
 
     /// The paper's example with the parameter at `value`, and how its c_tol is read.
-    fn at(self, value: f64) -> (Strand, ToleranceUnit) {
+    fn strand(self, value: f64) -> (Strand, ToleranceUnit) {
         let own = Strand::default();
         let clearance = own.duct - own.strand;
         let (mut strand, mut unit) = (own, ToleranceUnit::Millimetre);
@@ -78,7 +78,7 @@ fn decimal(length: f64) -> f64 {
 
 /// A parameter at one of its values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Place {
+pub struct ParameterValue {
     pub parameter: Parameter,
     pub value: f64,
     /// Whether it is the paper's example as we assume it.
@@ -86,7 +86,7 @@ pub struct Place {
 }
 
 /// The places that are tried, each with its scene.
-pub type Range = Vec<(Place, Arc<Case>)>;
+pub type Range = Vec<(ParameterValue, Arc<Case>)>;
 
 /// The places of the range, each with its scene under `reading` but for R8; the runs of the one
 /// that is in the range of every parameter are made once.
@@ -95,16 +95,16 @@ pub fn range(reading: Reading) -> Result<Range> {
     let case = |(strand, r8): &(Strand, ToleranceUnit)| {
         let scene = strand.generate().and_then(|scene| scene.build())?;
         let reading = Reading { r8: *r8, ..reading };
-        Ok(Arc::new(Case::of(Request::new(&scene).reading(reading))))
+        Ok(Arc::new(Case::from_request(Request::new(&scene).reading(reading))))
     };
     let own = (Strand::default(), ToleranceUnit::default());
     let own_case = case(&own)?;
     let places = Parameter::ALL.iter().flat_map(|p| p.values().iter().map(|value| (*p, *value)));
     let placed = places.map(|(parameter, value)| {
-        let at = parameter.at(value);
+        let at = parameter.strand(value);
         let is_own = at == own;
         let case = if is_own { own_case.clone() } else { case(&at)? };
-        Ok((Place { parameter, value, own: is_own }, case))
+        Ok((ParameterValue { parameter, value, own: is_own }, case))
     });
     placed.collect()
 }

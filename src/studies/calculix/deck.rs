@@ -47,7 +47,7 @@ fn heading(problem: &Problem) -> String {
 fn nodes(model: &Model) -> String {
     let mut text = String::from("*NODE, NSET=NODES\n");
     for node in model.node_ids() {
-        let [x, y] = model.at(node).map(field);
+        let [x, y] = model.coordinates(node).map(field);
         text += &format!("{node},{x},{y}\n");
     }
     text
@@ -102,7 +102,8 @@ fn equation_cards(model: &Model, equations: &[Equation]) -> String {
         }
         text += &format!("*EQUATION\n{}\n", terms.len());
         for some in terms.chunks(TERMS_ON_A_LINE) {
-            let some = some.iter().map(|(dof, x)| format!("{},{}", place(*dof), field(*x)));
+            let some =
+                some.iter().map(|(dof, x)| format!("{},{}", node_and_direction(*dof), field(*x)));
             text += &(some.collect::<Vec<_>>().join(",") + "\n");
         }
     }
@@ -110,7 +111,7 @@ fn equation_cards(model: &Model, equations: &[Equation]) -> String {
 }
 
 /// The node and the direction by which ccx knows a degree of freedom: 1 for x, 2 for y.
-fn place(dof: Dof) -> String {
+fn node_and_direction(dof: Dof) -> String {
     format!("{},{}", dof.node(), dof.direction() + 1)
 }
 
@@ -154,7 +155,7 @@ fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> R
 fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
     for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        text += &format!("{},{}\n", place(dof), dof.direction() + 1);
+        text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
     }
     text
 }
@@ -174,7 +175,7 @@ fn step(problem: &Problem) -> String {
     };
     for (dof, force) in model.all_dofs().zip(load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {
-            text += &format!("*CLOAD\n{},{}\n", place(dof), field(*force));
+            text += &format!("*CLOAD\n{},{}\n", node_and_direction(dof), field(*force));
         }
     }
     text += "*NODE PRINT, NSET=NODES\nU\n";

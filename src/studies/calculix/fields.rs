@@ -20,7 +20,7 @@ impl Fields {
     }
 
     /// The displacements and stresses of a solution by this program.
-    pub fn of(solution: &Solution) -> Self {
+    pub fn from_solution(solution: &Solution) -> Self {
         let model = &solution.model;
         let stress = |(state, triangle): (&State, &Triangle)| {
             let [x, y, xy] = state.sigma.into();

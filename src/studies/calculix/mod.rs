@@ -40,4 +40,4 @@ pub use deck::deck;
 pub use fields::Fields;
 pub use problem::{Contact, ContactKind, Equation, Pair, Part, Problem};
 pub use results::parse;
-pub use run::{Ran, check, run};
+pub use run::{CalculixRun, check, run};

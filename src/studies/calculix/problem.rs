@@ -115,7 +115,7 @@ impl Pair {
 /// Mean length of the target's edges; 1 where there is none.
 fn mean_edge(model: &Model) -> f64 {
     let length = |edge: &Edge| {
-        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.at(node));
+        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.coordinates(node));
         (bx - ax).hypot(by - ay)
     };
     match model.contact.target.len() {

@@ -23,7 +23,7 @@ const PRINTED: u64 = 1 << 24;
 const RESULTS: u64 = 1 << 31;
 
 /// What a run of `ccx` computed.
-pub struct Ran {
+pub struct CalculixRun {
     /// The version that `ccx` reports.
     pub version: String,
     pub fields: Fields,
@@ -34,7 +34,7 @@ pub struct Ran {
 /// # Errors
 /// There is no such program, or it fails, with the last lines of its output; its results
 /// cannot be read; a pair's surfaces bound no triangle.
-pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<Ran> {
+pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<CalculixRun> {
     let version = version(program)?;
     let (nodes, triangles) = (model.nodes.len(), model.triangles.len());
     let mut fields = Fields::zero(nodes, triangles);
@@ -42,7 +42,7 @@ pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Resul
         let printed = print(program, &deck(&Problem { scene, model, contact })?)?;
         fields.add(*share, &parse(&printed, nodes, triangles)?);
     }
-    Ok(Ran { version, fields })
+    Ok(CalculixRun { version, fields })
 }
 
 /// Checks that `program` can be started.

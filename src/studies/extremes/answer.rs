@@ -108,7 +108,7 @@ struct Known {
 
 impl Exacts {
     /// Runs `variant` on `scene` in exact numbers; else returns how that is refused.
-    pub fn of(&self, scene: &SceneBuilder, variant: Variant) -> Result<Arc<Answer>, Verdict> {
+    pub fn answer(&self, scene: &SceneBuilder, variant: Variant) -> Result<Arc<Answer>, Verdict> {
         let is_known = |known: &&Known| known.variant == variant && known.scene == *scene;
         if let Some(known) = self.known().iter().find(is_known) {
             return known.answer.clone();
@@ -129,7 +129,7 @@ impl Exacts {
         quantity: Quantity,
     ) -> Verdict {
         let unilateral = variant == Variant::Unilateral;
-        match self.of(scene, if unilateral { Variant::Tied } else { variant }) {
+        match self.answer(scene, if unilateral { Variant::Tied } else { variant }) {
             Ok(exact) if unilateral && answer.in_contact != exact.in_contact => Verdict::Unknown,
             Ok(exact) => answer.against(&exact, quantity),
             Err(_) => Verdict::Wrong("exact refuses"),

@@ -65,11 +65,11 @@ fn lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
     let solution = engine::solve(&request, &mut |_| ())?;
     let model = &solution.model;
     let far = |node: &NodeId| {
-        let at = model.at(*node);
+        let at = model.coordinates(*node);
         at.iter().map(|x| (x - 10.0 * FRAC_1_SQRT_2).abs()).fold(0.0, f64::max)
     };
     let nearest = model.node_ids().min_by(|a, b| far(a).total_cmp(&far(b)));
-    let [x, y] = nearest.expect("a mesh has nodes").of(&solution.u);
+    let [x, y] = nearest.expect("a mesh has nodes").components(&solution.u);
     let u = x.hypot(y);
     // (1 + nu) p a² / (E (b² − a²)) · ((1 − 2 nu) a + b²/a): a = 10, b = 20, p = 10, E = 30000.
     let exact = (1.0 + nu) * 1000.0 / (30000.0 * 300.0) * ((1.0 - 2.0 * nu) * 10.0 + 40.0);

@@ -105,7 +105,7 @@ fn remedied(
         let unit = change(&mut changed);
         let tied = |scalar| solve(&changed, Variant::Tied, scalar, None);
         let answer = tied(scalar)?.times(unit);
-        let exact = match exacts.of(&scene, Variant::Tied) {
+        let exact = match exacts.answer(&scene, Variant::Tied) {
             Ok(exact) => exact,
             // The scene itself is refused where its areas leave the range of f64; the changed one
             // has the same exact answer.

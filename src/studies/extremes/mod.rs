@@ -23,7 +23,7 @@ mod verdict;
 
 use rayon::prelude::*;
 
-pub use sweep::{Break, Column, Generator, LEAST, Measured};
+pub use sweep::{Break, Column, Generator, LEAST, SweepTable};
 pub use verdict::Verdict;
 
 /// Every generator, in the order of the tables.
@@ -47,6 +47,6 @@ pub fn generators() -> Vec<Generator> {
 }
 
 /// Sweeps each of `generators`, side by side.
-pub fn measure(generators: &[Generator]) -> Vec<Measured> {
+pub fn measure(generators: &[Generator]) -> Vec<SweepTable> {
     generators.par_iter().map(Generator::measure).collect()
 }

@@ -27,7 +27,7 @@ pub fn offset() -> Generator {
             let judge = |moved: Arc<Answer>| {
                 exacts.judge(&moved, &scene(0.0), Variant::Tied, Answer::displacement)
             };
-            Ok(exacts.of(&scene(origin), Variant::Tied).map_or_else(|refused| refused, judge))
+            Ok(exacts.answer(&scene(origin), Variant::Tied).map_or_else(|refused| refused, judge))
         }),
     ];
     Generator::new(

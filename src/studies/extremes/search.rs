@@ -50,7 +50,7 @@ impl Search {
                 u[dof.index()] = T::from_f64(moved);
             }
         }
-        let pairs = c_cnt(&sheet, &reading, &door::moved(&sheet, &u))?;
+        let pairs = c_cnt(&sheet, &reading, &door::displaced_nodes(&sheet, &u))?;
         Ok(Difference { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
     }
 
@@ -97,7 +97,7 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
 }
 
 #[derive(Clone, Copy)]
-pub enum Of {
+pub enum Quantity {
     Gap,
     /// The weight, where the status is right.
     Weight,
@@ -108,7 +108,7 @@ pub enum Of {
 pub type SearchOf = fn(f64) -> Search;
 
 /// A search by the printed formulas in f32, f64 and f64x2.
-pub fn printed(name: &str, of: Of, search: SearchOf) -> Vec<Method> {
+pub fn printed(name: &str, of: Quantity, search: SearchOf) -> Vec<Method> {
     vec![
         method::<f32>(name, ScalarName::F32, of, search, None),
         method::<f64>(name, ScalarName::F64, of, search, None),
@@ -117,7 +117,7 @@ pub fn printed(name: &str, of: Of, search: SearchOf) -> Vec<Method> {
 }
 
 /// The same by the remedy, projection on the edge about an origin, in f32 and f64.
-pub fn projected(name: &str, of: Of, search: SearchOf, origin: Origin) -> Vec<Method> {
+pub fn projected(name: &str, of: Quantity, search: SearchOf, origin: Origin) -> Vec<Method> {
     vec![
         method::<f32>(name, ScalarName::F32, of, search, Some(origin)),
         method::<f64>(name, ScalarName::F64, of, search, Some(origin)),
@@ -131,7 +131,7 @@ type Origin = fn(&Search) -> [f64; 2];
 fn method<T: Scalar>(
     name: &str,
     scalar: ScalarName,
-    of: Of,
+    of: Quantity,
     search: SearchOf,
     origin: Option<Origin>,
 ) -> Method {
@@ -150,15 +150,15 @@ fn method<T: Scalar>(
 }
 
 impl<T: Scalar> Difference<T> {
-    fn against(&self, exact: &Difference<Exact>, of: Of) -> Verdict {
+    fn against(&self, exact: &Difference<Exact>, of: Quantity) -> Verdict {
         let error = |x: T, y: Exact| match (x.to_rational(), y.to_rational()) {
             (Some(x), Some(y)) => Verdict::of_error((x - y).to_f64().value().abs()),
             _ => Verdict::of_error(f64::NAN),
         };
         match of {
-            Of::Gap => error(self.gap, exact.gap),
-            Of::Weight if self.dy == exact.dy => error(self.weight, exact.weight),
-            Of::Weight | Of::Status => Verdict::of_status(self.dy == exact.dy),
+            Quantity::Gap => error(self.gap, exact.gap),
+            Quantity::Weight if self.dy == exact.dy => error(self.weight, exact.weight),
+            Quantity::Weight | Quantity::Status => Verdict::of_status(self.dy == exact.dy),
         }
     }
 }

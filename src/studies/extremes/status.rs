@@ -4,7 +4,7 @@
 use super::answer::solve;
 use super::blocks::{Blocks, BlocksOf};
 use super::methods::{DOUBLE, in_each_scalar, in_scalar};
-use super::search::{Of, Search, SearchOf, printed, projected};
+use super::search::{Quantity, Search, SearchOf, printed, projected};
 use super::sweep::{Generator, Method, Sweep};
 use numbers::solve::ScalarName;
 use problem::modelling::Variant;
@@ -25,7 +25,7 @@ fn steep(angle: f64) -> Search {
 }
 
 /// A node nearer to the edge than the paper's c_tol.
-fn near(angle: f64) -> Search {
+fn near_edge(angle: f64) -> Search {
     at_angle(angle, 7e-4)
 }
 
@@ -38,11 +38,11 @@ pub fn steep_edge() -> Generator {
         "angle from the vertical, rad",
         Sweep::Decades { from: -18, to: 0, step: 1 },
         [
-            printed("yt", Of::Gap, steep),
-            printed("yt 7e-4 off the edge", Of::Gap, near),
-            projected("normal gap 7e-4 off", Of::Gap, near, |_| [0.0, 0.0]),
-            printed("weight", Of::Weight, steep),
-            projected("projected weight", Of::Weight, steep, |_| [0.0, 0.0]),
+            printed("yt", Quantity::Gap, steep),
+            printed("yt 7e-4 off the edge", Quantity::Gap, near_edge),
+            projected("normal gap 7e-4 off", Quantity::Gap, near_edge, |_| [0.0, 0.0]),
+            printed("weight", Quantity::Weight, steep),
+            projected("projected weight", Quantity::Weight, steep, |_| [0.0, 0.0]),
         ],
     )
 }
@@ -50,7 +50,7 @@ pub fn steep_edge() -> Generator {
 /// The gap of a node over a sloping edge far from the origin.
 pub fn offset_gap() -> Generator {
     let search: SearchOf = |origin| {
-        let home = near(1.0);
+        let home = near_edge(1.0);
         let moved = |p: [f64; 2]| p.map(|x| x + origin);
         Search { a: moved(home.a), b: moved(home.b), n: moved(home.n), ..home }
     };
@@ -60,9 +60,9 @@ pub fn offset_gap() -> Generator {
         "distance from the origin / edge length",
         Sweep::Decades { from: 0, to: 16, step: 1 },
         [
-            printed("yt", Of::Gap, search),
-            projected("normal gap, origin shifted", Of::Gap, search, |search| search.a),
-            printed("weight", Of::Weight, search),
+            printed("yt", Quantity::Gap, search),
+            projected("normal gap, origin shifted", Quantity::Gap, search, |search| search.a),
+            printed("weight", Quantity::Weight, search),
         ],
     )
 }
@@ -94,7 +94,7 @@ pub fn gap_at_tolerance() -> Generator {
         "A gap within a unit in the last place of c_tll: is the node in contact",
         "case",
         Sweep::Cases(ULPS),
-        [printed("status", Of::Status, at_tolerance)],
+        [printed("status", Quantity::Status, at_tolerance)],
     )
 }
 

@@ -63,13 +63,13 @@ impl Method {
         Method { least, ..self }
     }
 
-    fn at(&self, magnitude: f64, exacts: &Exacts) -> Verdict {
+    fn verdict(&self, magnitude: f64, exacts: &Exacts) -> Verdict {
         (self.measure)(magnitude, exacts).unwrap_or_else(Verdict::from).at_most(self.carried)
     }
 }
 
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Measured {
+pub struct SweepTable {
     pub name: &'static str,
     pub title: &'static str,
     /// What was swept, with its unit.
@@ -113,7 +113,7 @@ impl Generator {
         Generator { name, title, magnitude, sweep, methods }
     }
 
-    pub fn measure(&self) -> Measured {
+    pub fn measure(&self) -> SweepTable {
         let Generator { name, title, magnitude, ref sweep, ref methods } = *self;
         let points = sweep.points();
         let logarithmic = matches!(sweep, Sweep::Decades { .. });
@@ -122,13 +122,13 @@ impl Generator {
         // One method after the other at each point, as they share its exact answer.
         let at = |p: &i32| {
             let magnitude = sweep.magnitude(f64::from(*p));
-            methods.iter().map(|method| method.at(magnitude, &exacts)).collect()
+            methods.iter().map(|method| method.verdict(magnitude, &exacts)).collect()
         };
         let verdicts: Vec<Vec<Verdict>> = points.par_iter().map(at).collect();
         let column = |(k, method): (usize, &Method)| {
             sweep.column(method, verdicts.iter().map(|row| row[k].clone()).collect(), &exacts)
         };
-        Measured {
+        SweepTable {
             name,
             title,
             magnitude,
@@ -169,7 +169,7 @@ impl Sweep {
     /// Finds where a method breaks down that was judged at each point.
     fn column(&self, method: &Method, verdicts: Vec<Verdict>, exacts: &Exacts) -> Column {
         let points = self.points();
-        let at = |point: f64| method.at(self.magnitude(point), exacts);
+        let at = |point: f64| method.verdict(self.magnitude(point), exacts);
         let (below, above) = match self {
             Sweep::Cases(_) => (None, None),
             Sweep::Decades { .. } => {

@@ -49,7 +49,7 @@ pub struct Program {
 pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
     let model = switch.model(scene)?;
     check(&model, nodes)?;
-    let kept = Kept::of(&model, nodes);
+    let kept = Kept::from_nodes(&model, nodes);
     let worksheet = switch.settings();
     let executed =
         |which, call: &Call| kept.program(which, switch.listing(which), &worksheet, call);
@@ -91,7 +91,7 @@ struct Kept {
 }
 
 impl Kept {
-    fn of(model: &Model, nodes: &[usize]) -> Self {
+    fn from_nodes(model: &Model, nodes: &[usize]) -> Self {
         let chosen = |node: &NodeId| nodes.is_empty() || nodes.contains(&node.number());
         let places = model.contact.nodes.iter().zip(1..).filter(|(node, _)| chosen(node));
         let triangles =

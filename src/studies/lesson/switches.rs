@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Listing, Model, Reading, Request, Scene, Settings, Which, settings};
-use crate::audit::findings::{Before, Finding, Repair};
+use crate::audit::findings::{Finding, Preparation, Repair};
 use engine::error::Result;
 use paper::listings;
 use paper::mirror::{Change, READINGS};
@@ -59,13 +59,13 @@ pub fn chapter(finding: &Finding) -> Vec<Switch> {
     let printed = Switch::as_printed();
     let about = |what: &str| format!("{}, {what}", printed.about);
     let before = match finding.before {
-        Before::AsPrinted => printed,
-        Before::Reading(words, reading) => Switch {
+        Preparation::AsPrinted => printed,
+        Preparation::Reading(words, reading) => Switch {
             about: about(words),
             reading: reading.parse().expect("a reading of the register"),
             ..printed
         },
-        Before::Model(words, model) => Switch { about: about(words), model, ..printed },
+        Preparation::Model(words, model) => Switch { about: about(words), model, ..printed },
     };
     match finding.edit {
         Repair::None { .. } => vec![before],

@@ -71,7 +71,7 @@ fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> Bo
 
 /// Returns width and height of a body, length.
 fn size(model: &Model, body: &Body) -> [f64; 2] {
-    Bounds::of(body.nodes.iter().map(|node| &model.nodes[node.index()])).size()
+    Bounds::around(body.nodes.iter().map(|node| &model.nodes[node.index()])).size()
 }
 
 /// Returns the largest nominal strain of the bodies: of each the loads on it, without their signs, over

@@ -38,20 +38,20 @@ impl Candidates {
     pub fn find(model: &Model) -> Option<Self> {
         let tolerance = model.contact.tolerance;
         let points: Vec<[f64; 2]> =
-            model.contact.nodes.iter().map(|node| model.at(*node)).collect();
+            model.contact.nodes.iter().map(|node| model.coordinates(*node)).collect();
         if points.is_empty() {
             return None;
         }
         // Each edge looks only at the nodes beside it along the longer side of the surface.
-        let [width, height] = Bounds::of(&points).size();
+        let [width, height] = Bounds::around(&points).size();
         let axis = usize::from(height > width);
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
         let mut found: Vec<(usize, bool)> = vec![(0, false); points.len()];
         for edge in model.target_edges() {
-            let [a, b] = edge.nodes.map(|node| model.at(node));
+            let [a, b] = edge.nodes.map(|node| model.coordinates(node));
             let grown = tolerance + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
-            let near = Bounds::of(&[a, b]).padded(grown);
+            let near = Bounds::around(&[a, b]).padded(grown);
             let segment = Segment::new([a, b]);
             let from = order.partition_point(|k| points[*k][axis] < near.low[axis]);
             let beside = order[from..].iter().take_while(|k| points[**k][axis] <= near.high[axis]);

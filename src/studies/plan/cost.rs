@@ -55,7 +55,7 @@ impl Work<'_> {
     /// contact and the run is not itself that.
     pub fn cost(&self) -> Cost {
         let (states, reference_states) = (self.states(), self.reference_states());
-        let mut bytes = Bytes::of(self.request, self.model);
+        let mut bytes = Bytes::estimate(self.request, self.model);
         bytes.matrices += self.dense_bytes();
         Cost {
             dense_matrices: self.dense * self.number_bytes().div_ceil(size_of::<f64>()),

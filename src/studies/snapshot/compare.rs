@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::Run;
-use super::expected::There;
+use super::expected::EntryNumbers;
 use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
 
@@ -104,7 +104,7 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
     for expected in &old.expected {
         compared += 1;
         let entry = &expected.entry[..];
-        let there = there.entry(entry).or_insert_with(|| There::of(new, entry));
+        let there = there.entry(entry).or_insert_with(|| EntryNumbers::new(new, entry));
         if let Some(missed) = expected.missed(there) {
             let kind = Kind::Expected {
                 was: expected.value,

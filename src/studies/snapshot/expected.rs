@@ -83,7 +83,7 @@ impl Expected {
     }
 
     /// Returns how the numbers of its entry miss it; None where they do not.
-    pub fn missed(&self, there: &There) -> Option<Missed> {
+    pub fn missed(&self, there: &EntryNumbers) -> Option<Missed> {
         let found = there.numbers.get(&(self.row as u64, self.component)).copied();
         let limit = self.tolerance.limit(self.value, there.largest, there.floor);
         let is_near = found.is_some_and(|x| (x - self.value).abs() <= limit);
@@ -93,17 +93,21 @@ impl Expected {
 
 /// The numbers of an entry by row and component, both from 1; none where the run has no such entry.
 #[derive(Default)]
-pub struct There {
+pub struct EntryNumbers {
     numbers: HashMap<(u64, usize), f64>,
     largest: f64,
     floor: f64,
 }
 
-impl There {
-    pub fn of(run: &Run, entry: &str) -> Self {
-        let Some(numbers) = run.numbers.get(entry) else { return There::default() };
+impl EntryNumbers {
+    pub fn new(run: &Run, entry: &str) -> Self {
+        let Some(numbers) = run.numbers.get(entry) else { return EntryNumbers::default() };
         let places = numbers.places().into_iter();
         let by_place = places.map(|((row, component), x)| ((row as u64, component + 1), x));
-        There { numbers: by_place.collect(), largest: numbers.largest(), floor: numbers.floor }
+        EntryNumbers {
+            numbers: by_place.collect(),
+            largest: numbers.largest(),
+            floor: numbers.floor,
+        }
     }
 }

@@ -26,7 +26,7 @@ impl Input {
     ///
     /// # Errors
     /// The scene is half of one, which no file describes.
-    pub fn of(scene: &Scene) -> Result<Self> {
+    pub fn from_scene(scene: &Scene) -> Result<Self> {
         let (description, mesh) = scene.source().ok_or_else(|| {
             InputError::new("the scene", "half a scene has no file", "write it to a file first")
         })?;

@@ -178,7 +178,7 @@ impl Snapshot {
         let mut names = HashSet::new();
         for request in requests {
             check(request)?;
-            let name = Options::of(request).name();
+            let name = Options::from_request(request).name();
             if !names.insert(name.clone()) {
                 let what = format!("{name} is asked for twice");
                 return Err(InputError::new("--variant", what, "name it once").into());
@@ -188,7 +188,7 @@ impl Snapshot {
             requests.par_iter().map(|request| record(request, bounds)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         let (version, units) = (VERSION.into(), scene.units.clone());
-        let input = Input::of(scene)?;
+        let input = Input::from_scene(scene)?;
         Ok(Snapshot { format: FORMAT, version, units, input, runs, log: Vec::new() })
     }
 

@@ -70,7 +70,7 @@ mod as_text {
 impl Options {
     /// Returns the options of a request: its variant, and all else that differs from what its scene
     /// and the program do by themselves.
-    pub fn of(request: &Request) -> Self {
+    pub fn from_request(request: &Request) -> Self {
         let own = Request::new(&request.scene);
         let (contact, arithmetic, plain) =
             (request.contact, request.arithmetic, Arithmetic::default());

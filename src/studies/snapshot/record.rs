@@ -40,7 +40,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let mut steps: Vec<Step> = Vec::new();
     let session = Session::default();
     let solved = session.solve(request, &mut |step| steps.push(step.clone()));
-    let mut run = Run::new(Options::of(request));
+    let mut run = Run::new(Options::from_request(request));
     let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
@@ -139,13 +139,14 @@ impl Scale {
     fn new(model: &Model, displacement: f64) -> Self {
         let coordinate = model.nodes.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let length = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let lengths = model.target_edges().map(|edge| length(edge.nodes.map(|n| model.at(n))));
+        let lengths =
+            model.target_edges().map(|edge| length(edge.nodes.map(|n| model.coordinates(n))));
         Scale { coordinate, displacement, edge: lengths.fold(f64::INFINITY, f64::min) }
     }
 
     /// Returns the least error of a displacement, length; without a bound it is what numbers that have
     /// none may differ by.
-    fn moved(&self, is_bounded: bool) -> f64 {
+    fn displacement_error(&self, is_bounded: bool) -> f64 {
         self.displacement * if is_bounded { ROUNDED } else { WITHOUT_BOUND }
     }
 
@@ -169,7 +170,7 @@ impl Recorded<'_> {
     fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
         let units = &self.request.scene.units;
         let name = |quantity: &str| of_iteration(step.k, quantity);
-        let moved = self.scale.moved(bounds.is_some());
+        let moved = self.scale.displacement_error(bounds.is_some());
         let distance = self.scale.distance(moved);
         let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
         let weights = distance / self.scale.edge + ROUNDED;
@@ -308,7 +309,7 @@ fn end(
     let (model, units) = (&*solution.model, &solution.request.scene.units);
     let bound = rounding.and_then(|rounding| rounding.displacement);
     let scale = Scale::new(model, solution.u.amax());
-    let moved = scale.moved(bound.is_some());
+    let moved = scale.displacement_error(bound.is_some());
     let errors = match bounds {
         Bounds::LeftOut => None,
         Bounds::Computed => {
@@ -335,7 +336,7 @@ fn end(
     let force = stiffness.times(&solution.u) - &model.load;
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
     let reactions = restrained.map(|node| {
-        let (of_node, restrained) = (node.of(&force), model.restraints_of(node));
+        let (of_node, restrained) = (node.components(&force), model.restraints_of(node));
         (node.number(), [0, 1].map(|d| if restrained[d] { of_node[d] } else { 0.0 }))
     });
     set("reactions", Numbers::rows(&units.force, reactions, error(|errors| errors.force)));

@@ -93,7 +93,7 @@ pub fn verify(
     let own = snapshot.input.build().map_err(|error| error.within("the snapshot"));
     let (scene, input) = match scene {
         None => (own?, snapshot.input.clone()),
-        Some(scene) => (scene.clone(), Input::of(scene)?),
+        Some(scene) => (scene.clone(), Input::from_scene(scene)?),
     };
     let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
     let verified = runs.par_iter().map(|(name, old)| {

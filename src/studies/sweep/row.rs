@@ -16,7 +16,7 @@ pub fn row(document: Result<Document>) -> Row {
     let request = document.and_then(|document| document.request()).map_err(Error::Input);
     let solved = request.and_then(|request: Request| solve(&request, &mut |_| ()));
     match solved {
-        Ok(solution) => of(&solution),
+        Ok(solution) => solution_row(&solution),
         Err(why) => failed(i64::from(why.exit_status()), &why.to_string()),
     }
 }
@@ -72,7 +72,7 @@ fn failed(status: i64, why: &str) -> Row {
     row
 }
 
-fn of(solution: &Solution) -> Row {
+fn solution_row(solution: &Solution) -> Row {
     let mut row = Row::new();
     let last = solution.last();
     let several = solution.equilibrium.as_ref().is_some_and(|e| e.uniqueness.is_refuted());

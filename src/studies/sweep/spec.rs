@@ -87,7 +87,7 @@ pub struct Steps {
 
 impl Values {
     /// Returns the values that stand in a file; None where these are none. A list is not copied.
-    fn of(values: Value) -> Option<Self> {
+    fn from_json(values: Value) -> Option<Self> {
         match values {
             Value::Array(list) => Some(Values::List(list)),
             steps => serde_json::from_value(steps).ok().map(Values::Steps),
@@ -157,10 +157,10 @@ impl Sweep {
         let list = if self.list.is_empty() { vec![Map::new()] } else { self.list };
         let mut grid: Vec<(String, Values)> = Vec::new();
         for (pointer, values) in self.grid {
-            let values = Values::of(values).ok_or_else(|| {
+            let values = Values::from_json(values).ok_or_else(|| {
                 let what = "the values are neither a list nor steps";
                 let fix = "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}";
-                InputError::new(place(&pointer), what, fix)
+                InputError::new(grid_field(&pointer), what, fix)
             })?;
             grid.push((pointer, values));
         }
@@ -174,7 +174,7 @@ impl Sweep {
             let fix =
                 "give steps such as {\"from\": 1e-4, \"to\": 1e-2, \"count\": 5, \"log\": true}";
             let values = values.list();
-            let values = values.map_err(|what| InputError::new(place(&pointer), what, fix))?;
+            let values = values.map_err(|what| InputError::new(grid_field(&pointer), what, fix))?;
             Ok((pointer, values))
         };
         let grid = grid.into_iter().map(listed).collect::<Result<_>>()?;
@@ -182,7 +182,7 @@ impl Sweep {
     }
 }
 
-fn place(pointer: &str) -> String {
+fn grid_field(pointer: &str) -> String {
     format!("grid {pointer:?}")
 }
 

@@ -19,11 +19,11 @@ use super::trials::{EXACT, by, exact_seconds, sparse};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     pub arithmetic: Arithmetic,
-    pub came: Came,
+    pub outcome: Outcome,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub enum Came {
+pub enum Outcome {
     /// Why it was not run.
     NotRun(String),
     /// Why its run failed.
@@ -33,7 +33,7 @@ pub enum Came {
 }
 
 #[derive(Clone, Debug)]
-pub struct Reached {
+pub struct AccurateSolution {
     pub solution: Solution,
     /// What was tried, the last one with success.
     pub attempts: Vec<Attempt>,
@@ -57,32 +57,36 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
 /// # Errors
 /// An accuracy that is not between 0 and 1, or that no precision meets; those of [`Session::solve`]
 /// in the last precision where none has a result.
-pub fn solve_to(request: &Request, session: &Session, accuracy: f64) -> Result<Reached, Error> {
+pub fn solve_to(
+    request: &Request,
+    session: &Session,
+    accuracy: f64,
+) -> Result<AccurateSolution, Error> {
     check_accuracy(accuracy)?;
     let (mut attempts, mut failure) = (Vec::new(), None);
     for arithmetic in precisions(request) {
-        let came = match not_run(request, arithmetic.scalar, accuracy) {
-            Some(why) => Came::NotRun(why),
+        let outcome = match not_run(request, arithmetic.scalar, accuracy) {
+            Some(why) => Outcome::NotRun(why),
             None => match session.solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
                 Ok(solution) => {
                     let bound = relative_bound(&solution, session);
-                    attempts.push(Attempt { arithmetic, came: Came::Bound(bound) });
+                    attempts.push(Attempt { arithmetic, outcome: Outcome::Bound(bound) });
                     if bound <= accuracy {
                         let mesh = Discretisation::new(&solution.model, &solution.elements);
-                        return Ok(Reached { mesh: mesh.relative(), solution, attempts });
+                        return Ok(AccurateSolution { mesh: mesh.relative(), solution, attempts });
                     }
                     continue;
                 }
                 Err(why) => {
                     let words = why.to_string().lines().next().unwrap_or_default().into();
                     failure = Some(why);
-                    Came::Failed(words)
+                    Outcome::Failed(words)
                 }
             },
         };
-        attempts.push(Attempt { arithmetic, came });
+        attempts.push(Attempt { arithmetic, outcome });
     }
-    let ran = attempts.iter().any(|attempt| matches!(attempt.came, Came::Bound(_)));
+    let ran = attempts.iter().any(|attempt| matches!(attempt.outcome, Outcome::Bound(_)));
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
 }
 
@@ -137,12 +141,12 @@ fn relative_bound(solution: &Solution, session: &Session) -> f64 {
 
 fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
     let tried = attempts.iter().map(|attempt| {
-        let came = match &attempt.came {
-            Came::NotRun(why) | Came::Failed(why) => why.clone(),
-            Came::Bound(bound) if bound.is_finite() => format!("within {bound:.0e}"),
-            Came::Bound(_) => "no bound".into(),
+        let outcome = match &attempt.outcome {
+            Outcome::NotRun(why) | Outcome::Failed(why) => why.clone(),
+            Outcome::Bound(bound) if bound.is_finite() => format!("within {bound:.0e}"),
+            Outcome::Bound(_) => "no bound".into(),
         };
-        format!("{}: {came}", attempt.arithmetic.scalar)
+        format!("{}: {outcome}", attempt.arithmetic.scalar)
     });
     let tried: Vec<String> = tried.collect();
     let what = format!("no precision meets an accuracy of {accuracy:e} ({})", tried.join("; "));

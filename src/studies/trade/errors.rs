@@ -73,7 +73,7 @@ pub(super) fn prolonged(coarse: Solution, meshes: &[Refined], finest: &Solution)
     for mesh in meshes {
         let mut finer: Vec<f64> = u.iter().copied().collect();
         for ends in &mesh.parents {
-            let [a, b] = ends.map(|node| node.of(&u));
+            let [a, b] = ends.map(|node| node.components(&u));
             finer.extend([0, 1].map(|d| (a[d] + b[d]) / 2.0));
         }
         u = DVector::from_vec(finer);
@@ -84,7 +84,7 @@ pub(super) fn prolonged(coarse: Solution, meshes: &[Refined], finest: &Solution)
 
 /// A solution of the whole in the terms of its half, which `of_half` solves.
 fn restricted(whole: &Solution, half: &symmetry::Half, of_half: &Solution) -> Solution {
-    let u = half.nodes.iter().flat_map(|node| node.of(&whole.u));
+    let u = half.nodes.iter().flat_map(|node| node.components(&whole.u));
     let elements = half.triangles.iter().map(|id| whole.elements[id.index()].clone());
     Solution {
         u: DVector::from_iterator(2 * half.nodes.len(), u),

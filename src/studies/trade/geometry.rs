@@ -11,7 +11,7 @@ use super::trials::CARRYING;
 use super::words::{against, by_rounding};
 use crate::audit::Case;
 use crate::audit::claims::{Basis, CLAIMS, Claim, judge};
-use crate::audit::range::{Place, Range, is_example, range};
+use crate::audit::range::{ParameterValue, Range, is_example, range};
 use base::error::Result;
 use engine::Request;
 use problem::modelling::Variant;
@@ -30,7 +30,7 @@ pub fn places(request: &Request) -> Result<Range> {
 pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync)) -> Section {
     let on_runs = |claim: &&Claim| claim.basis == Basis::Runs && !places.is_empty();
     let on_runs: Vec<Claim> = CLAIMS.iter().filter(on_runs).cloned().collect();
-    let of_place = |(place, case): &(Place, Arc<Case>)| {
+    let of_place = |(place, case): &(ParameterValue, Arc<Case>)| {
         case.prepare();
         let rows: Vec<Row> = CARRYING.iter().map(|variant| row(*place, case, *variant)).collect();
         case.release_factors();
@@ -38,7 +38,7 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
         rows
     };
     let rows: Vec<Row> = places.par_iter().flat_map_iter(of_place).collect();
-    let claims = judge(&on_runs, &Case::of(request.clone()), places);
+    let claims = judge(&on_runs, &Case::from_request(request.clone()), places);
     let answers = match rows.is_empty() {
         true => vec![
             "Geometry is a parameter of the embedded scene strand only: of another scene nothing says \
@@ -70,11 +70,11 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
     }
 }
 
-fn label(Place { parameter, value, .. }: Place) -> String {
+fn label(ParameterValue { parameter, value, .. }: ParameterValue) -> String {
     format!("{parameter} {value}")
 }
 
-fn row(place: Place, case: &Arc<Case>, variant: Variant) -> Row {
+fn row(place: ParameterValue, case: &Arc<Case>, variant: Variant) -> Row {
     let run = case.certain(variant);
     let solution = run.as_ref().ok().map(|(solution, _)| solution);
     let last = solution.map(|solution| solution.last());

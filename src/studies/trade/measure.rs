@@ -8,7 +8,7 @@ use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
-use super::trials::{Against, EXACT, Trial, exact_seconds, trials};
+use super::trials::{EXACT, ErrorReference, Trial, exact_seconds, trials};
 use super::{Varied, words};
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
@@ -210,8 +210,8 @@ impl Bench<'_> {
             runs: run.seconds.len(),
             peak_bytes: None,
             error: match trial.against {
-                Against::Trial(best) => self.between(place, self.best_that_ran(place, best)),
-                Against::Reference => {
+                ErrorReference::Trial(best) => self.between(place, self.best_that_ran(place, best)),
+                ErrorReference::Reference => {
                     solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
                 }
             },

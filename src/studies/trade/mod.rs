@@ -20,7 +20,7 @@ mod rows;
 mod trials;
 mod words;
 
-pub use accuracy::{Came, Reached, check_accuracy, solve_to};
+pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};
 pub use errors::Errors;
 pub use geometry::geometry;
 pub use measure::{Options, PATIENCE, measure, pareto, steps};

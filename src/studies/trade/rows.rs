@@ -6,8 +6,8 @@ use serde::Serialize;
 use super::Varied;
 use super::errors::Errors;
 use super::order::Order;
-use crate::audit::claims::Judged;
-use crate::audit::range::Place;
+use crate::audit::claims::JudgedClaim;
+use crate::audit::range::ParameterValue;
 use engine::estimates::Certainty;
 use numbers::solve::Arithmetic;
 use problem::modelling::Variant;
@@ -41,7 +41,7 @@ pub struct Section {
     pub asymmetry: Option<f64>,
     /// The verdicts that rest on runs, over the range; of geometry only.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub claims: Vec<Judged>,
+    pub claims: Vec<JudgedClaim>,
     /// What the rows say, in words.
     pub answers: Vec<String>,
 }
@@ -65,7 +65,7 @@ pub struct Row {
     pub label: String,
     /// The same in numbers; of geometry only.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub place: Option<Place>,
+    pub place: Option<ParameterValue>,
     pub variant: Variant,
     /// In which numbers and by which solver; not in the files, where the label names it.
     #[serde(skip)]

@@ -38,7 +38,7 @@ pub enum Setting {
 
 /// What a trial's error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum ErrorReference {
     Reference,
     Trial(usize),
 }
@@ -50,7 +50,7 @@ pub struct Trial {
     pub variant: Variant,
     pub arithmetic: Arithmetic,
     pub setting: Setting,
-    pub against: Against,
+    pub against: ErrorReference,
     /// Whether this is where the scene has the parameter.
     pub own: bool,
 }
@@ -65,7 +65,7 @@ impl Trial {
             variant,
             arithmetic: sparse(ScalarName::F64),
             setting: Setting::Own,
-            against: Against::Reference,
+            against: ErrorReference::Reference,
             own: false,
         }
     }
@@ -230,7 +230,7 @@ fn against_the_last(
     request: &Request,
     arithmetics: Vec<(&str, Arithmetic)>,
 ) -> Vec<Trial> {
-    let against = Against::Trial(arithmetics.len() - 1);
+    let against = ErrorReference::Trial(arithmetics.len() - 1);
     let trial = |(label, arithmetic): (&str, Arithmetic)| Trial {
         arithmetic,
         against,
@@ -245,7 +245,7 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
     let count = (1..MESHES).take_while(|times| equations(*times) <= EQUATIONS).count() + 1;
     let trial = |times: usize| Trial {
         setting: Setting::Refined(times),
-        against: Against::Trial(count - 1),
+        against: ErrorReference::Trial(count - 1),
         own: times == 0,
         ..Trial::new(Varied::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
@@ -280,7 +280,7 @@ fn halves(request: &Request, contact: bool) -> Vec<Trial> {
     let own = [measured_variant(request)];
     let variants: &[Variant] = if contact { &CARRYING } else { &own };
     let trial = |(k, variant): (usize, &Variant)| {
-        let against = Against::Trial(2 * k);
+        let against = ErrorReference::Trial(2 * k);
         let whole = Trial { against, own: true, ..Trial::new(Varied::Symmetry, "whole", *variant) };
         let half =
             Trial { setting: Setting::Half, own: false, label: "half".into(), ..whole.clone() };

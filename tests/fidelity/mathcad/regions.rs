@@ -2,7 +2,7 @@
 //! that change what they stand for, operators within operators.
 
 use fastrand::Rng;
-use plane_contact::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::mathcad::worksheet::{ExecutedRegion, Verdict, execute};
 use plane_contact::mathcad::xmcd::document::{self, Content};
 use plane_contact::mathcad::xmcd::write;
 use plane_contact::mathcad::{Limits, Listing, Value};
@@ -13,7 +13,7 @@ fn worksheet(regions: &str) -> document::Worksheet {
 }
 
 /// Executes regions of these elements, which are called 0, 1, 2, ...
-fn executed(regions: &[String]) -> Vec<Checked> {
+fn executed(regions: &[String]) -> Vec<ExecutedRegion> {
     let region = |(k, inside): (usize, &String)| {
         format!("<region region-id=\"{k}\"><math>{inside}</math></region>")
     };
@@ -52,7 +52,7 @@ fn unsupported(words: &str) -> Verdict {
     Verdict::Unsupported(words.into())
 }
 
-fn verdicts(checked: &[Checked]) -> Vec<Verdict> {
+fn verdicts(checked: &[ExecutedRegion]) -> Vec<Verdict> {
     checked.iter().map(|checked| checked.verdict.clone()).collect()
 }
 

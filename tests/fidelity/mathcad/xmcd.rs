@@ -3,7 +3,7 @@
 use super::spelled::spelled;
 use crate::bitwise::all_readings;
 use crate::common::random::fixed;
-use plane_contact::mathcad::worksheet::{Checked, Verdict, execute};
+use plane_contact::mathcad::worksheet::{ExecutedRegion, Verdict, execute};
 use plane_contact::mathcad::xmcd::document::{self, Content, Saved};
 use plane_contact::mathcad::xmcd::page::{self, Page};
 use plane_contact::mathcad::xmcd::write;
@@ -80,7 +80,7 @@ fn numbers_are_spelled_as_mathcad_saves_them() {
 }
 
 /// A worksheet of one evaluation, with `saved` in it as Mathcad writes results.
-fn saved(expression: &str, saved: &str) -> Vec<Checked> {
+fn saved(expression: &str, saved: &str) -> Vec<ExecutedRegion> {
     let listing = Listing::parse("f", &format!("_() :=\n  {expression}")).unwrap();
     let mut page = Page::default();
     page.define("t", write::real(0.5), 1).evaluate(write::expression(&listing), 1, "asked");
@@ -247,7 +247,7 @@ fn probes_know_their_own_answers() {
     let text = probe::worksheet();
     let mut sheet = document::read(&text, "probe").unwrap();
     let checked = execute(&sheet, &Limits::default());
-    let asked = |c: &&Checked| c.tag.starts_with("probe ");
+    let asked = |c: &&ExecutedRegion| c.tag.starts_with("probe ");
     for region in sheet.regions.iter_mut().filter(|region| region.tag.starts_with("probe ")) {
         let ours = checked.iter().find(|c| c.tag == region.tag).unwrap();
         region.saved = Some(match &ours.value {
@@ -395,6 +395,7 @@ fn what_is_no_worksheet_is_refused() {
         "</parens>".repeat(5_000)
     );
     let checked = document::read(&deep, "deep").map(|s| execute(&s, &Limits::default()));
-    let refused = |c: &[Checked]| c.iter().all(|c| matches!(c.verdict, Verdict::Unsupported(_)));
+    let refused =
+        |c: &[ExecutedRegion]| c.iter().all(|c| matches!(c.verdict, Verdict::Unsupported(_)));
     assert!(checked.is_err() || checked.is_ok_and(|checked| refused(&checked)));
 }

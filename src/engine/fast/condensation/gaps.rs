@@ -39,7 +39,7 @@ struct Candidate {
 }
 
 /// A state: the columns of M that it leaves free, and the rest of the displacements.
-pub struct HeldGaps {
+pub struct FactoredGaps {
     /// The columns of M that are free.
     pub(super) t: Rows,
     /// The displacements of the kept equations where all that is free is 0, length.
@@ -58,7 +58,7 @@ pub(super) struct FreeGaps {
 /// The motions of a contact node that its gap and slip make: both, or the gap alone, by its one free
 /// degree of freedom.
 #[derive(Clone, Copy)]
-enum Own {
+enum OwnMotion {
     Both,
     Along(Dof),
 }
@@ -77,7 +77,7 @@ impl Gaps {
         let column: BTreeMap<Dof, usize> = others.copied().zip(0..).collect();
         let mut columns = column.len()..;
         let mut slips = |may_be: bool| -> Vec<Option<usize>> {
-            let of = |(_, own): &(_, Own)| may_be && matches!(own, Own::Both);
+            let of = |(_, own): &(_, OwnMotion)| may_be && matches!(own, OwnMotion::Both);
             facing.iter().map(|candidate| of(candidate).then(|| columns.next()).flatten()).collect()
         };
         // Slips that no state holds come before all that some state holds.
@@ -89,7 +89,7 @@ impl Gaps {
         let mut candidates = BTreeMap::new();
         for (k, (pairing, own)) in facing.into_iter().enumerate() {
             let (pairing, gap, slip) = (pairing.clone(), gaps[k], held[k]);
-            rows.extend(moved(&pairing, own, gap, slip.or(loose[k]), &column));
+            rows.extend(pairing_rows(&pairing, own, gap, slip.or(loose[k]), &column));
             candidates.insert(pairing.node, Candidate { pairing, gap, slip });
         }
         let columns = first + held.iter().flatten().count() + gaps.len();
@@ -112,7 +112,7 @@ impl Gaps {
 
     /// Factors the state that `constraints` impose; None where it is singular or nearly so, and where
     /// it holds something else.
-    pub fn held(self: &Arc<Self>, constraints: &[Constraint]) -> Option<HeldGaps> {
+    pub fn factor(self: &Arc<Self>, constraints: &[Constraint]) -> Option<FactoredGaps> {
         let mut values = vec![None; self.m.columns];
         for constraint in constraints {
             let Candidate { pairing, gap, slip } = self.candidates.get(&constraint.node)?;
@@ -138,7 +138,7 @@ impl Gaps {
         free.iter().enumerate().for_each(|(new, k)| place[first + k] = Some(first + new));
         let t = self.m.left(&place, first + free.len());
         let factors = FreeGaps::new(Arc::clone(self), free)?;
-        Some(HeldGaps { t, shift: self.m.expand(&shift), factors })
+        Some(FactoredGaps { t, shift: self.m.expand(&shift), factors })
     }
 }
 
@@ -171,13 +171,13 @@ impl Factors<f64> for FreeGaps {
 fn candidates<'a>(
     condensation: &Condensation,
     pairings: &'a [Option<Pairing>],
-) -> Option<Vec<(&'a Pairing, Own)>> {
+) -> Option<Vec<(&'a Pairing, OwnMotion)>> {
     let is_free = |dof: Dof| condensation.kept.binary_search(&dof).is_ok();
     let masters = |p: &'a Pairing| p.masters.iter().map(|(master, _)| *master);
     let is_kept = |p: &&Pairing| p.nodes().all(|n| condensation.keeps(n));
     let kept = pairings.iter().flatten().filter(is_kept);
     let own = |p: &'a Pairing| Some((p, own(p, p.node.dofs().map(is_free))?));
-    let found: Vec<(&Pairing, Own)> = kept.filter_map(own).collect();
+    let found: Vec<(&Pairing, OwnMotion)> = kept.filter_map(own).collect();
     let nodes: BTreeSet<NodeId> = found.iter().map(|(pairing, _)| pairing.node).collect();
     let is_faced = found.iter().any(|(p, _)| masters(p).any(|master| nodes.contains(&master)));
     (!is_faced).then_some(found)
@@ -185,21 +185,21 @@ fn candidates<'a>(
 
 /// Returns what the gap and slip of a pairing move, of whose node each degree of freedom is `free` or
 /// not; None where that does not make every gap.
-fn own(pairing: &Pairing, free: [bool; 2]) -> Option<Own> {
+fn own(pairing: &Pairing, free: [bool; 2]) -> Option<OwnMotion> {
     let [x, y] = pairing.node.dofs();
     match free {
-        [true, true] => Some(Own::Both),
-        [true, false] if pairing.normal[0].abs() >= STEEP => Some(Own::Along(x)),
-        [false, true] if pairing.normal[1].abs() >= STEEP => Some(Own::Along(y)),
+        [true, true] => Some(OwnMotion::Both),
+        [true, false] if pairing.normal[0].abs() >= STEEP => Some(OwnMotion::Along(x)),
+        [false, true] if pairing.normal[1].abs() >= STEEP => Some(OwnMotion::Along(y)),
         _ => None,
     }
 }
 
 /// Returns the rows of M of a pairing's node: its gap, its slip, and the motion of what it faces,
 /// whose free degrees of freedom have a `column`.
-fn moved(
+fn pairing_rows(
     pairing: &Pairing,
-    own: Own,
+    own: OwnMotion,
     gap: usize,
     slip: Option<usize>,
     column: &BTreeMap<Dof, usize>,
@@ -212,7 +212,7 @@ fn moved(
             .collect()
     };
     match own {
-        Own::Both => {
+        OwnMotion::Both => {
             let along = pairing.node.dofs().into_iter().zip([[nx, -ny], [ny, nx]]);
             along
                 .map(|(dof, [n, t])| {
@@ -222,7 +222,7 @@ fn moved(
                 })
                 .collect()
         }
-        Own::Along(dof) => {
+        OwnMotion::Along(dof) => {
             let n = pairing.normal[dof.direction()];
             let along = |other: Dof| pairing.normal[other.direction()] / n;
             vec![(dof, std::iter::once((gap, 1.0 / n)).chain(target(&along)).collect())]

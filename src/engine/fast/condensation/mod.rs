@@ -139,7 +139,7 @@ impl Bodies {
             let make = || Gaps::new(&condensation, pairings, *stick).map(Arc::new);
             self.gaps.borrow_mut().get_or_insert_with(make).clone()
         });
-        if let Some(held) = gaps.and_then(|gaps| gaps.held(constraints)) {
+        if let Some(held) = gaps.and_then(|gaps| gaps.factor(constraints)) {
             return Some(KeptState::holding(condensation, held));
         }
         KeptState::new(condensation, constraints)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use smallvec::SmallVec;
 
-use super::gaps::HeldGaps;
+use super::gaps::FactoredGaps;
 use super::schur::{Condensation, Eliminated, holds};
 use crate::elimination::{Constraint, Elimination};
 use crate::stiffness::Stiffness;
@@ -70,8 +70,8 @@ impl KeptState {
     }
 
     /// Takes a state that holds gaps and slips.
-    pub(super) fn holding(condensation: Arc<Condensation>, held: HeldGaps) -> Self {
-        let HeldGaps { t, shift, factors } = held;
+    pub(super) fn holding(condensation: Arc<Condensation>, held: FactoredGaps) -> Self {
+        let FactoredGaps { t, shift, factors } = held;
         KeptState { condensation, t, factors: Box::new(factors), shift }
     }
 

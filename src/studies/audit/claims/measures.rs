@@ -1,6 +1,6 @@
 //! How claims are measured.
 
-use super::{Measured, Outcome, Verdict};
+use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
 use crate::audit::statuses::{self, Score};
 use engine::distance;
@@ -15,7 +15,7 @@ const SCENES: usize = 20;
 const SEED: u64 = 1;
 
 fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome<'static> {
-    Ok(Measured { verdict, number: Some(number), detail: detail.into() })
+    Ok(Evidence { verdict, number: Some(number), detail: detail.into() })
 }
 
 fn true_if(is_true: bool) -> Verdict {

@@ -18,7 +18,7 @@ pub use register::CLAIMS;
 
 use super::Case;
 use super::findings::{self, FINDINGS};
-use super::range::{Place, Range};
+use super::range::{ParameterValue, Range};
 use base::choices;
 
 /// Something that the paper says.
@@ -101,18 +101,18 @@ choices! {
 }
 
 /// What a scene says of a claim, or why a run failed.
-type Outcome<'a> = Result<Measured, Box<dyn std::error::Error + 'a>>;
+type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 
 /// A verdict, the number that the claim names, and what else is to be said.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Measured {
+pub struct Evidence {
     pub verdict: Verdict,
     pub number: Option<f64>,
     /// The condition of the verdict `true only if`; else what is to be said beside the number.
     pub detail: String,
 }
 
-impl Measured {
+impl Evidence {
     /// Returns the verdict in words, with its condition.
     pub fn words(&self) -> String {
         match self.verdict {
@@ -124,11 +124,11 @@ impl Measured {
 
 /// A claim with its verdict on a scene and over the range.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Judged {
+pub struct JudgedClaim {
     #[serde(flatten)]
     pub claim: Claim,
     #[serde(flatten)]
-    pub measured: Measured,
+    pub measured: Evidence,
     pub scope: Scope,
     /// The verdicts over the range; empty where the scene has no part in the verdict.
     pub elsewhere: Vec<Elsewhere>,
@@ -138,22 +138,22 @@ pub struct Judged {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Elsewhere {
     #[serde(flatten)]
-    pub place: Place,
+    pub place: ParameterValue,
     #[serde(flatten)]
-    pub measured: Measured,
+    pub measured: Evidence,
 }
 
 /// Judges claims on a scene and at places of the range.
-pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<Judged> {
+pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<JudgedClaim> {
     std::iter::once(case).chain(places.iter().map(|(_, case)| &**case)).for_each(Case::prepare);
     claims.par_iter().map(|claim| claim.judge(case, places)).collect()
 }
 
 impl Claim {
     /// Measures the claim on a scene. Where a run fails, the detail says so.
-    pub fn measure(&self, case: &Case) -> Measured {
+    pub fn measure(&self, case: &Case) -> Evidence {
         let not_checkable =
-            |detail| Measured { verdict: Verdict::NotCheckable, number: None, detail };
+            |detail| Evidence { verdict: Verdict::NotCheckable, number: None, detail };
         match self.measure {
             Measure::Refuted(id) => by_finding(id, Verdict::False, None),
             Measure::Finding(id, verdict, words) => by_finding(id, verdict, Some(words)),
@@ -164,10 +164,10 @@ impl Claim {
         }
     }
 
-    fn judge(&self, case: &Case, places: &Range) -> Judged {
+    fn judge(&self, case: &Case, places: &Range) -> JudgedClaim {
         let measured = self.measure(case);
         let places = if self.basis == Basis::Runs { &places[..] } else { &[] };
-        let elsewhere = |(place, case): &(Place, Arc<Case>)| Elsewhere {
+        let elsewhere = |(place, case): &(ParameterValue, Arc<Case>)| Elsewhere {
             place: *place,
             measured: self.measure(case),
         };
@@ -180,13 +180,13 @@ impl Claim {
             Basis::Runs if !elsewhere.is_empty() && same => Scope::Range,
             Basis::Runs => Scope::OneScene,
         };
-        Judged { claim: self.clone(), measured, scope, elsewhere }
+        JudgedClaim { claim: self.clone(), measured, scope, elsewhere }
     }
 }
 
 /// Judges a claim by a finding on the finding's own scene; without words the finding's title is the
 /// detail.
-fn by_finding(id: &str, verdict: Verdict, words: Option<&str>) -> Measured {
+fn by_finding(id: &str, verdict: Verdict, words: Option<&str>) -> Evidence {
     let finding = FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register");
     let found = finding.measure(&Case::new(finding.scene()));
     let verdict = match found.verdict {
@@ -194,5 +194,5 @@ fn by_finding(id: &str, verdict: Verdict, words: Option<&str>) -> Measured {
         findings::Verdict::NotTriggered | findings::Verdict::Contradicted => Verdict::NotCheckable,
     };
     let detail = words.unwrap_or(finding.title).into();
-    Measured { verdict, number: Some(found.number), detail }
+    Evidence { verdict, number: Some(found.number), detail }
 }

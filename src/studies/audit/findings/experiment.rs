@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Measured, Outcome};
+use super::{Evidence, Outcome};
 use crate::audit::Case;
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
@@ -21,18 +21,18 @@ const SHOWN: usize = 6;
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// The number of `found`, each in words; the finding holds where there is one.
-pub(super) fn count(found: impl IntoIterator<Item = String>) -> Measured {
+pub(super) fn count(found: impl IntoIterator<Item = String>) -> Evidence {
     let found: Vec<String> = found.into_iter().collect();
     let mut detail = found[..found.len().min(SHOWN)].join("; ");
     if found.len() > SHOWN {
         detail += &format!("; and {} more", found.len() - SHOWN);
     }
     let detail = if found.is_empty() { "none".into() } else { detail };
-    Measured::present_if(!found.is_empty(), found.len() as f64, detail)
+    Evidence::present_if(!found.is_empty(), found.len() as f64, detail)
 }
 
 /// Counts the entries of the contact surface of which `words` has something to say.
-pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>) -> Measured {
+pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>) -> Evidence {
     let nodes = model.contact.nodes.iter().enumerate();
     count(nodes.filter_map(|(i, node)| Some(format!("node {node}: {}", words(i)?))))
 }
@@ -41,14 +41,14 @@ pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>
 /// verdict, and of equal ones the largest number. A shape at which a listing fails shows nothing.
 pub(super) fn at_shapes(
     case: &Case,
-    experiment: impl Fn(&Shape) -> Result<Measured, Failure>,
+    experiment: impl Fn(&Shape) -> Result<Evidence, Failure>,
 ) -> Outcome<'_> {
-    let mut heaviest: Option<Measured> = None;
+    let mut heaviest: Option<Evidence> = None;
     for (name, shape) in shapes(case) {
-        let nothing = |failure: Failure| Measured::present_if(false, 0.0, failure.to_string());
+        let nothing = |failure: Failure| Evidence::present_if(false, 0.0, failure.to_string());
         let mut here = experiment(&shape).unwrap_or_else(nothing);
         here.detail = format!("{name}: {}", here.detail);
-        let weight = |m: &Measured| (m.verdict, m.number.abs());
+        let weight = |m: &Evidence| (m.verdict, m.number.abs());
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
             heaviest = Some(here);
         }
@@ -57,7 +57,7 @@ pub(super) fn at_shapes(
 }
 
 /// The same on what `c_cnt` finds in each shape.
-pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Measured) -> Outcome<'_> {
+pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Evidence) -> Outcome<'_> {
     at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case.model(), shape)?)))
 }
 
@@ -95,13 +95,13 @@ pub(super) fn dy(call: &Call, i: usize) -> usize {
 }
 
 /// A node's coordinates in a shape, length.
-pub(super) fn place(shape: &Shape, node: NodeId) -> [f64; 2] {
+pub(super) fn coordinates(shape: &Shape, node: NodeId) -> [f64; 2] {
     shape[node.index()]
 }
 
 /// The coordinates of the ends of an edge in a shape, length.
 pub(super) fn ends(model: &Model, shape: &Shape, edge: EdgeId) -> [[f64; 2]; 2] {
-    model.edge(edge).nodes.map(|node| place(shape, node))
+    model.edge(edge).nodes.map(|node| coordinates(shape, node))
 }
 
 /// Vertical distance from `point` up to the line through `ends`; nothing where that is vertical.
@@ -112,9 +112,9 @@ pub(super) fn rise([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> Option<f64> {
 
 /// Whether entry `i` of the contact surface lies inside a triangle of the target, not on a side.
 pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
-    let point = place(shape, model.contact.nodes[i]);
+    let point = coordinates(shape, model.contact.nodes[i]);
     let inside = |id: &TriangleId| {
-        let [a, b, c] = model.triangle(*id).nodes.map(|node| place(shape, node));
+        let [a, b, c] = model.triangle(*id).nodes.map(|node| coordinates(shape, node));
         [[a, b], [b, c], [c, a]].iter().all(|[p, q]| area(&[*p, *q, point]) > 0.0)
     };
     model.target().is_some_and(|target| target.triangles.iter().any(inside))
@@ -124,7 +124,7 @@ pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
 /// above. Nothing for a vertical edge, or one that bounds no triangle.
 pub(super) fn inner_sign(model: &Model, shape: &Shape, edge: EdgeId) -> Option<f64> {
     let third = model.sides.beside(model.edge(edge).nodes).first()?.third;
-    rise(ends(model, shape, edge), place(shape, third)).map(f64::signum)
+    rise(ends(model, shape, edge), coordinates(shape, third)).map(f64::signum)
 }
 
 /// The unit normal of a target edge that points away from the target.

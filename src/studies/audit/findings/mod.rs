@@ -39,7 +39,7 @@ pub struct Finding {
     /// The repair as an edit of a listing.
     pub edit: Repair,
     /// What is changed for it to show in one call of each listing on its own scene.
-    pub before: Before,
+    pub before: Preparation,
     /// What the measured number is, with its unit.
     pub number: &'static str,
     measure: fn(&Case) -> Outcome<'_>,
@@ -63,20 +63,20 @@ pub enum Repair {
 
 /// What is changed on a finding's scene before the listings are executed once, with its words.
 #[derive(Clone, Copy)]
-pub enum Before {
+pub enum Preparation {
     AsPrinted,
     Reading(&'static str, &'static str),
     Model(&'static str, fn(&mut Model)),
 }
 
 /// What a scene shows, or why a listing or a run failed.
-type Outcome<'a> = Result<Measured, Box<dyn std::error::Error + 'a>>;
+type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 
 impl Finding {
     /// Looks for the finding in a scene. Where a listing or a run fails, the detail says so; it
     /// never panics.
-    pub fn measure(&self, case: &Case) -> Measured {
-        (self.measure)(case).unwrap_or_else(|why| Measured::present_if(false, 0.0, why.to_string()))
+    pub fn measure(&self, case: &Case) -> Evidence {
+        (self.measure)(case).unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
     }
 
     pub fn scene(&self) -> Scene {
@@ -98,24 +98,24 @@ choices! {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct Evidence {
     pub verdict: Verdict,
     /// The number that the finding names; 0 where it is not triggered and nothing could be counted.
     pub number: f64,
     pub detail: String,
 }
 
-impl Measured {
+impl Evidence {
     /// Returns a measure of the verdict `present` or `not triggered here`.
     fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
-        Measured { verdict, number, detail: detail.into() }
+        Evidence { verdict, number, detail: detail.into() }
     }
 
     /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
     /// finding needs.
     fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
-        Measured { verdict, number, detail: detail.into() }
+        Evidence { verdict, number, detail: detail.into() }
     }
 }

@@ -1,9 +1,9 @@
 //! Findings of the search for a target edge: c_cnt 1-10.
 
 use super::experiment::{
-    Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, place, rise,
+    Shape, at_calls, at_shapes, c_cnt, coordinates, count_nodes, dy, ends, inside_target, rise,
 };
-use super::{Measured, Outcome};
+use super::{Evidence, Outcome};
 use crate::audit::Case;
 use engine::contact::turned;
 use paper::door::{Call, ContactStatus};
@@ -48,13 +48,13 @@ pub(super) fn vertical_distance(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| match c_cnt(case.model(), shape) {
         Ok(call) => Ok(near_a_slope(case.model(), shape, &call)),
         Err(failure) if failure.line == 10 => {
-            Ok(Measured::present_if(true, 0.0, failure.to_string()))
+            Ok(Evidence::present_if(true, 0.0, failure.to_string()))
         }
         Err(failure) => Err(failure),
     })
 }
 
-fn near_a_slope(model: &Model, shape: &Shape, call: &Call) -> Measured {
+fn near_a_slope(model: &Model, shape: &Shape, call: &Call) -> Evidence {
     let cosine = |edge: EdgeId| {
         let [a, b] = ends(model, shape, edge);
         (b[0] - a[0]).abs() / (b[0] - a[0]).hypot(b[1] - a[1])
@@ -97,7 +97,7 @@ pub(super) fn missed_near(case: &Case) -> Outcome<'_> {
 /// The smallest vertical distance of entry `i` of the contact surface from the target edges that it
 /// is over or under.
 fn nearest(model: &Model, shape: &Shape, i: usize) -> f64 {
-    let point = place(shape, model.contact.nodes[i]);
+    let point = coordinates(shape, model.contact.nodes[i]);
     let distance = |edge: &EdgeId| {
         let [a, b] = ends(model, shape, *edge);
         let over = a[0].min(b[0]) <= point[0] && point[0] <= a[0].max(b[0]);

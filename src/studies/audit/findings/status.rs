@@ -1,7 +1,7 @@
 //! Findings of the contact status: c_cnt 15-18.
 
 use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
-use super::{Measured, Outcome};
+use super::{Evidence, Outcome};
 use crate::audit::Case;
 use mathcad::Conjunction;
 use paper::door::Call;
@@ -60,11 +60,11 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
         let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
         let on_edge = count_nodes(&model, |i| touches(i).then(|| words(i)));
         if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
-            return Ok(Measured::must_be_present(false, on_edge.number, on_edge.detail));
+            return Ok(Evidence::must_be_present(false, on_edge.number, on_edge.detail));
         }
         let by_sign = count_nodes(&model, |i| flagged(i).then(|| words(i))).detail;
         let detail = format!("{}; flagged by lines 17-18: {by_sign}", on_edge.detail);
-        Ok(Measured { detail, ..on_edge })
+        Ok(Evidence { detail, ..on_edge })
     })
 }
 
@@ -75,12 +75,12 @@ pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
     let first = call.statuses.first().ok_or("no contact node")?.distance;
     Ok(match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
         Err(f) if f.line == 18 && f.cause == Cause::InvalidIndex => {
-            Measured::present_if(true, first, f.to_string())
+            Evidence::present_if(true, first, f.to_string())
         }
         _ if first < 0.0 => {
-            Measured::must_be_present(false, first, "yt[1] < 0, and line 18 does not stop")
+            Evidence::must_be_present(false, first, "yt[1] < 0, and line 18 does not stop")
         }
-        _ => Measured::present_if(false, first, "yt[1] is not below 0"),
+        _ => Evidence::present_if(false, first, "yt[1] is not below 0"),
     })
 }
 

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::experiment::{
     ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
 };
-use super::{Measured, Outcome, Verdict};
+use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
 use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
 use numbers::solve::DenseLu;
@@ -18,7 +18,7 @@ use problem::modelling::Variant;
 pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
     let mjs = first_in_contact(case)?.km(&Reading::default())?;
     let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
-    Ok(Measured::must_be_present(joins == 0, joins as f64, target_moves(case)))
+    Ok(Evidence::must_be_present(joins == 0, joins as f64, target_moves(case)))
 }
 
 /// Entries of `mjs` in a row of `body` and a column of another.
@@ -87,7 +87,7 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
         let ((low, high), (one, _)) = (range(false), range(true));
         let detail = format!("restrained: {one}, others {low:.4e} to {high:.4e}");
         let outside = one < low || (one > high && one.is_finite());
-        Ok(Measured::present_if(outside, high.max(one) / low.min(one), detail))
+        Ok(Evidence::present_if(outside, high.max(one) / low.min(one), detail))
     })
 }
 
@@ -97,7 +97,7 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
         let diagonal = mjs(case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
         let detail = format!("node {}, direction {}", at / 2 + 1, ["x", "y"][at % 2]);
-        Ok(Measured::present_if(smallest < 0.0, smallest, detail))
+        Ok(Evidence::present_if(smallest < 0.0, smallest, detail))
     })
 }
 
@@ -114,7 +114,7 @@ pub(super) fn orphan(case: &Case) -> Outcome<'_> {
     let detail = format!(
         "rows of zeros: {own} without the node, {free} with it, {restrained} where S restrains it"
     );
-    Ok(Measured::must_be_present(free == own + 2, (free - own) as f64, detail))
+    Ok(Evidence::must_be_present(free == own + 2, (free - own) as f64, detail))
 }
 
 /// K5: the cycle in which `tied` ends.
@@ -130,7 +130,7 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
         1 => Verdict::NotTriggered,
         _ => Verdict::Present,
     };
-    Ok(Measured { verdict, number: cycle.length as f64, detail })
+    Ok(Evidence { verdict, number: cycle.length as f64, detail })
 }
 
 /// K9: nodes that eq. (1) binds to the target with a pull, at the end of `stepped`.
@@ -181,7 +181,7 @@ pub(super) fn hinge(case: &Case) -> Outcome<'_> {
         None => "not in this scene",
     });
     let detail = format!("one linked node: {one}; two: {two}");
-    Ok(Measured::must_be_present(singular[0] == Some(true), most as f64, detail))
+    Ok(Evidence::must_be_present(singular[0] == Some(true), most as f64, detail))
 }
 
 /// The restraints, none of them on the body of `node`.

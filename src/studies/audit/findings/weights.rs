@@ -1,7 +1,7 @@
 //! Findings of the weights: c_cnt 21-30, and what `Km` makes of them.
 
 use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, mjs};
-use super::{Measured, Outcome};
+use super::{Evidence, Outcome};
 use crate::audit::Case;
 use engine::{Detail, Step};
 use paper::door::{Call, NodeToSegment, linked, worksheet};
@@ -10,7 +10,7 @@ use problem::modelling::Variant;
 
 /// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants.
 pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
-    let mut furthest = Measured::present_if(false, 0.0, "every weight lies in [0, 1]");
+    let mut furthest = Evidence::present_if(false, 0.0, "every weight lies in [0, 1]");
     for variant in Variant::OF_THE_PAPER {
         let Ok(solution) = case.run(*variant) else { continue };
         for step in &solution.steps {
@@ -20,7 +20,7 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
                 if outside > furthest.number {
                     let k = step.k;
                     let detail = format!("{variant}, iteration {k}: node {node}: {k1:.4}, {k2:.4}");
-                    furthest = Measured::present_if(true, outside, detail);
+                    furthest = Evidence::present_if(true, outside, detail);
                 }
             }
         }
@@ -75,7 +75,7 @@ pub(super) fn listed_twice(case: &Case) -> Outcome<'_> {
         });
         let linked = linked(&call.sheet, &call.pairs);
         let largest = linked.iter().map(|bound| sum(bound.node)).fold(0.0, f64::max);
-        Measured { number: largest, ..twice }
+        Evidence { number: largest, ..twice }
     })
 }
 
@@ -89,6 +89,6 @@ pub(super) fn reversed_contact(case: &Case) -> Outcome<'_> {
         let rounding = ROUNDING * as_is.amax();
         let changed = change.iter().filter(|x| x.abs() > rounding).count();
         let detail = format!("the largest change is {:.3e} of {:.3e}", change.amax(), as_is.amax());
-        Ok(Measured::present_if(changed > 0, changed as f64, detail))
+        Ok(Evidence::present_if(changed > 0, changed as f64, detail))
     })
 }

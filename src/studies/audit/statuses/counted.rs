@@ -74,8 +74,8 @@ impl fmt::Display for Counted {
 }
 
 impl Subscript for Counted {
-    fn at(self) -> usize {
-        self.0.at()
+    fn index(self) -> usize {
+        self.0.index()
     }
 }
 

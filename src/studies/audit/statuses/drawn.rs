@@ -39,18 +39,18 @@ impl Kind {
 }
 
 /// A scene that was drawn, and the statuses of its contact nodes.
-pub struct Drawn {
+pub struct DrawnScene {
     pub scene: Scene,
     pub touching: Vec<bool>,
 }
 
-pub fn draw(rng: &mut Rng, kind: Kind) -> Drawn {
+pub fn draw(rng: &mut Rng, kind: Kind) -> DrawnScene {
     let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);
     let turned = rng.bool();
     let scene = scene(&surface, &stamp, kind, turned).build();
     let scene = scene.expect("a scene that is drawn is sound");
-    Drawn { scene, touching }
+    DrawnScene { scene, touching }
 }
 
 /// A number between `low` and `high`.

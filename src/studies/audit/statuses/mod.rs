@@ -18,7 +18,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use counted::{Counted, counting};
-use drawn::Drawn;
+use drawn::DrawnScene;
 pub use drawn::{Kind, draw};
 use engine::contact::status::statuses;
 use numbers::scalar::Scalar;
@@ -104,7 +104,7 @@ impl Score {
         (self.missed + self.false_contacts) as f64 / nodes.max(1) as f64
     }
 
-    fn add(&mut self, drawn: &Drawn) {
+    fn add(&mut self, drawn: &DrawnScene) {
         let (model, reading) = (&*drawn.scene.model, Reading::default());
         let sheet = door::worksheet(model, Counted::from_f64);
         let vertical = "no target edge is drawn vertical";
