@@ -95,10 +95,14 @@ fn shell_files(cli: &Cli, mut grammar: clap::Command) -> String {
     String::from_utf8(text).expect("help is UTF-8")
 }
 
-/// Names the option where the arithmetic that is asked for is at fault: the library names its field.
+/// Names the option where what is asked for is at fault: the library names the setting.
 fn named_by_option(error: Error) -> Error {
+    const OPTIONS: [&str; 10] = [
+        "accuracy", "entry", "nodes", "probe", "reason", "scalar", "solver", "status", "tol",
+        "variant",
+    ];
     match error {
-        Error::Input(why) if ["scalar", "solver", "tol"].contains(&&*why.place) => {
+        Error::Input(why) if OPTIONS.contains(&&*why.place) => {
             InputError { place: format!("--{}", why.place), ..why }.into()
         }
         other => other,

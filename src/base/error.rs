@@ -8,9 +8,11 @@ pub type Result<T, E = InputError> = std::result::Result<T, E>;
 /// An error of the input: what is wrong, where, and how to fix it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {
+    /// What is wrong, with the value that was found.
     pub what: String,
     /// The file and field where it is wrong.
     pub place: String,
+    /// How to put it right.
     pub fix: String,
 }
 

@@ -13,28 +13,33 @@ impl Element {
         Self { name, attributes: String::new(), inside: None }
     }
 
+    /// Starts an element that contains `text` alone, which is escaped.
     pub fn with_text(name: &'static str, text: &str) -> Self {
         Self { inside: Some(escape(text)), ..Self::new(name) }
     }
 
+    /// Returns the element with one more attribute, whose value is escaped.
     #[must_use]
     pub fn set(mut self, name: &str, value: impl AsRef<str>) -> Self {
         self.attributes.extend([" ", name, "=\"", &escape(value.as_ref()), "\""]);
         self
     }
 
+    /// Returns the element with one more child.
     #[must_use]
     pub fn with(mut self, child: Element) -> Self {
         self.push(child);
         self
     }
 
+    /// Returns the element with more children, in their order.
     #[must_use]
     pub fn with_all(mut self, children: impl IntoIterator<Item = Element>) -> Self {
         children.into_iter().for_each(|child| self.push(child));
         self
     }
 
+    /// Adds a child behind those that are there.
     pub fn push(&mut self, child: Element) {
         child.write(self.inside.get_or_insert_with(|| "\n".into()));
     }

@@ -233,8 +233,8 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
                     stopped.iterations,
                     six_digits(stopped.residual)
                 );
-                let fix = "give a larger --tol or another solver";
-                return InputError::new("--solver, --tol", what, fix).into();
+                let fix = "give a larger residual at which it stops (tol), or another solver";
+                return InputError::new("solver", what, fix).into();
             }
         };
         let dof = dof(singular.column);

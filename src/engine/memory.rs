@@ -11,10 +11,13 @@ use problem::modelling::{Coupling, Friction, Geometry, Variant};
 /// Peak memory of the process, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Bytes {
+    /// The program and its libraries.
     pub program: f64,
     /// Mesh, worksheet, results and files.
     pub mesh: f64,
+    /// The matrices and their factors.
     pub matrices: f64,
+    /// What the solution keeps of its iterations.
     pub iterations: f64,
 }
 

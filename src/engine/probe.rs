@@ -262,5 +262,5 @@ fn outside(model: &Model, p: [f64; 2]) -> InputError {
         "give a point of the undeformed mesh; the nearest is {nearest} of body {name}, {:.3e} away",
         square.sqrt()
     );
-    InputError::new("--probe", what, fix)
+    InputError::new("probe", what, fix)
 }

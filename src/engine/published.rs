@@ -148,7 +148,7 @@ fn check_load<T: Scalar>(
             let scalar = request.arithmetic.scalar;
             let what =
                 format!("the force {} is too small to represent in {scalar}", six_digits(*x));
-            Err(InputError::new("loads", what, "choose other units, or use --scalar f64"))
+            Err(InputError::new("loads", what, "choose other units, or f64"))
         }
     }
 }
@@ -417,7 +417,7 @@ fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
         }
     };
     let what = format!("mortar coupling does not run in {scalar}: {why}");
-    Err(InputError::new("--scalar", what, "use f64 or f64x2, or --coupling nts"))
+    Err(InputError::new("scalar", what, "use f64 or f64x2, or coupling nts"))
 }
 
 /// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is

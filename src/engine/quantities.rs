@@ -34,6 +34,7 @@ pub struct Quantity<T> {
     pub title: &'static str,
     /// Its symbol, of a vector or a tensor that of each component; none where it has none.
     pub symbols: &'static [&'static str],
+    /// What it is measured in.
     pub unit: Unit,
     /// What it is, in a sentence.
     pub meaning: &'static str,
@@ -64,12 +65,15 @@ choices! {
 pub enum Value {
     /// There is none, or it is not determined.
     Unknown,
+    /// A whole number that counts something.
     Count(usize),
+    /// A number with the quantity's unit.
     Number(f64),
     /// The components of a vector or a tensor, or of all vectors one after the other.
     Components(Vec<f64>),
     /// One of several states, and its number in files for viewers.
     State(u8, String),
+    /// Words, such as the name of a body.
     Words(String),
 }
 
@@ -317,7 +321,9 @@ pub struct TriangleState {
     pub sigma: [f64; 4],
     /// e_xx, e_yy, g_xy, e_zz.
     pub epsilon: [f64; 4],
+    /// The von Mises stress, stress.
     pub von_mises_stress: f64,
+    /// The von Mises strain, without unit.
     pub von_mises_strain: f64,
     /// The error of the mesh there, where it is estimated.
     pub mesh_error: Option<f64>,
@@ -351,6 +357,7 @@ impl TriangleState {
 }
 
 impl TriangleValues {
+    /// Collects the values of a triangle from its state.
     pub fn new(state: &TriangleState) -> Self {
         TriangleValues::compute(state)
     }
@@ -367,6 +374,7 @@ impl TriangleValues {
 }
 
 impl NodeFields {
+    /// Collects the values of each triangle of a solution, in the order of the model.
     pub fn new(solution: &Solution) -> Self {
         NodeFields::compute(solution)
     }

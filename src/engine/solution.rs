@@ -231,7 +231,7 @@ pub struct OtherEquilibrium {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Uniqueness {
-    /// There is no other one: the problem is convex and contact holds the bodies.
+    /// No other equilibrium exists: the problem is convex and contact holds the bodies.
     Unique,
     /// The bodies can move without work: a rigid motion leaves forces and load in balance.
     Indifferent {

@@ -139,7 +139,7 @@ fn blamed(request: &Request, why: Error) -> Error {
     {
         Ok(_) => {
             let what = format!("in {scalar} {why}; in {more} the run does not fail");
-            InputError::new("--scalar", what, format!("use --scalar {more}")).into()
+            InputError::new("scalar", what, format!("use {more}")).into()
         }
         Err(_) => why,
     }
@@ -194,19 +194,15 @@ fn check_edited(request: &Request) -> Result<(), InputError> {
     }
     let (place, what, fix) = if *variant == Variant::Unilateral {
         let what = "unilateral executes no listing".into();
-        ("--c-cnt, --km", what, "ask for --variant printed, tied or stepped")
+        ("edited listing", what, "ask for printed, tied or stepped")
     } else if arithmetic.scalar != ScalarName::F64 {
         let what = format!("an edited listing is not executed in {}", arithmetic.scalar);
-        ("--scalar", what, "leave it out")
+        ("scalar", what, "leave it out")
     } else if c_cnt && !request.decides_by_listing() {
-        (
-            "--status",
-            format!("under the rule {} c_cnt is not called", contact.status),
-            "leave it out",
-        )
+        ("status", format!("under the rule {} c_cnt is not called", contact.status), "leave it out")
     } else if km && !matches!(request.solver(), Solver::DenseLu | Solver::SparseLu) {
         let what = format!("{} does not solve what an edited Km builds", request.solver());
-        ("--solver", what, "use sparse-lu or dense-lu")
+        ("solver", what, "use sparse-lu or dense-lu")
     } else {
         return Ok(());
     };
@@ -219,13 +215,13 @@ fn check_unilateral(request: &Request) -> Result<(), InputError> {
     if arithmetic.scalar != ScalarName::F64 {
         let what =
             format!("unilateral does not run in {}: normals take square roots", arithmetic.scalar);
-        return Err(InputError::new("--scalar", what, "use f64, or another variant"));
+        return Err(InputError::new("scalar", what, "use f64, or another variant"));
     }
     match arithmetic.solver {
         None | Some(Solver::SparseCholesky) => Ok(()),
         Some(other) => {
             let what = format!("unilateral does not solve by {other}");
-            Err(InputError::new("--solver", what, "use sparse-cholesky, or another variant"))
+            Err(InputError::new("solver", what, "use sparse-cholesky, or another variant"))
         }
     }
 }

@@ -54,6 +54,7 @@ impl<T: nalgebra::Scalar> Table<T> {
         self.0.get((i.checked_sub(1)?, j.checked_sub(1)?))
     }
 
+    /// Returns the table of what `f` makes of each entry.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Table<U> {
         Table(self.0.map(f))
     }
@@ -90,6 +91,7 @@ impl<T: nalgebra::Scalar> Column<T> {
         self.0.iter()
     }
 
+    /// Returns the column of what `f` makes of each entry.
     pub fn map<U: nalgebra::Scalar>(&self, f: impl FnMut(T) -> U) -> Column<U> {
         Column(self.0.map(f))
     }

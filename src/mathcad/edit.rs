@@ -30,6 +30,7 @@ struct Change {
 
 /// An edit that cannot be read, or does not fit its listing.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the message of each says what its values are")]
 pub enum EditError {
     #[error("line {line} of the edit: found {found:?}, expected {expected}")]
     Format {

@@ -8,6 +8,7 @@ use thiserror::Error;
 /// A listing that does not follow the notation of `listings/README.md`.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct ParseError {
+    /// The name of the listing.
     pub listing: String,
     /// The number of the printed line, from 1; headers do not count.
     pub line: usize,
@@ -17,6 +18,7 @@ pub struct ParseError {
     pub column: usize,
     /// The first 300 characters of the line, indentation included.
     pub text: String,
+    /// What was found, and what was expected.
     pub message: String,
 }
 
@@ -40,6 +42,7 @@ impl fmt::Display for ParseError {
     shown(statement)
 )]
 pub struct Failure {
+    /// The name of the listing.
     pub listing: String,
     /// The number of the printed line, from 1.
     pub line: usize,
@@ -49,6 +52,7 @@ pub struct Failure {
     pub text: String,
     /// The text of the whole line, without indentation.
     pub statement: String,
+    /// Why it failed.
     pub cause: Cause,
 }
 
@@ -61,6 +65,7 @@ fn shown(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// What the evaluation of a listing gives, or where and why it failed.
 pub type Fallible<T> = Result<T, Box<Failure>>;
 
 impl Failure {
@@ -72,6 +77,7 @@ impl Failure {
 
 /// Why a listing failed. Where Mathcad's own words are known, the message begins with them.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the message of each says what its values are")]
 pub enum Cause {
     #[error(
         "This array index is invalid for this array. {name}{subscripts} of {rows} x {cols} entries."
@@ -131,7 +137,9 @@ pub enum Cause {
 /// One subscript or two, as evaluated; shown as `[i]` or `[i,j]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Subscripts {
+    /// The first subscript.
     pub row: f64,
+    /// The second subscript, if there is one.
     pub col: Option<f64>,
 }
 

@@ -8,6 +8,7 @@ use super::parser;
 use super::settings::Limits;
 use super::syntax::{Expr, Kind, Slot, Statement, Step};
 
+/// A printed line of a listing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     /// The line's number in the print, from 1. Under a reading that moves or repeats lines the
@@ -26,8 +27,11 @@ pub struct Line {
 pub struct Listing {
     pub(super) name: String,
     pub(super) lines: Vec<Line>,
+    /// The names that the listing uses, by their number.
     pub names: Names,
+    /// The parameters of its header, in their order.
     pub parameters: Vec<Slot>,
+    /// Its statements; loops and conditions contain theirs.
     pub program: Vec<Statement>,
     /// Whether the program writes to the name of each slot.
     pub(super) assigned: Vec<bool>,
@@ -132,6 +136,7 @@ impl Listing {
         Ok(Listing { name: name.into(), names, parameters, program, lines, assigned, depth })
     }
 
+    /// Returns the listing's name, as its header has it.
     pub fn name(&self) -> &str {
         &self.name
     }

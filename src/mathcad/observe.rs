@@ -32,24 +32,31 @@ impl Observer for () {
 /// A name or entry that a line reads or writes, and its value.
 #[derive(Clone, Copy, Debug)]
 pub struct Access<'a> {
+    /// The line that is executed.
     pub line: &'a Line,
+    /// The name, without subscripts.
     pub name: &'a str,
     /// No, one or two subscripts, from the worksheet's `ORIGIN`.
     pub subscripts: &'a [i64],
+    /// The value that was read or written.
     pub value: &'a Value,
 }
 
+/// An expression and where it stands.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
+    /// The line it belongs to.
     pub line: &'a Line,
     /// Where the expression starts in the line, in bytes.
     pub start: usize,
+    /// The expression as the listing writes it.
     pub text: &'a str,
 }
 
 /// An operand of an `∧`, as its text and its truth.
 #[derive(Clone, Copy, Debug)]
 pub struct Operand<'a> {
+    /// The operand as the listing writes it.
     pub text: &'a str,
     /// Whether it was true; `None` if it failed or was not evaluated.
     pub held: Option<bool>,
@@ -73,11 +80,14 @@ pub struct Executed {
     pub writes: Vec<Named>,
 }
 
+/// A name or entry with its value, kept beyond the statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
+    /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,
     /// No, one or two subscripts, from the worksheet's `ORIGIN`.
     pub subscripts: Vec<i64>,
+    /// Its value then.
     pub value: Value,
 }
 

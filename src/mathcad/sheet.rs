@@ -19,6 +19,7 @@ pub struct Sheet {
 /// A function of a worksheet.
 #[derive(Clone, Debug)]
 pub struct Defined {
+    /// The function's program.
     pub program: Rc<Listing>,
     /// What its names are, where its definition decides that; else what they are at the call.
     pub(super) above: Option<Rc<Sheet>>,
@@ -77,14 +78,17 @@ impl Sheet {
         self.ranges.remove(name);
     }
 
+    /// Returns the value of a name; None where it is not defined or is a range or a program.
     pub fn value(&self, name: &str) -> Option<Value> {
         self.values.get(name).cloned()
     }
 
+    /// Returns the numbers of a range variable; None where the name is none.
     pub fn range(&self, name: &str) -> Option<Numbers> {
         self.ranges.get(name).copied()
     }
 
+    /// Returns the program of a function; None where the name is none.
     pub fn program(&self, name: &str) -> Option<&Rc<Listing>> {
         self.programs.get(name).map(|defined| &defined.program)
     }

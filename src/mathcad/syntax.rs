@@ -12,13 +12,16 @@ pub type Slot = usize;
 /// A statement and the line it stands on, counted from 0 through the listing's lines.
 #[derive(Clone, Debug)]
 pub struct Statement {
+    /// The line, from 0.
     pub line: usize,
+    /// What it does.
     pub step: Step,
 }
 
 /// The kinds of statements, and what each is made of. A `guard` is the condition behind `if` on the
 /// statement's own line.
 #[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Step {
     /// `for name ∈ range`; the guard stands for the whole loop, and the variable keeps its last
     /// value.
@@ -45,6 +48,7 @@ pub enum Step {
 
 /// What a loop runs over.
 #[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Range {
     /// `from .. to`, or `from, second .. to`.
     Span { from: Expr, second: Option<Expr>, to: Expr },
@@ -55,11 +59,13 @@ pub enum Range {
 /// A name, or an entry of the array of that name.
 #[derive(Clone, Debug)]
 pub struct Reference {
+    /// The name.
     pub name: Slot,
     /// The first subscript, if there is one.
     pub row: Option<Box<Expr>>,
     /// The second subscript, if there is one.
     pub col: Option<Box<Expr>>,
+    /// Where it stands in its line.
     pub span: Span,
 }
 
@@ -69,12 +75,15 @@ pub type Span = std::ops::Range<usize>;
 /// An expression and its place in its line.
 #[derive(Clone, Debug)]
 pub struct Expr {
+    /// What it is.
     pub kind: Kind,
+    /// Where it stands in its line.
     pub span: Span,
 }
 
 /// The kinds of expressions, and what each is made of.
 #[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Kind {
     Number(f64),
     /// A string, `"x"`.
@@ -129,6 +138,7 @@ pub enum Kind {
 
 /// The four operations of arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the name says it")]
 pub enum Operation {
     Add,
     Subtract,
@@ -138,6 +148,7 @@ pub enum Operation {
 
 /// The six comparisons of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the name says it")]
 pub enum Comparison {
     Equal,
     Unequal,
@@ -149,6 +160,7 @@ pub enum Comparison {
 
 /// What stands between two operands, or, as `¬`, before one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the name says it")]
 pub enum Operator {
     Any,
     All,
@@ -159,6 +171,7 @@ pub enum Operator {
 
 /// How tightly an expression binds, from the loosest to the tightest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the name says it")]
 pub enum Level {
     Any,
     All,
@@ -176,7 +189,9 @@ pub enum Level {
 /// The spelling of an operator in the notations.
 #[derive(Debug)]
 pub struct Spelling {
+    /// The operator.
     pub operator: Operator,
+    /// How tightly it binds.
     pub level: Level,
     /// As printed.
     pub sign: &'static str,

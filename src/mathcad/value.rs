@@ -11,7 +11,9 @@ use numbers::scalar::Scalar;
 /// A value of a listing. Copying one is cheap: arrays are shared until a copy is written to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
+    /// A real number.
     Number(f64),
+    /// An array of one column or several, shared until it is written.
     Array(Rc<Array>),
     /// An array with entries that are arrays or strings, such as the element matrices `B`.
     Nested(Rc<Nested>),
@@ -38,6 +40,7 @@ impl<T: Clone + Default> Grid<T> {
         Grid { rows, cols, entries }
     }
 
+    /// Makes a grid of one column.
     pub fn column(entries: Vec<T>) -> Self {
         Grid { rows: entries.len(), cols: 1, entries }
     }
@@ -47,10 +50,12 @@ impl<T: Clone + Default> Grid<T> {
         Grid { rows: entries.len() / cols, cols, entries }
     }
 
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
+    /// Returns the number of columns.
     pub fn cols(&self) -> usize {
         self.cols
     }
@@ -124,12 +129,14 @@ pub struct Nested {
 }
 
 impl Nested {
+    /// Makes an array of a grid of values.
     pub fn new(grid: Grid<Value>) -> Self {
         let count = grid.entries.iter().map(Value::count).sum();
         let depth = 1 + grid.entries.iter().map(Value::depth).max().unwrap_or(0);
         Nested { grid, count, depth }
     }
 
+    /// Returns the entries by row and column.
     pub fn grid(&self) -> &Grid<Value> {
         &self.grid
     }
@@ -177,6 +184,7 @@ impl Value {
         }
     }
 
+    /// Returns the numbers of rows and columns.
     pub fn size(&self) -> (usize, usize) {
         match self {
             Value::Array(a) => (a.rows, a.cols),
@@ -194,6 +202,7 @@ impl Value {
         }
     }
 
+    /// Returns the number; None of an array or a string.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(x) => Some(*x),
@@ -201,6 +210,7 @@ impl Value {
         }
     }
 
+    /// Returns what it is, in words for a message.
     pub fn kind(&self) -> String {
         match self {
             Value::Number(x) => format!("the number {x}"),
@@ -287,10 +297,13 @@ impl FromIterator<Value> for Value {
     }
 }
 
+/// A value of another kind or size than a table needs.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected {expected}, found {found}")]
 pub struct ShapeError {
+    /// What was needed.
     pub expected: &'static str,
+    /// What was found, in words.
     pub found: String,
 }
 

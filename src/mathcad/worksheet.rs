@@ -23,10 +23,13 @@ const ORIGIN: &str = "ORIGIN";
 /// A region as it was executed.
 #[derive(Clone, Debug)]
 pub struct ExecutedRegion {
+    /// The region's identifier in the file.
     pub id: String,
+    /// The region's tag, which its author gave it; may be empty.
     pub tag: String,
     /// The region in the text notation.
     pub text: String,
+    /// How it compares with what Mathcad saved.
     pub verdict: Verdict,
     /// The regions whose saved results went into this one in place of what the interpreter does not
     /// have.
@@ -37,6 +40,7 @@ pub struct ExecutedRegion {
 
 /// How a region compares with what Mathcad saved.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum Verdict {
     /// It saved nothing: a definition, or a file that Mathcad did not calculate.
     NothingSaved,

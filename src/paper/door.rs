@@ -30,7 +30,7 @@ pub fn under(mut model: Arc<Model>, reading: &Reading) -> Result<Arc<Model>, Inp
     if let Some(plane) = reading.r6 {
         Arc::make_mut(&mut model).plane = plane;
         for triangle in &model.triangles {
-            plane.check_poisson(triangle.material.nu, "--reading R6")?;
+            plane.check_poisson(triangle.material.nu, "reading R6")?;
         }
     }
     if reading.r8 == ToleranceUnit::Metre {
@@ -148,12 +148,14 @@ where
 /// The status of a contact node, as `c_cnt` finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactStatus<T = f64> {
+    /// The contact node.
     pub node: NodeId,
     /// The target edge of the node; None where the search found none.
     pub edge: Option<EdgeId>,
     /// The vertical distance from the contact node to the target line, > 0 where the line is above
     /// the node, length; 0 without a target edge.
     pub distance: T,
+    /// Whether it is in contact: the listing's `dy` is 1.
     pub in_contact: bool,
 }
 
@@ -193,6 +195,7 @@ pub fn pairs<T: Scalar>(
 /// A contact node and the point of the target to which it is bound, on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeToSegment<T = f64> {
+    /// The contact node.
     pub node: NodeId,
     /// The master nodes, which are the target edge's nodes, and their weights.
     pub masters: [(NodeId, T); 2],
@@ -238,8 +241,11 @@ pub fn on_edges<T: Scalar>(
 
 /// A call of `c_cnt` on a model in a shape: its arguments and its results.
 pub struct Call {
+    /// The worksheet on which `c_cnt` was called.
     pub sheet: Worksheet<f64>,
+    /// What `c_cnt` returned.
     pub pairs: Pairs<f64>,
+    /// The status of each contact node, in the order of `cnt`.
     pub statuses: Vec<ContactStatus>,
 }
 

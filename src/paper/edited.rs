@@ -15,9 +15,11 @@ const NOTATION: &str = "see the notation in listings/README.md";
 /// The text of a listing that stands in place of one of the paper's; it can be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Edited {
+    /// Which listing it replaces.
     pub which: Which,
     /// The file, for messages.
     pub place: String,
+    /// Its text.
     pub text: String,
 }
 
@@ -37,6 +39,7 @@ impl Edited {
         Ok(Edited { which, place: place.into(), text: text.into() })
     }
 
+    /// Returns the listing that the text is.
     pub fn listing(&self) -> Listing {
         self.which.edited(&self.text).expect("it was read before")
     }

@@ -114,6 +114,7 @@ pub struct State {
     pub sigma: SVector<f64, 3>,
     /// The strains e_xx, e_yy, g_xy.
     pub epsilon: SVector<f64, 3>,
+    /// The von Mises stress, stress.
     pub von_mises_stress: f64,
     /// The von Mises strain, which has no unit.
     pub von_mises_strain: f64,

@@ -190,7 +190,9 @@ pub fn check_tolerance(tolerance: f64) -> Result<()> {
 pub struct ContactModel {
     /// The method that binds a contact node to the target surface.
     pub coupling: Coupling,
+    /// The coefficient of friction, or that nothing slides.
     pub friction: Friction,
+    /// The shape in which equilibrium is asked for.
     pub geometry: Geometry,
     /// The number of equal steps in which `unilateral` applies the load of a stage; without
     /// friction the path of the load has no effect, and there is one.

@@ -13,7 +13,9 @@ use studies::lesson::exercise::{Answers, Mark};
 pub struct MarkedAnswers {
     /// The name of the file, as given.
     pub file: String,
+    /// What the file contains.
     pub answers: Answers,
+    /// The mark of each value that was asked for.
     pub marks: Vec<Mark>,
 }
 
@@ -66,6 +68,7 @@ struct Row<'a> {
     marks: &'a [Mark],
 }
 
+/// Returns the marks of each file as JSON.
 pub fn json(marked: &[MarkedAnswers]) -> String {
     let rows = marked.iter().map(|marked| Row {
         file: &marked.file,

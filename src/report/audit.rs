@@ -260,6 +260,7 @@ pub struct FindingRow {
 }
 
 impl FindingRow {
+    /// Collects what a finding says of a scene.
     pub fn new(finding: &Finding, measured: &Evidence) -> Self {
         let Finding { id, listing, lines, title, number: of, why, repair, edit, .. } = *finding;
         let Evidence { verdict, number, ref detail } = *measured;
@@ -269,6 +270,7 @@ impl FindingRow {
 }
 
 impl<'a> Document<'a> {
+    /// Collects the results of an audit of `scene`.
     pub fn new(audit: &'a Audit, scene: &'a Scene) -> Self {
         Document {
             scene: &scene.name,

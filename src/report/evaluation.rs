@@ -10,6 +10,7 @@ use mathcad::{self, Failure, Outcome};
 /// What came of a program.
 #[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
+#[expect(missing_docs, reason = "the type of JSON document has a form for each end of a program")]
 pub enum Document<'a> {
     Result {
         /// A number, words, or a list of rows.
@@ -18,6 +19,7 @@ pub enum Document<'a> {
         trace: &'a [String],
     },
     Failure {
+        /// Why and where the program failed.
         error: ErrorRow<'a>,
     },
 }

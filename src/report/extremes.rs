@@ -19,6 +19,7 @@ pub fn json(measured: &[SweepTable]) -> String {
     json::line(None, &Document { rows: measured })
 }
 
+/// Lists the generators with what they try.
 pub fn list(generators: &[Generator]) -> Report {
     let table = Table::from_rows(generators)
         .column("generator", |generator| generator.name)

@@ -22,6 +22,7 @@ impl Report {
 }
 
 impl<R> Table<R> {
+    /// Returns the report as Markdown.
     pub fn markdown(&self) -> String {
         let row = |cells: Vec<String>| {
             cells.iter().map(|cell| format!("| {} ", escaped(cell))).collect::<String>() + "|\n"

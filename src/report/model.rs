@@ -9,11 +9,13 @@ use problem::model::{NodeId, TriangleId};
 /// A report, from its first block to its last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
+    /// Its parts, in their order.
     pub blocks: Vec<Block>,
 }
 
 /// A part of a report.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum Block {
     /// The heading of the report (level 1) or of a section (level 2).
     Heading { level: usize, text: String },
@@ -36,11 +38,13 @@ impl Report {
         self
     }
 
+    /// Returns the report with the heading of a section behind it.
     #[must_use]
     pub fn heading(self, text: impl Into<String>) -> Self {
         self.with(Block::Heading { level: 2, text: text.into() })
     }
 
+    /// Returns the report with a line of prose behind it.
     #[must_use]
     pub fn line(self, text: impl Into<String>) -> Self {
         self.with(Block::Line { level: 0, text: text.into() })
@@ -64,6 +68,7 @@ impl Report {
         texts.into_iter().fold(self, Report::note)
     }
 
+    /// Returns the report with lines that are shown as they are.
     #[must_use]
     pub fn code(self, lines: impl Into<String>) -> Self {
         self.with(Block::Code(lines.into()))
@@ -88,6 +93,7 @@ impl Report {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table<R = ()> {
     rows: R,
+    /// The headings of the columns.
     pub headings: Vec<String>,
     /// Row by row, a cell for each heading.
     pub cells: Vec<Vec<Cell>>,
@@ -134,16 +140,22 @@ pub enum Cell {
     Empty,
     /// There is no number, and why.
     Missing(Option<&'static str>),
+    /// Words.
     Text(String),
+    /// A whole number.
     Integer(i128),
     /// A finite number, and how it is shown.
     Number {
+        /// The number.
         value: f64,
+        /// How it is written.
         notation: Notation,
     },
     /// A finite part of 1, shown in per cent with so many decimals.
     Percent {
+        /// The part, from 0 to 1.
         part: f64,
+        /// The number of decimals.
         decimals: usize,
     },
 }

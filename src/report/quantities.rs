@@ -14,13 +14,18 @@ use problem::scene::Units;
 /// The values of a quantity at all places: its name and unit, the number of components, and all
 /// components of the first place, then of the second, and so on. Nine are a tensor in space.
 pub struct Array {
+    /// Its name in the file.
     pub name: String,
+    /// Its unit; empty where it has none.
     pub unit: String,
+    /// How many numbers each value has.
     pub components: usize,
+    /// The numbers, value by value.
     pub values: Vec<f64>,
 }
 
 impl Array {
+    /// Collects the values of a quantity.
     pub fn new(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Self {
         Array { name: name.into(), unit: unit.into(), components, values }
     }
@@ -30,11 +35,14 @@ impl Array {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeasuredValue {
+    /// One number.
     Scalar(f64),
+    /// The components of a vector or tensor.
     Components(Vec<f64>),
 }
 
 impl MeasuredValue {
+    /// Returns its numbers.
     pub fn numbers(&self) -> Vec<f64> {
         match self {
             MeasuredValue::Scalar(x) => vec![*x],

@@ -38,6 +38,7 @@ pub struct ResultFile {
     /// The SHA-256 of the scene and of its mesh, as a snapshot has them; absent for half a scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scene_sha256: Option<String>,
+    /// The SHA-256 of the mesh file; null without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_sha256: Option<String>,
     /// The name of the scene.
@@ -134,6 +135,7 @@ pub struct ElementRow {
     pub nodes: [NodeId; 3],
     /// The place of its material in `materials`, from 1.
     pub material: usize,
+    /// The quantities of the triangle.
     #[serde(flatten)]
     pub values: TriangleValues,
 }

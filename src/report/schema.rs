@@ -19,6 +19,7 @@ use studies::trade::Trade;
 
 /// The schema of a kind of document.
 pub struct Named {
+    /// The name of the schema.
     pub name: &'static str,
     /// What the documents are.
     pub of: &'static str,

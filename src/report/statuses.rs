@@ -6,6 +6,7 @@ use super::picture::{Axis, Series, Style, chart};
 use problem::modelling::StatusRule;
 use studies::audit::statuses::{Measurement, Row};
 
+/// Returns the measurement as JSON.
 pub fn json(measured: &Measurement) -> String {
     json::line(None, measured)
 }

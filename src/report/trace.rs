@@ -36,9 +36,13 @@ pub struct TraceOptions {
 /// What is traced.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
+    /// Which of the paper's listings it is.
     pub which: Which,
+    /// The listing, or the edit of it.
     pub listing: &'a Listing,
+    /// The scene on which it is executed.
     pub scene: &'a Scene,
+    /// The scene's model.
     pub model: &'a Model,
 }
 
@@ -73,6 +77,7 @@ struct Turn {
 const MOST_KEPT: usize = 10_000;
 
 impl<'a, W: Write> TraceWriter<'a, W> {
+    /// Starts a trace on `out`.
     pub fn new(out: W, of: Traced<'a>, shown: &'a TraceOptions) -> Self {
         let kept = Some(Kept::default());
         TraceWriter { out, of, shown, kept, turn: None, outside: Vec::new(), failed: Ok(()) }

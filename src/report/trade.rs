@@ -70,7 +70,7 @@ pub fn report(trade: &Trade) -> Report {
     .line(
         "displacement: largest difference of a node's displacement over the largest displacement; energy: \
          energy norm of the difference over that of the whole; von Mises: largest relative difference of a \
-         body's largest von Mises stress; moved by: displacement, from the row marked >",
+         body's largest von Mises stress; change: of the displacement, from the row marked >",
     )
     .line(
         "* is on the Pareto front (time, displacement) of its table, > where the scene has the parameter",
@@ -108,7 +108,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         .column("displacement", |row| row.error.map(displacement))
         .column("energy", |row| row.error.map(|e| error(e.energy, "energy")))
         .column("von Mises", |row| row.error.map(|e| error(e.von_mises, "von_mises")))
-        .column("moved by", |row| row.change.map(displacement));
+        .column("change", |row| row.change.map(displacement));
     if section.rows.iter().all(|row| row.failure.is_none()) {
         return table;
     }

@@ -69,6 +69,7 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     document(&known, &drawing.points, &drawing.triangles, &points, &triangles)
 }
 
+/// Writes the fields of a solution as a VTU file.
 pub fn document(
     about: &[About],
     points: &[[f64; 2]],

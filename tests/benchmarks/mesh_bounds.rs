@@ -105,7 +105,7 @@ fn a_point_outside_every_body_is_refused_with_the_nearest_one() {
         &[[25.0, 0.0]],
     );
     let InputError { what, place, fix } = refused.expect_err("the wall ends at 20");
-    assert!(what.contains("25,0") && place == "--probe", "{what} {place}");
+    assert!(what.contains("25,0") && place == "probe", "{what} {place}");
     assert!(fix.contains("20,0 of body wall, 5.000e0 away"), "{fix}");
 }
 

@@ -72,7 +72,7 @@ fn shows(id: &str, measured: &Evidence, number: f64, words: &[&str]) {
 #[test]
 fn each_finding_is_present_on_its_scene() {
     let expected: [(&str, f64, &[&str]); 24] = [
-        ("C1", 1.0, &["node 4: ct 1 dy 1, turned round ct 0 dy 0"]),
+        ("C1", 1.0, &["node 4: ct 1 dy 1, reversed ct 0 dy 0"]),
         ("C2", 1.0, &["node 5: ct 2 dy 0, in reverse ct 1 dy 1"]),
         ("C3", 1.0, &["node 4: yt -1.500e-1, cos t 0.600, along the normal -9.000e-2"]),
         (
@@ -402,7 +402,7 @@ fn each_repair_takes_its_finding_away() {
     assert_eq!(pairs(run("C3")).dy.as_slice(), [1], "0.09 along the normal is within 0.1");
     assert_eq!(pairs(run("C14")).ct.as_slice(), [1], "the node on its edge is found");
     let edges = |id: &str| both(id).each_ref().map(|run| pairs(run).ct.as_slice().to_vec());
-    assert_eq!(edges("C1"), [[0], [1]], "the edge turned round");
+    assert_eq!(edges("C1"), [[0], [1]], "the edge reversed");
     assert_eq!(edges("C2"), [[2], [1]], "the nearest edge");
     assert_eq!(edges("C9"), [[1, 0], [1, 1]], "the deep node too");
     let weights = |id: &str, n: usize| pairs(run(id)).k_cnt.row(n).copied().collect::<Vec<_>>();

@@ -141,7 +141,7 @@ fn what_a_program_prints_without_end_is_not_kept() {
             format!("ulimit -v 1000000; $P compare fig1 --with calculix --ccx {ccx} --out o");
         let words =
             format!("{ccx} was ended, as its output cannot be read: it has more than 16777216");
-        refused(folder.path(), &line, &[&words, "name its program with --ccx"]);
+        refused(folder.path(), &line, &[&words, "name its program"]);
     }
     let id = std::fs::read_to_string(id).expect("a number");
     assert!(!Path::new("/proc").join(id.trim()).exists(), "it is still there");

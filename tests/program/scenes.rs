@@ -242,7 +242,7 @@ fn materials() {
     let scene = build(&stress).expect("0.7 is sound in plane stress");
     let e = Request::new(&scene).reading("R6=strain".parse().unwrap()).model();
     let e = e.expect_err("not in plane strain");
-    says(&e, "--reading R6", &["nu = 0.7 is outside (-1, 0.5) in plane strain"]);
+    says(&e, "reading R6", &["nu = 0.7 is outside (-1, 0.5) in plane strain"]);
 }
 
 #[test]

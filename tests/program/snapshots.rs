@@ -286,7 +286,7 @@ fn a_failing_run_is_never_accepted_silently() {
         )
     };
     let before = std::fs::read(at.join("s.json")).expect("a snapshot");
-    assert_says(&accept(&[]), 2, &["fails now", "\"line\":10", "--failing"]);
+    assert_says(&accept(&[]), 2, &["fails now", "\"line\":10", "`failing`"]);
     assert!(std::fs::read(at.join("s.json")).expect("a snapshot") == before);
     assert_says(&accept(&["--failing"]), 0, &["accepted tied/failure"]);
     assert_says(&ran(at, &["snapshot", "verify", "s.json"]), 0, &["same"]);

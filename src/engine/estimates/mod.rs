@@ -34,6 +34,7 @@ pub use singular::{Cause, Singular, singular};
 /// The estimates of a run: its errors, and the field of the mesh's error.
 #[derive(Clone, Debug)]
 pub struct Estimates {
+    /// The estimates of its errors.
     pub errors: ErrorEstimates,
     /// The error that the mesh causes in the stresses.
     pub mesh: Discretisation,

@@ -42,6 +42,7 @@ const NEAR: f64 = 1e-5;
 
 /// A contact state, with displacements and loads within bounds on their errors.
 pub struct BoundedState<'a> {
+    /// The iteration whose ties are judged.
     pub step: &'a Step,
     /// The load by degree of freedom, restrained ones included, without friction, force.
     pub load: DVector<Bounded>,
@@ -75,6 +76,7 @@ pub struct StateCheck<'a> {
 }
 
 impl<'a> StateCheck<'a> {
+    /// Judges the ties of the last iteration of `solution` with numbers that carry error bounds.
     pub fn new(solution: &'a Solution, stiffness: &'a Stiffness<Bounded>) -> Self {
         let model = &*solution.model;
         let surfaces = Surfaces::new(model).ok();

@@ -105,9 +105,7 @@ impl Problem<'_> {
             before = Some((last.solution, of_surfaces));
         }
         let strained = before.map_or(String::new(), |(solution, _)| self.strained(&solution.u));
-        let what = format!(
-            "the shape did not settle when contact was measured in it {SHAPES} times{strained}"
-        );
+        let what = format!("the geometry updates did not converge in {SHAPES} times{strained}");
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 

@@ -19,15 +19,20 @@ const REGIONS: usize = 5_000;
 /// A worksheet as its file has it.
 #[derive(Clone, Debug)]
 pub struct Worksheet {
+    /// The settings of the worksheet's calculation.
     pub settings: Settings,
     /// The regions in the order in which Mathcad evaluates them.
     pub regions: Vec<Region>,
 }
 
+/// A region of the worksheet.
 #[derive(Clone, Debug)]
 pub struct Region {
+    /// Its identifier in the file.
     pub id: String,
+    /// Its tag, which its author gave it; may be empty.
     pub tag: String,
+    /// What it says.
     pub content: Content,
     /// What Mathcad saved of the region's evaluation.
     pub saved: Option<Saved>,
@@ -49,6 +54,7 @@ impl Region {
 
 /// What a region says, in the text notation.
 #[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum Content {
     /// Nothing to execute: words, a page break, a region that is switched off.
     Silent,
@@ -76,6 +82,7 @@ pub enum Content {
 /// A result that Mathcad saved.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Saved {
+    /// A number, an array or a string.
     Value(Value),
     /// The words of the error.
     Error(String),

@@ -18,6 +18,7 @@ const DEPTH: usize = 300;
 pub struct Math<'a, 'i>(Node<'a, 'i>);
 
 impl<'a, 'i> Math<'a, 'i> {
+    /// Makes it of an element of the file, without the brackets and wrappers around it.
     pub fn new(mut node: Node<'a, 'i>) -> Self {
         while node.tag_name().name() == "provenance"
             && let Some(last) = node.children().rfind(Node::is_element)
@@ -27,22 +28,27 @@ impl<'a, 'i> Math<'a, 'i> {
         Math(node)
     }
 
+    /// Returns the element's name, without its namespace.
     pub fn tag(self) -> &'a str {
         self.0.tag_name().name()
     }
 
+    /// Returns the elements inside it, in their order.
     pub fn parts(self) -> impl Iterator<Item = Math<'a, 'i>> {
         self.0.children().filter(Node::is_element).map(Math::new)
     }
 
+    /// Returns the element inside it at place `k`, from 0.
     pub fn part(self, k: usize) -> Read<Math<'a, 'i>> {
         self.parts().nth(k).ok_or_else(|| Unsupported(format!("an incomplete `{}`", self.tag())))
     }
 
+    /// Returns the text inside it; empty where there is none.
     pub fn text(self) -> &'a str {
         self.0.text().unwrap_or_default()
     }
 
+    /// Returns the value of an attribute.
     pub fn attribute(self, name: &str) -> Option<&'a str> {
         self.0.attribute(name)
     }
@@ -199,6 +205,7 @@ pub fn range(node: Math<'_, '_>) -> Read<String> {
     Ok(format!("{start} .. {end}"))
 }
 
+/// Returns an expression of the file in the text notation.
 pub fn expression(node: Math<'_, '_>) -> Read<String> {
     text(node, false)
 }

@@ -56,6 +56,7 @@ pub fn matrix(array: &Array) -> Element {
         .with_all(entries)
 }
 
+/// Makes the element of a real number.
 pub fn real(x: f64) -> Element {
     Element::with_text("ml:real", &number(x))
 }
@@ -84,6 +85,7 @@ pub fn number(x: f64) -> String {
     }
 }
 
+/// Makes the element of an expression in brackets.
 pub fn parens(x: Element) -> Element {
     Element::new("ml:parens").with(x)
 }

@@ -29,7 +29,9 @@ pub struct WithBound<V> {
 /// bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unsure {
+    /// The absolute difference of the two numbers.
     pub margin: f64,
+    /// The bound on the rounding error of the difference.
     pub bound: f64,
 }
 

@@ -53,6 +53,7 @@ impl F64x2 {
         F64x2::settled(two_sum(sum, rest), sum)
     }
 
+    /// Returns the two numbers whose sum it is, the larger first.
     pub fn halves(self) -> [f64; 2] {
         [self.hi, self.lo]
     }

@@ -38,6 +38,7 @@ pub trait Lu: Factors {
 pub struct Singular {
     /// The column, counted from 0.
     pub column: usize,
+    /// The smallest pivot over the largest; what is below rounding is singular.
     pub pivot: f64,
 }
 

@@ -11,6 +11,7 @@ use crate::scalar::Scalar;
 /// An iteration that stopped short of its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotConverged {
+    /// How many iterations it took.
     pub iterations: usize,
     /// The relative residual |A x − b| / (|A| |x| + |b|) after the last of them.
     pub residual: f64,

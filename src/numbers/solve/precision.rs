@@ -26,8 +26,10 @@ use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 use crate::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
 
+/// A solution of linear equations.
 #[derive(Clone, Debug)]
 pub struct Solved<T> {
+    /// The unknowns.
     pub x: DVector<T>,
     /// The relative residual |A x − b| / (|A| |x| + |b|), exactly 0 of an exact solution.
     pub residual: f64,
@@ -36,6 +38,7 @@ pub struct Solved<T> {
 /// What came of A x = b.
 pub type Outcome<T> = Result<Solved<T>, Unsolved>;
 
+/// A scalar in whose precision linear equations are solved.
 pub trait Precision: Scalar {
     /// Solves `a` x = `b` by a solver that [`check`](super::arithmetic::Arithmetic::check) must
     /// have passed; every solver but `dense-lu` and `sparse-lu` takes A for symmetric and reads its lower

@@ -3,8 +3,10 @@
 use super::ordering::{Tree, order, places};
 use super::symmetric::Pattern;
 
+/// The size of the factors of a sparse matrix, without its numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct FactorSize {
+    /// The number of equations.
     pub equations: usize,
     /// The number of entries of the lower triangle of A that are not 0.
     pub entries: usize,

@@ -152,6 +152,7 @@ impl<T: Clone> SparseSymmetric<T> {
         rows.iter().copied().zip(values.iter().cloned())
     }
 
+    /// Returns the matrix of what `f` makes of each entry.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
         self.try_map(|a| Some(f(a))).expect("every entry has a value")
     }
@@ -188,6 +189,7 @@ impl<T: Scalar> SparseSymmetric<T> {
         SparseSymmetric { pattern: Arc::new(Pattern { starts, rows }), values }
     }
 
+    /// Returns the product with a vector.
     pub fn times(&self, x: &DVector<T>) -> DVector<T> {
         let mut product = DVector::from_element(x.len(), T::zero());
         for j in 0..self.size() {
@@ -205,6 +207,7 @@ impl<T: Scalar> SparseSymmetric<T> {
         product
     }
 
+    /// Returns the entries of the diagonal.
     pub fn diagonal(&self) -> DVector<T> {
         let of_column = |j: usize| {
             let first = self.column(j).next();

@@ -158,9 +158,11 @@ pub struct Ambiguity {
     pub what: &'static str,
     /// The values; the first is the default where no scene and no variant sets one.
     pub values: &'static [Value],
+    /// Where the default comes from.
     pub default: DefaultFrom,
     /// Why this is the default.
     pub why: &'static str,
+    /// The value that `audit` tries beside the default.
     pub trial: Trial,
     /// Its field of a [`Reading`]; nothing where `--reading` does not offer it.
     field: Option<Field>,
@@ -168,9 +170,11 @@ pub struct Ambiguity {
 
 /// A value of an ambiguity.
 pub struct Value {
+    /// Its name, as in `R5=node_n`.
     pub name: &'static str,
     /// What it means.
     pub words: &'static str,
+    /// How the text of the listing changes.
     pub change: Change,
 }
 

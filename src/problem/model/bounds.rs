@@ -3,7 +3,9 @@
 /// A box with sides along the axes: its lowest and its highest coordinates, length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
+    /// The smallest x and y, length.
     pub low: [f64; 2],
+    /// The largest x and y, length.
     pub high: [f64; 2],
 }
 
@@ -17,15 +19,18 @@ impl Bounds {
         })
     }
 
+    /// Returns width and height, length.
     pub fn size(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.high[axis] - self.low[axis])
     }
 
+    /// Returns the larger of width and height, length.
     pub fn larger_side(&self) -> f64 {
         let [width, height] = self.size();
         width.max(height)
     }
 
+    /// Returns its centre, length.
     pub fn centre(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.low[axis] + self.size()[axis] / 2.0)
     }
@@ -40,6 +45,7 @@ impl Bounds {
         (0..2).all(|d| self.low[d] <= other.high[d] && other.low[d] <= self.high[d])
     }
 
+    /// Returns whether a point lies in it or on its border.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&point[axis]))
     }

@@ -134,6 +134,7 @@ impl NodeId {
 }
 
 impl Dof {
+    /// Returns its node.
     pub const fn node(self) -> NodeId {
         NodeId(self.0 / 2)
     }
@@ -143,6 +144,7 @@ impl Dof {
         self.index() % 2
     }
 
+    /// Returns `'x'` or `'y'`.
     pub const fn axis(self) -> char {
         ['x', 'y'][self.direction()]
     }

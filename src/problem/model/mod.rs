@@ -32,10 +32,12 @@ pub struct Material {
     pub nu: f64,
 }
 
+/// A triangle of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Triangle {
     /// The nodes of the corners, counter-clockwise.
     pub nodes: [NodeId; 3],
+    /// Its material.
     pub material: Material,
 }
 
@@ -66,6 +68,7 @@ pub struct Row {
     pub number: usize,
     /// The tag of the first physical group to which it belongs; 0 where it belongs to none.
     pub physical: usize,
+    /// The tag of the geometric entity to which it belongs.
     pub geometric: usize,
     /// The point, edge or triangle that the row describes.
     pub element: Element,
@@ -74,8 +77,11 @@ pub struct Row {
 /// The kind of an element of the mesh file, and its place in the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Element {
+    /// A point, by its node.
     Point(NodeId),
+    /// An edge of a group.
     Edge(EdgeId),
+    /// A triangle.
     Triangle(TriangleId),
 }
 
@@ -92,6 +98,7 @@ pub struct Model {
     pub z: f64,
     /// The triangles, in the order of the mesh file.
     pub triangles: Vec<Triangle>,
+    /// The sides of all triangles.
     pub sides: Sides,
     /// The edges that the mesh names, by ascending number.
     pub edges: Vec<Edge>,
@@ -109,6 +116,7 @@ pub struct Model {
     pub stages: Vec<DVector<f64>>,
     /// The bodies, by their lowest node.
     pub bodies: Vec<Body>,
+    /// The contact surfaces; both are empty where there is no contact.
     pub contact: ContactSurfaces,
     /// The elements of the mesh file, by ascending number.
     pub rows: Vec<Row>,
@@ -161,10 +169,12 @@ impl Model {
         self.nodes[node.index()]
     }
 
+    /// Returns a triangle.
     pub fn triangle(&self, id: TriangleId) -> &Triangle {
         &self.triangles[id.index()]
     }
 
+    /// Returns an edge.
     pub fn edge(&self, id: EdgeId) -> &Edge {
         &self.edges[id.index()]
     }
@@ -174,6 +184,7 @@ impl Model {
         self.triangle(id).nodes.map(|node| self.coordinates(node))
     }
 
+    /// Returns whether a degree of freedom is restrained.
     pub fn is_restrained(&self, dof: Dof) -> bool {
         self.restrained[dof.index()]
     }
@@ -218,6 +229,7 @@ impl Model {
         [0, 1].map(|direction| nodes.clone().map(|load| load[direction]).sum())
     }
 
+    /// Returns whether there are contact nodes and a target.
     pub fn has_contact(&self) -> bool {
         !self.contact.nodes.is_empty()
     }

@@ -11,11 +11,14 @@ pub struct Sides {
     beside: Vec<TriangleSide>,
 }
 
+/// A side of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct TriangleSide {
+    /// The triangle.
     pub triangle: TriangleId,
     /// The side's two nodes, in the order that leaves the triangle on their left.
     pub nodes: [NodeId; 2],
+    /// The triangle's node opposite the side.
     pub third: NodeId,
 }
 

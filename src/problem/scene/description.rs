@@ -20,6 +20,7 @@ use crate::modelling::{
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Description {
+    /// The title of pages and pictures.
     #[serde(default, skip_serializing_if = "is_default")]
     pub title: String,
     /// In a scene file, the name of a Gmsh file beside it; None where `node` and `elem` are given,
@@ -41,6 +42,7 @@ pub struct Description {
     /// The unit names for tables and pictures; no number is converted.
     #[serde(default, skip_serializing_if = "is_default")]
     pub units: Units,
+    /// The materials of the groups of triangles, by the group's name.
     pub materials: Materials,
     /// The displacements that are restrained to 0.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -153,15 +155,20 @@ pub struct Restraint {
     /// A physical group, all of whose nodes are restrained; None where `node` is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
+    /// A node, by its number in the mesh file; None where `on` names a group.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
+    /// The axes along which nothing moves.
     pub fix: Vec<Axis>,
 }
 
+/// An axis of the plane.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq, Hash, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
+    /// To the right.
     X,
+    /// Upwards.
     Y,
 }
 
@@ -169,6 +176,7 @@ pub enum Axis {
 #[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
+    /// What acts, and where.
     #[serde(flatten)]
     pub kind: LoadKind,
     /// The stage, from 1, in which `unilateral` applies the load, after the loads of the stages
@@ -180,6 +188,7 @@ pub struct Load {
 /// The kinds of load, each with its fields in a scene file.
 #[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
 #[serde(untagged)]
+#[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum LoadKind {
     /// A pressure on a group of edges that pushes into the body, stress.
     Pressure { on: GroupRef, pressure: f64 },

@@ -2,8 +2,11 @@
 
 /// A scene from `golden/<name>/`.
 pub struct Embedded {
+    /// The name by which the scene is opened.
     pub name: &'static str,
+    /// The text of the scene file.
     pub scene: &'static [u8],
+    /// The names and the bytes of the files beside it.
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
@@ -18,6 +21,7 @@ macro_rules! findings {
     };
 }
 
+/// The paper's example and two small scenes.
 pub const SCENES: &[Embedded] = &[
     Embedded {
         name: "strand",
@@ -32,6 +36,7 @@ pub const SCENES: &[Embedded] = &[
     },
 ];
 
+/// The smallest scene of each finding.
 #[rustfmt::skip]
 pub const FINDING_SCENES: &[Embedded] = findings![
     "C1", "C2", "C3", "C4", "C5", "C6", "C7", "C8", "C9", "C10", "C11", "C12", "C13", "C14", "C15",

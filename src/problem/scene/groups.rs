@@ -10,14 +10,18 @@ use super::mesh::{Element, Mesh};
 use base::error::{InputError, Result};
 use base::suggestion::did_you_mean;
 
+/// A physical group, as a scene file refers to it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum GroupRef {
+    /// By its name.
     Name(String),
+    /// By its tag.
     Tag(usize),
 }
 
 impl GroupRef {
+    /// Returns the name or the tag as text.
     pub fn text(&self) -> String {
         match self {
             GroupRef::Name(name) => name.clone(),

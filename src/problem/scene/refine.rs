@@ -20,6 +20,7 @@ use base::error::Result;
 /// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
 #[derive(Clone, Debug)]
 pub struct Refined {
+    /// The finer scene.
     pub scene: Scene,
     /// The ends of the edge that each new node halves, from node R + 1 on.
     pub parents: Vec<[NodeId; 2]>,

@@ -15,6 +15,7 @@ use base::suggestion::did_you_mean;
 pub struct SceneFile {
     /// The name for folders and reports.
     pub name: String,
+    /// What the file contains.
     pub text: Vec<u8>,
     files: Files,
 }

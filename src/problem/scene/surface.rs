@@ -9,9 +9,11 @@ use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
 use base::error::{InputError, Result};
 
+/// A contact surface, as a scene file describes it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Surface {
+    /// The edges of a physical group.
     Group(GroupRef),
     /// Node or `elem` numbers, in their order in the list.
     Numbers(Vec<usize>),

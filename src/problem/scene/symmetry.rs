@@ -21,8 +21,10 @@ const PLACE: f64 = 1e-9;
 /// The largest difference of a load from its image, over the largest load.
 const LOAD: f64 = 1e-9;
 
+/// The left half of a scene that is its own mirror image.
 #[derive(Clone, Debug)]
 pub struct Half {
+    /// The half as a scene.
     pub scene: Scene,
     /// The whole scene's node for each node of the half.
     pub nodes: Vec<NodeId>,

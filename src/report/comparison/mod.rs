@@ -19,16 +19,21 @@ pub use files::{Document, json, write};
 /// How many nodes are listed, those with the largest differences.
 const WORST: usize = 10;
 
+/// What a comparison with CalculiX compared.
 pub struct Compared<'a> {
     /// The scene, which names units and title.
     pub scene: &'a Scene,
+    /// The scene's model under the reading that was asked for.
     pub model: &'a Model,
+    /// The variant whose contact was given to `ccx`.
     pub variant: Variant,
     /// Whether rounding decides who is in contact in the run that is compared.
     pub certainty: Certainty,
     /// How the deck has the bodies touch; the last of several decks.
     pub contact: &'a Contact,
+    /// How many decks were run.
     pub decks: usize,
+    /// The version that `ccx` reports.
     pub version: &'a str,
     /// The results of both, and their differences.
     pub comparison: &'a Comparison,

@@ -12,7 +12,9 @@ use paper::mirror::{Pairs, Reading, Worksheet};
 pub struct Export<'a> {
     /// What the worksheet is called.
     pub title: &'a str,
+    /// The worksheet of the scene.
     pub sheet: &'a Worksheet<f64>,
+    /// The reading of the listings.
     pub reading: &'a Reading,
     /// The shape in which `c_cnt` is called.
     pub node_n: &'a Table<f64>,
@@ -26,6 +28,7 @@ pub struct Export<'a> {
 pub struct Run {
     /// The load vector, 0 at restrained equations, force. 2R.
     pub force: Vec<f64>,
+    /// How many iterations were run.
     pub iterations: usize,
     /// The pairs at the initial shape.
     pub pairs: Pairs<f64>,

@@ -40,6 +40,7 @@ pub fn percent(part: f64, decimals: usize) -> String {
     if is_nothing { text.trim_start_matches('-').into() } else { text }
 }
 
+/// Returns a point as text, `x, y`.
 pub fn coordinates([x, y]: [f64; 2], decimals: usize) -> String {
     format!("{x:.decimals$}, {y:.decimals$}")
 }

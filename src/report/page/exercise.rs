@@ -11,6 +11,7 @@ use paper::door;
 use paper::listings::Which;
 use studies::lesson::exercise::{ANSWERS, Exercise};
 
+/// Returns the page of a student's exercise.
 pub fn html(exercise: Exercise) -> String {
     let scene = exercise.scene();
     let sheet = door::worksheet(&scene.model, |x| x);

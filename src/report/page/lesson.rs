@@ -21,7 +21,9 @@ use studies::lesson::{Program, Run, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
+    /// The scene on which the listings are run.
     pub scene: Scene,
+    /// The runs: as printed, then with each switch.
     pub runs: Vec<Run>,
     /// What the scene is there to show, and what was measured on it.
     pub finding: Option<(&'static Finding, Evidence)>,

@@ -23,12 +23,15 @@ use studies::calculix::{Comparison, Fields};
 /// The shades of a field.
 const SHADES: u8 = 64;
 
-/// What a report testifies.
+/// What an audit report contains.
 pub struct Report<'a> {
+    /// The scene.
     pub scene: &'a Scene,
     /// What was asked, in words: what, and what it was set to.
     pub what: Vec<(&'a str, String)>,
+    /// The audit, where it was asked for.
     pub audit: Option<&'a Audit>,
+    /// The runs of the variants.
     pub runs: Vec<Run<'a>>,
     /// The run beside CalculiX, and how the two were run, in words.
     pub calculix: Option<(&'a Comparison, String)>,
@@ -38,10 +41,13 @@ pub struct Report<'a> {
 
 /// A run of a report.
 pub struct Run<'a> {
+    /// What was computed.
     pub solution: &'a Solution,
+    /// What is said of its errors.
     pub assessment: Assessment<'a>,
 }
 
+/// Returns the page.
 pub fn html(report: &Report) -> String {
     let scene = report.scene;
     let runs = report.runs.par_iter().map(run).collect::<Vec<Value>>();

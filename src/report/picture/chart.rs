@@ -32,15 +32,20 @@ pub struct Axis<'a> {
     pub logarithmic: bool,
 }
 
+/// A series of points of a chart.
 pub struct Series {
+    /// Its name in the legend.
     pub name: String,
     /// The places on the two axes, finite, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
+    /// How it is drawn.
     pub style: Style,
 }
 
+/// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
+    /// By dots alone.
     Dotted,
     /// A line without dots.
     Line,

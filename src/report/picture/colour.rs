@@ -18,6 +18,7 @@ const BAR_HEIGHT: f64 = 16.0;
 /// How many strips of one colour make the bar.
 const BAR_STEPS: u32 = 128;
 
+/// The colours of a range of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourScale {
     low: f64,

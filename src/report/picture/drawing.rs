@@ -18,6 +18,7 @@ pub struct Drawing {
     pub triangles: Vec<[usize; 3]>,
     /// The region of each triangle: 0 is the block (the target), then the stamp and other bodies.
     pub region: Vec<usize>,
+    /// The name of each region, by its number.
     pub region_names: Vec<String>,
     /// The unit of lengths, empty where the scene names none.
     pub length_unit: String,
@@ -50,6 +51,7 @@ pub struct Field<'a> {
 }
 
 impl Drawing {
+    /// Collects what the pictures of a scene need.
     pub fn new(scene: &Scene, title: &str) -> Self {
         let model = &*scene.model;
         let (region, region_names) = regions(model);

@@ -30,14 +30,19 @@ const BAR_WIDTH: f64 = 640.0;
 /// A scale bar is up to a quarter as long as its panel is wide, or as one of this width, pixels.
 const SCALE_BAR: f64 = 240.0;
 
+/// An entry of a legend, with its colour.
 pub enum Sign {
+    /// A filled area.
     Body(&'static str),
     /// A dot, for a node or a point of a chart.
     Node(&'static str),
+    /// A line.
     Edge(&'static str),
+    /// A circle.
     Ring(&'static str),
 }
 
+/// A picture of several panels, one below the other.
 pub struct Page {
     title: String,
     content: Element,
@@ -57,6 +62,7 @@ impl Page {
         page
     }
 
+    /// Writes a paragraph below what is there.
     pub fn paragraph(&mut self, words: &str) {
         for words in wrap(words, TEXT_SIZE, INNER) {
             self.y += TEXT_SIZE * 1.45;
@@ -88,6 +94,7 @@ impl Page {
         self.y = views[0].frame.corner[1] + views[0].frame.size[1] + 44.0;
     }
 
+    /// Draws the colours of a quantity with their values.
     pub fn colour_bar(&mut self, scale: &ColourScale, quantity: &str, unit: &str) {
         self.paragraph(&scale.heading(quantity, unit));
         // Indented: half of a tick's label stands out at either end.
@@ -112,6 +119,7 @@ impl Page {
         self.y += 30.0;
     }
 
+    /// Returns the text of the SVG file.
     pub fn finish(self) -> String {
         document([WIDTH, (self.y + MARGIN / 2.0).ceil()], &self.title, self.content)
     }

@@ -16,12 +16,17 @@ pub const TITLE_SIZE: f64 = 20.0;
 /// The colour of text, axes and frames.
 pub const DARK: &str = "#222222";
 
+/// A point of the picture: x to the right, y downwards, pixels.
 pub type Pixel = [f64; 2];
 
+/// Which point of a text stands at its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
+    /// Where it starts.
     Start,
+    /// Its middle.
     Middle,
+    /// Where it ends.
     End,
 }
 
@@ -40,6 +45,7 @@ pub fn document([width, height]: [f64; 2], title: &str, content: Element) -> Str
         .document()
 }
 
+/// Makes an empty group.
 pub fn group() -> Element {
     Element::new("g")
 }
@@ -54,6 +60,7 @@ pub fn line([x1, y1]: Pixel, [x2, y2]: Pixel) -> Element {
     shape("line", [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)])
 }
 
+/// Makes a circle around its centre.
 pub fn circle([x, y]: Pixel, radius: f64) -> Element {
     shape("circle", [("cx", x), ("cy", y), ("r", radius)])
 }
@@ -70,6 +77,7 @@ fn shape<const N: usize>(name: &'static str, lengths: [(&str, f64); N]) -> Eleme
     lengths.into_iter().fold(Element::new(name), set)
 }
 
+/// Makes a polygon from its corners.
 pub fn polygon(corners: &[Pixel]) -> Element {
     Element::new("polygon").set("points", places(corners))
 }

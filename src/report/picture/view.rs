@@ -14,6 +14,7 @@ pub fn with_ratio(bounds: &Bounds, ratio: f64) -> Bounds {
     }
 }
 
+/// A rectangle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The upper left corner, pixels.
@@ -25,20 +26,25 @@ pub struct Frame {
 /// A box of the mesh in the middle of a frame, as large as it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
+    /// Where it is drawn.
     pub frame: Frame,
     /// Pixels per unit of length.
     pub scale: f64,
+    /// Whether it shows a part larger than the whole is shown.
     pub enlarged: bool,
+    /// The point of the mesh in the middle of the frame, length.
     pub centre: [f64; 2],
 }
 
 impl View {
+    /// The view of the whole mesh.
     pub fn whole(bounds: &Bounds, frame: Frame) -> Self {
         let size = bounds.size();
         let scale = (frame.size[0] / size[0]).min(frame.size[1] / size[1]);
         Self { frame, scale, enlarged: false, centre: bounds.centre() }
     }
 
+    /// The view of a part of the mesh, larger.
     pub fn enlarged(bounds: &Bounds, frame: Frame) -> Self {
         Self { enlarged: true, ..Self::whole(bounds, frame) }
     }

@@ -23,6 +23,7 @@ use studies::snapshot::{
 pub struct VerifiedFile {
     /// The name of the file, as given.
     pub file: String,
+    /// What verifying it found, or why it could not be verified.
     pub verified: Result<Verified, Error>,
 }
 

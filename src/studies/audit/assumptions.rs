@@ -9,6 +9,7 @@ use problem::scene::Scene;
 /// A thing that the paper leaves open.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assumption {
+    /// What is assumed.
     pub what: &'static str,
     /// What the scene has.
     pub set_to: String,

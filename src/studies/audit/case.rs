@@ -17,6 +17,7 @@ use problem::scene::Scene;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
+    /// The scene.
     pub scene: Scene,
     base: Request,
     /// In which all runs are made.

@@ -26,6 +26,7 @@ use range::Range;
 use readings::Effect;
 use variants::VariantRow;
 
+/// The results of an audit.
 pub struct Audit {
     /// What the paper says, each with its verdict, in the order of its text.
     pub claims: Vec<JudgedClaim>,
@@ -64,6 +65,7 @@ pub struct FrictionContact {
 pub struct Compared {
     /// How contact was modelled.
     pub model: ContactModel,
+    /// How many contact nodes are in contact.
     pub in_contact: usize,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,

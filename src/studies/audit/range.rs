@@ -79,7 +79,9 @@ fn decimal(length: f64) -> f64 {
 /// A parameter at one of its values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterValue {
+    /// The parameter.
     pub parameter: Parameter,
+    /// Its value, in the parameter's unit.
     pub value: f64,
     /// Whether it is the paper's example as we assume it.
     pub own: bool,

@@ -22,6 +22,7 @@ pub struct Effect {
     pub id: &'static str,
     /// The value that differs from the default, such as `R1 = inside`.
     pub reading: String,
+    /// The lines of the listing that it concerns.
     pub lines: &'static str,
     /// Contact nodes whose dy changes at the initial shape; nothing where that was not computed.
     pub statuses: Option<usize>,

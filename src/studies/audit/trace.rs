@@ -19,9 +19,11 @@ pub struct Trace {
     pub steps: Vec<Step>,
     /// Whether there were more than are kept.
     pub is_cut: bool,
+    /// What the listing returned, or why it failed.
     pub result: Result<Product, Box<Failure>>,
 }
 
+/// What a listing returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Product {
     /// What `c_cnt` computes: ct, yt, dy, k_cnt.
@@ -30,6 +32,7 @@ pub enum Product {
     Matrix(Table<f64>),
 }
 
+/// A statement that was executed.
 pub struct Step {
     /// The contact node's place in `cnt`, or the element's row in `EL`; nothing outside the loops.
     pub turn: Option<usize>,
@@ -48,16 +51,19 @@ pub struct Step {
     pub writes: Vec<Access>,
 }
 
+/// A value that was read or written.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Access {
     /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,
+    /// The value.
     pub value: Json,
 }
 
 /// Statements, as many as are kept at once.
 #[derive(Default)]
 pub struct Kept {
+    /// The statements.
     pub steps: Vec<Step>,
     /// The numbers that they read and wrote, and one more for each name.
     numbers: usize,

@@ -11,18 +11,23 @@ use engine::{BodySummary, Cycle, Distance, Solution, distance, summaries};
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
+/// A variant and what came of its run.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VariantRow {
+    /// The variant.
     pub variant: Variant,
     /// Whether rounding decides who is in contact; nothing of a failure.
     pub certainty: Option<Certainty>,
+    /// What came of it.
     #[serde(flatten)]
     pub end: End,
 }
 
+/// What came of the run of a variant.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum End {
+    /// It has a result.
     Result {
         /// Number of contact nodes with dy = 1, by iteration.
         in_contact: Vec<usize>,
@@ -42,8 +47,10 @@ pub enum End {
         distance: Option<Distance>,
         /// The largest friction coefficient that a node in contact would need not to slide.
         friction_needed: Option<f64>,
+        /// The nodes in contact that the target pulls.
         pulling: Vec<NodeId>,
     },
+    /// It has none.
     Failure {
         /// Why the run ended without a result.
         failure: String,

@@ -39,6 +39,7 @@ use problem::scene::{Contact, MeshBuilder, SceneBuilder};
 
 /// A benchmark with its parameters.
 #[derive(Clone, Debug, clap::Subcommand)]
+#[expect(missing_docs, reason = "the parameters of each say what it is, and are its page of help")]
 pub enum Kind {
     Blocks(Blocks),
     PunchPatch(PunchPatch),

@@ -8,10 +8,13 @@ use problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
 pub struct Comparison {
+    /// What this program computed.
     pub ours: Fields,
+    /// What `ccx` computed.
     pub theirs: Fields,
     /// Von Mises stress of each triangle, by this program and by CalculiX.
     pub von_mises: [Vec<f64>; 2],
+    /// The differences of the displacements, by node.
     pub displacement: Difference<NodeId>,
     /// Stresses, by triangle: the largest component of sigma_x, sigma_y, tau_xy; relative to
     /// CalculiX's largest von Mises stress.
@@ -33,6 +36,7 @@ pub struct Difference<Place> {
 /// The largest difference, where it is, and against what: every share is of CalculiX's value.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Largest<Place> {
+    /// Where it is.
     pub at: Place,
     /// The difference there, length or stress.
     pub difference: f64,
@@ -42,8 +46,10 @@ pub struct Largest<Place> {
     pub relative: Option<f64>,
 }
 
+/// The stresses of a body by both programs.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BodyStress {
+    /// The name of the body.
     pub name: String,
     /// Its largest stress by this program.
     pub ours: f64,

@@ -21,13 +21,17 @@ choices! {
     }
 }
 
+/// What `ccx` is asked to solve.
 pub struct Problem<'a> {
+    /// The scene.
     pub scene: &'a Scene,
     /// The scene's model under the reading that was asked for.
     pub model: &'a Model,
+    /// How its contact is given to `ccx`.
     pub contact: &'a Contact,
 }
 
+/// How contact is given to `ccx`.
 #[derive(Clone, Debug)]
 pub enum Contact {
     /// By these equations, which `ccx` satisfies, and the friction of sliding nodes by degree of
@@ -42,11 +46,13 @@ pub enum Contact {
 pub struct Pair {
     /// Pressure over penetration, stress/length.
     pub penalty: f64,
+    /// The coefficient of friction, or that nothing slides.
     pub friction: Friction,
 }
 
 /// One of the problems whose sum is a run: the whole load on one contact state.
 pub struct Part {
+    /// Its contact.
     pub contact: Contact,
     /// Its share of the run, from 0 to 1.
     pub share: f64,
@@ -60,8 +66,8 @@ impl Contact {
         }
         let what = "the variant printed adds stiffness and constrains nothing: there are no \
                     equations to write";
-        let fix = "choose tied, stepped or unilateral, or --contact pair";
-        Err(InputError::new("--variant", what, fix))
+        let fix = "choose tied, stepped or unilateral, or a contact pair";
+        Err(InputError::new("variant", what, fix))
     }
 
     /// The problems whose sum a solution is. With total load that is its last step. With stepped
@@ -135,6 +141,7 @@ pub struct Equation {
 }
 
 impl Equation {
+    /// Returns the equations of the nodes that are in contact in an iteration.
     pub fn of_step(model: &Model, step: &Step) -> Vec<Equation> {
         let of = |constraint: &Constraint| Equation::of_constraint(model, constraint);
         step.constraints.iter().flat_map(of).collect()

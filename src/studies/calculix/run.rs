@@ -26,6 +26,7 @@ const RESULTS: u64 = 1 << 31;
 pub struct CalculixRun {
     /// The version that `ccx` reports.
     pub version: String,
+    /// Its displacements and stresses.
     pub fields: Fields,
 }
 
@@ -81,7 +82,7 @@ fn version(program: &str) -> Result<String> {
 fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
     let fault = |what: String| {
         let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
-                   its program with --ccx";
+                   its program";
         InputError::new("ccx", what, fix)
     };
     let (mut child, output) = start(program, args, folder)

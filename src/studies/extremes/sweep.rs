@@ -12,7 +12,9 @@ use numbers::solve::ScalarName;
 /// Fewer right digits than these, and an engineer is misled.
 pub const LEAST: f64 = 3.0;
 
+/// A family of scenes in which one magnitude becomes extreme.
 pub struct Generator {
+    /// Its name.
     pub name: &'static str,
     /// What the generator tries, in a line for people.
     pub title: &'static str,
@@ -68,24 +70,33 @@ impl Method {
     }
 }
 
+/// What the methods made of the scenes of a generator.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SweepTable {
+    /// The generator's name.
     pub name: &'static str,
+    /// What the generator tries, in a line for people.
     pub title: &'static str,
     /// What was swept, with its unit.
     pub magnitude: &'static str,
+    /// The magnitudes in words.
     pub labels: Vec<String>,
     /// The magnitudes; the number of a case, from 1, where they are no numbers.
     pub magnitudes: Vec<f64>,
+    /// Whether the magnitudes are powers of ten.
     pub logarithmic: bool,
+    /// The verdicts, a column for each method.
     pub columns: Vec<Column>,
 }
 
+/// The verdicts on a method.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Column {
     /// The method's name: variant or remedy, and scalar.
     pub name: String,
+    /// The digits that the method's scalar carries.
     pub carried: f64,
+    /// A verdict for each magnitude.
     pub verdicts: Vec<Verdict>,
     /// Where it breaks down towards smaller magnitudes.
     pub below: Option<Break>,
@@ -93,10 +104,12 @@ pub struct Column {
     pub above: Option<Break>,
 }
 
+/// Where a method breaks down.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Break {
     /// Power of ten, bisected to half a decade.
     pub exponent: f64,
+    /// The verdict there.
     pub verdict: Verdict,
 }
 
@@ -113,6 +126,7 @@ impl Generator {
         Generator { name, title, magnitude, sweep, methods }
     }
 
+    /// Runs all methods on all magnitudes.
     pub fn measure(&self) -> SweepTable {
         let Generator { name, title, magnitude, ref sweep, ref methods } = *self;
         let points = sweep.points();

@@ -11,7 +11,9 @@ use engine::error::Error;
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "verdict", content = "detail", rename_all = "lowercase")]
 pub enum Verdict {
+    /// The exact answer.
     Exact,
+    /// An answer with so many right digits.
     Digits(f64),
     /// An answer without a right digit, and in what: a silent wrong answer.
     Wrong(&'static str),
@@ -35,6 +37,7 @@ impl Verdict {
         }
     }
 
+    /// Returns the verdict on a status: exact if it is the right one, else wrong.
     pub fn of_status(same: bool) -> Self {
         if same { Verdict::Exact } else { Verdict::Wrong("contact") }
     }

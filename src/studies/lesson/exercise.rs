@@ -23,7 +23,9 @@ const WEIGHT: f64 = 0.0051;
 /// The exercise of a student: a number, and the seed of the class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Exercise {
+    /// The number of the student in the class.
     pub exercise: u64,
+    /// The seed of the class.
     pub seed: u64,
 }
 
@@ -48,19 +50,28 @@ pub struct Answer {
 pub struct Answers {
     /// [`ANSWERS`].
     pub kind: String,
+    /// The number of the student in the class.
     pub exercise: u64,
+    /// The seed of the class.
     pub seed: u64,
+    /// The student's name.
     pub student: String,
+    /// An answer for each contact node.
     pub answers: Vec<Answer>,
 }
 
 /// A value that was asked for: what was said, and what the listing finds.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Mark {
+    /// The number of the contact node.
     pub node: usize,
+    /// What was asked for.
     pub of: &'static str,
+    /// What the student says; null where he says nothing.
     pub said: Option<f64>,
+    /// What the listing finds.
     pub found: f64,
+    /// Whether that is the same.
     pub right: bool,
 }
 

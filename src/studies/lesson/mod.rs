@@ -25,6 +25,7 @@ const MOST_SHOWN: usize = 20_000;
 
 /// Both listings on a scene under a switch.
 pub struct Run {
+    /// What is changed for the run.
     pub switch: Switch,
     /// The model under the switch.
     pub model: Arc<Model>,
@@ -36,7 +37,9 @@ pub struct Run {
 
 /// A listing and what it did.
 pub struct Program {
+    /// The listing, as it was executed.
     pub listing: Listing,
+    /// What was executed.
     pub trace: Trace,
 }
 
@@ -65,7 +68,7 @@ pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
     let steps = traces().map(|trace| trace.steps.len()).sum::<usize>();
     if steps > MOST_SHOWN || traces().any(|trace| trace.is_cut) {
         let what = format!("the listings take more steps than the {MOST_SHOWN} that a page shows");
-        let fix = "choose contact nodes, such as --nodes 5,6";
+        let fix = "choose contact nodes, such as 5 and 6";
         return Err(InputError::new("SCENE", what, fix).into());
     }
     Ok(Run { switch, model, c_cnt, km })
@@ -76,7 +79,7 @@ fn check(model: &Model, nodes: &[usize]) -> Result<(), InputError> {
     match nodes.iter().find(|n| !is_contact(n)) {
         Some(n) => {
             let what = format!("node {n} is no contact node");
-            Err(InputError::new("--nodes", what, "name nodes of the contact surface"))
+            Err(InputError::new("nodes", what, "name nodes of the contact surface"))
         }
         None => Ok(()),
     }

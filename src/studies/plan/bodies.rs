@@ -21,14 +21,20 @@ choices! {
     }
 }
 
+/// A body of a planned run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BodyPlan {
+    /// The body's name.
     pub name: String,
+    /// The number of its nodes.
     pub nodes: usize,
+    /// The number of its triangles.
     pub triangles: usize,
+    /// The number of its free degrees of freedom.
     pub free: usize,
     /// Width and height, length.
     pub size: [f64; 2],
+    /// Whether it has contact nodes or target edges.
     pub in_contact: bool,
     /// Why it does not move; nothing where it may.
     pub idle: Option<Idle>,

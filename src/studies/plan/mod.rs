@@ -43,28 +43,40 @@ choices! {
     }
 }
 
+/// What a run will take.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plan {
+    /// The name of the scene.
     pub scene: String,
+    /// The variant that would run.
     pub variant: Variant,
+    /// The number of nodes.
     pub nodes: usize,
+    /// The number of triangles.
     pub triangles: usize,
+    /// Its bodies.
     pub bodies: Vec<BodyPlan>,
     /// The sum of the loads along x and y, force.
     pub load: [f64; 2],
     /// The largest nominal strain of a body: the loads on it, without their signs, over width or height,
     /// thickness and elastic modulus; nothing without a load.
     pub nominal_strain: Option<f64>,
+    /// The numbers of its equations.
     pub equations: Equations,
     /// The contact; nothing where the scene has none.
     pub contact: Option<ContactPlan>,
+    /// The numbers in which it would run.
     pub scalar: ScalarName,
+    /// The solver that would be used.
     pub solver: Solver,
+    /// How the matrix would be stored.
     pub storage: Storage,
+    /// The size of the factors.
     pub factors: FactorSize,
     /// The equations to which the bodies are condensed, on which every contact state is solved; None
     /// without contact, and where the whole matrix of each state is factored.
     pub condensed: Option<usize>,
+    /// The operations, the memory and the time.
     pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
     pub orphans: usize,
@@ -72,10 +84,12 @@ pub struct Plan {
     pub half: Option<HalfPlan>,
 }
 
+/// The numbers of equations of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Equations {
     /// Number of all equations, 2R.
     pub all: usize,
+    /// Number of restrained equations.
     pub restrained: usize,
     /// Free equations, before constraints take out those of nodes in contact.
     pub free: usize,
@@ -86,10 +100,12 @@ pub struct Equations {
     pub idle: usize,
 }
 
+/// The left half of a symmetric scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct HalfPlan {
     /// Where the line of symmetry stands: x, length.
     pub at: f64,
+    /// The number of its nodes.
     pub nodes: usize,
 }
 

@@ -26,6 +26,7 @@ pub struct Acceptance {
     pub bounds: Option<f64>,
     /// How many numbers of the entry changed by more than that; null of facts.
     pub differing: Option<usize>,
+    /// Why it was accepted.
     pub reason: String,
     /// The version of the program that gave the new value.
     pub version: String,
@@ -54,7 +55,7 @@ pub fn accept(
 ) -> Result<Vec<Acceptance>> {
     if chosen.reason.trim().is_empty() {
         let fix = "say why the new value is right";
-        return Err(InputError::new("--reason", "the reason is empty", fix));
+        return Err(InputError::new("reason", "the reason is empty", fix));
     }
     chosen.entry.map_or(Ok(()), |entry| check_entry(entry, snapshot, verified))?;
     let [was, is] = [&snapshot.input, &verified.input]
@@ -63,7 +64,7 @@ pub fn accept(
     if was != is {
         if chosen.entry.is_some() {
             let what = "another scene is accepted with all that it gives";
-            return Err(InputError::new("--entry", what, "leave it out"));
+            return Err(InputError::new("entry", what, "leave it out"));
         }
         let (entry, from, to) = ("input".into(), json!(was), json!(is));
         let (reason, version) = (chosen.reason.into(), VERSION.into());
@@ -83,7 +84,7 @@ pub fn accept(
         let what = "nothing differs in what is to be accepted";
         let fix =
             "see `plane-contact snapshot verify`; an entry is named run/entry, such as stepped/u";
-        return Err(InputError::new("--entry", what, fix));
+        return Err(InputError::new("entry", what, fix));
     }
     snapshot.input = verified.input.clone();
     if chosen.entry.is_none() {
@@ -121,7 +122,7 @@ fn check_entry(entry: &str, snapshot: &Snapshot, verified: &Verified) -> Result<
     }
     let fix = did_you_mean(entry, names.iter().map(String::as_str))
         + "name a run, or run/entry, such as stepped/u";
-    Err(InputError::new("--entry", format!("no run or entry is named {entry:?}"), fix))
+    Err(InputError::new("entry", format!("no run or entry is named {entry:?}"), fix))
 }
 
 /// Checks that the differences `taken` of a run may be accepted.
@@ -134,7 +135,7 @@ fn check_run(new: &VerifiedRun, taken: &[&Difference], failing: bool) -> Result<
     if fails && !failing {
         let failure = new.run.facts.get("failure").cloned().unwrap_or_default();
         let what = format!("run {:?} fails now: {failure}", new.name);
-        let fix = "nothing was accepted; where the failure is expected, say so with --failing";
+        let fix = "nothing was accepted; where the failure is expected, ask for `failing`";
         return Err(InputError::new("exit status", what, fix));
     }
     if let Some(missed) = taken.iter().find(|d| matches!(d.kind, Kind::Expected { .. })) {

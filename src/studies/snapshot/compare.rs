@@ -17,6 +17,7 @@ use super::place::place;
 pub struct Difference {
     /// The name of the entry.
     pub entry: String,
+    /// What differs.
     #[serde(flatten)]
     pub kind: Kind,
 }
@@ -24,6 +25,7 @@ pub struct Difference {
 /// What differs.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "`was` is the old run's and `is` the new one's")]
 pub enum Kind {
     /// The entry is in the old run alone.
     Missing,

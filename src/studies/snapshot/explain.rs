@@ -42,23 +42,29 @@ choices! {
 pub struct Side<'a> {
     /// The version of the program that recorded it.
     pub version: &'a str,
+    /// What was given to it.
     pub input: &'a Input,
+    /// What was recorded.
     pub run: &'a Run,
 }
 
 /// A difference of what went into two runs.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cause {
+    /// What kind of cause it is.
     pub class: Class,
     /// The field: `scene materials.block.E`, `mesh node 7 x`, `reading R2`.
     pub place: String,
+    /// What it was in the old run.
     pub was: String,
+    /// What it is in the new run.
     pub is: String,
 }
 
 /// The reason why two runs differ.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Explanation {
+    /// What kind of cause comes first.
     pub class: Class,
     /// The first cause.
     pub cause: String,
@@ -179,7 +185,7 @@ fn mesh(causes: &mut Vec<Cause>, old: &Mesh, new: &Mesh) {
         let turned = was.nodes.iter().rev().eq(&is.nodes) && was.nodes.len() == 2;
         let row =
             |e: &Element| format!("{:?} of type {}, groups {:?}", e.nodes, e.kind, e.physical);
-        let word = if turned { " (turned round)" } else { "" };
+        let word = if turned { " (reversed)" } else { "" };
         add(format!("mesh elem {}", was.number), row(was), row(is) + word);
     }
 }

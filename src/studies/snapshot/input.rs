@@ -18,6 +18,7 @@ pub struct Input {
     pub mesh_sha256: String,
     /// The fields of the scene file, without those of its mesh.
     pub scene: Description,
+    /// The mesh.
     pub mesh: Mesh,
 }
 
@@ -59,8 +60,8 @@ impl Input {
                     "{field} was changed after it was recorded: its SHA-256 is {is}, and \
                      {field}_sha256 says {said}"
                 );
-                let fix = "undo the change; a changed scene is compared with --scene, or recorded \
-                           anew";
+                let fix = "undo the change; a changed scene is compared as a scene of its \
+                           own, or recorded anew";
                 return Err(InputError::new(format!("input.{field}"), what, fix));
             }
         }

@@ -181,7 +181,7 @@ impl Snapshot {
             let name = Options::from_request(request).name();
             if !names.insert(name.clone()) {
                 let what = format!("{name} is asked for twice");
-                return Err(InputError::new("--variant", what, "name it once").into());
+                return Err(InputError::new("variant", what, "name it once").into());
             }
         }
         let recorded: engine::error::Result<Vec<Run>> =

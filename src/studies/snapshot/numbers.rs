@@ -25,6 +25,7 @@ pub struct Numbers {
     /// The tolerance of a comparison in place of the bounds, where a user gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerance>,
+    /// The numbers.
     pub values: Values,
 }
 

@@ -26,23 +26,31 @@ pub struct Options {
     #[serde(skip_serializing_if = "is_default", with = "as_text")]
     #[schemars(with = "String")]
     pub reading: Reading,
+    /// The coupling of a contact node to the target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
+    /// The coefficient of friction, or that nothing slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
+    /// The shape in which equilibrium is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,
+    /// In how many steps the load is applied.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_steps: Option<usize>,
+    /// The rule that decides who is in contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub status: Option<StatusRule>,
+    /// The numbers in which it ran.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scalar: Option<ScalarName>,
+    /// The solver of its equations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<Solver>,
     /// The largest relative residual at which an iterative solver stops.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tol: Option<f64>,
+    /// Which numbers are given: as they are written, or rounded to single precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inputs: Option<Inputs>,
 }

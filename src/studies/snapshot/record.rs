@@ -26,7 +26,9 @@ const ROUNDED: f64 = 64.0 * f64::EPSILON;
 /// Whether the bounds on rounding errors are computed, which takes another run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bounds {
+    /// They are.
     Computed,
+    /// They are not.
     LeftOut,
 }
 

@@ -203,6 +203,7 @@ impl Cases {
         self.grid.iter().map(|(_, values)| values.len()).product::<usize>() * self.list.len()
     }
 
+    /// Returns whether there is no case.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -22,6 +22,7 @@ pub struct Attempt {
     pub outcome: Outcome,
 }
 
+/// What came of an attempt.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Why it was not run.
@@ -32,8 +33,10 @@ pub enum Outcome {
     Bound(f64),
 }
 
+/// A solution of the accuracy that was asked for.
 #[derive(Clone, Debug)]
 pub struct AccurateSolution {
+    /// The solution.
     pub solution: Solution,
     /// What was tried, the last one with success.
     pub attempts: Vec<Attempt>,
@@ -48,7 +51,7 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
     }
     let what = format!("the accuracy {accuracy:e} is not between 0 and 1");
     let fix = "give a relative error of the displacements, as 1e-3";
-    Err(InputError::new("--accuracy", what, fix))
+    Err(InputError::new("accuracy", what, fix))
 }
 
 /// Solves `request` in a session in the cheapest precision in which the relative error of the displacements, by
@@ -154,5 +157,5 @@ fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
         [_] => "ask for less: unilateral runs in f64 only",
         _ => "ask for less",
     };
-    InputError::new("--accuracy", what, fix)
+    InputError::new("accuracy", what, fix)
 }

@@ -19,10 +19,12 @@ use problem::scene::{Refined, Scene, symmetry};
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
 pub const PATIENCE: f64 = 0.05;
 
+/// What is measured, and how often.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// How many times each trial is run, in turn: A B C A B C ...
     pub runs: usize,
+    /// The parameters that are varied; all where the list is empty.
     pub only: Vec<Varied>,
 }
 

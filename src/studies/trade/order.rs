@@ -20,6 +20,7 @@ use serde::Serialize;
 /// An order of convergence and its fit.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Order {
+    /// The quantity whose error it is.
     pub quantity: &'static str,
     /// Differences between neighbouring meshes, over the finest one's value, the coarsest first.
     pub differences: Vec<f64>,

@@ -15,15 +15,22 @@ use problem::modelling::Variant;
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Trade {
+    /// The name of the scene.
     pub scene: String,
+    /// The number of its nodes.
     pub nodes: usize,
+    /// The number of its triangles.
     pub triangles: usize,
+    /// How many times each trial is run.
     pub runs: usize,
+    /// A section for each parameter.
     pub sections: Vec<Section>,
 }
 
+/// The trials of a parameter.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Section {
+    /// The parameter.
     pub parameter: Varied,
     /// What errors are measured against, in words.
     pub against: &'static str,
@@ -66,17 +73,20 @@ pub struct Row {
     /// The same in numbers; of geometry only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<ParameterValue>,
+    /// The variant that ran.
     pub variant: Variant,
     /// In which numbers and by which solver; not in the files, where the label names it.
     #[serde(skip)]
     pub arithmetic: Arithmetic,
     /// Number of degrees of freedom, restrained ones included.
     pub equations: usize,
+    /// How many nodes are in contact at the end; null of a failure.
     pub in_contact: Option<usize>,
     /// Iterations after which the contact state at the end returns; 1 = settled.
     pub cycle: Option<usize>,
     /// Median of the times of its runs, s.
     pub seconds: Option<f64>,
+    /// How many times it was run.
     pub runs: usize,
     /// The most memory of a process that did nothing else, bytes.
     pub peak_bytes: Option<u64>,
@@ -88,8 +98,10 @@ pub struct Row {
     /// Whether rounding decides who is in contact; nothing of a failure and of a parameter that has no
     /// verdict.
     pub certainty: Option<Certainty>,
+    /// Whether this is where the scene has the parameter.
     pub own: bool,
     /// Whether no other row of the section is quicker and nearer.
     pub pareto: bool,
+    /// Why it has no result; null where it has one.
     pub failure: Option<String>,
 }

@@ -43,13 +43,20 @@ pub enum ErrorReference {
     Trial(usize),
 }
 
+/// A run with one parameter changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
+    /// The parameter.
     pub parameter: Varied,
+    /// Its value in words.
     pub label: String,
+    /// The variant that runs.
     pub variant: Variant,
+    /// The numbers in which it runs, and the solver.
     pub arithmetic: Arithmetic,
+    /// What else is changed.
     pub setting: Setting,
+    /// What its error is measured against.
     pub against: ErrorReference,
     /// Whether this is where the scene has the parameter.
     pub own: bool,

@@ -10,9 +10,11 @@ use thiserror::Error;
 pub struct GmshError {
     /// The place where the fault was found.
     pub place: Place,
+    /// What is wrong there.
     pub fault: Fault,
 }
 
+/// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The number of a line of a text file, from 1.
@@ -31,6 +33,7 @@ impl fmt::Display for Place {
 }
 
 #[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the message of each says what its values are")]
 pub enum Fault {
     #[error("it cannot be read on: {why}")]
     Broken { why: String },

@@ -77,6 +77,7 @@ impl MeshBuilder {
         self.triangles(group, triangles);
     }
 
+    /// Adds the edges along each of `rows`, lists of node numbers, to a physical group.
     pub fn join_all(&mut self, group: &str, rows: &[Vec<usize>]) {
         rows.windows(2).for_each(|pair| self.join(group, &pair[0], &pair[1]));
     }

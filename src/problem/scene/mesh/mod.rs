@@ -44,9 +44,11 @@ pub struct Mesh {
     pub elements: Vec<Element>,
 }
 
+/// A node of the mesh file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "NodeRow", into = "NodeRow")]
 pub struct Node {
+    /// Its number in the file.
     pub number: usize,
     /// The coordinates x, y, z, length.
     pub xyz: [f64; 3],
@@ -76,7 +78,9 @@ pub struct Element {
     pub kind: usize,
     /// The tags of the physical groups to which it belongs, ascending.
     pub physical: Tags,
+    /// The tag of the geometric entity to which it belongs.
     pub geometric: usize,
+    /// The numbers of its nodes, in the file's order.
     pub nodes: NodeNumbers,
 }
 
@@ -107,13 +111,16 @@ pub type Tags = SmallVec<[usize; 1]>;
 /// The numbers of the nodes of an element.
 pub type NodeNumbers = SmallVec<[usize; 3]>;
 
+/// The name of a physical group.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "(usize, usize, String)", into = "(usize, usize, String)")]
 pub struct PhysicalName {
     /// The dimension of the group's elements: 0 points, 1 edges, 2 triangles. Tags of different
     /// dimensions are independent.
     pub dim: usize,
+    /// The group's tag.
     pub tag: usize,
+    /// The group's name.
     pub name: String,
 }
 

@@ -75,6 +75,7 @@ choices! {
 
 choices! {
     /// Whether what the paper says is so.
+    #[expect(missing_docs, reason = "the names say it")]
     Verdict {
         True = "true",
         /// Under a condition, which the detail says.
@@ -106,7 +107,9 @@ type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 /// A verdict, the number that the claim names, and what else is to be said.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Evidence {
+    /// The verdict.
     pub verdict: Verdict,
+    /// The number that the claim names; None where it names none or cannot be checked.
     pub number: Option<f64>,
     /// The condition of the verdict `true only if`; else what is to be said beside the number.
     pub detail: String,
@@ -125,10 +128,13 @@ impl Evidence {
 /// A claim with its verdict on a scene and over the range.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct JudgedClaim {
+    /// The claim.
     #[serde(flatten)]
     pub claim: Claim,
+    /// What the scene says of it.
     #[serde(flatten)]
     pub measured: Evidence,
+    /// What the verdict rests on.
     pub scope: Scope,
     /// The verdicts over the range; empty where the scene has no part in the verdict.
     pub elsewhere: Vec<Elsewhere>,
@@ -137,8 +143,10 @@ pub struct JudgedClaim {
 /// A verdict at a place of the range.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Elsewhere {
+    /// The parameter and its value.
     #[serde(flatten)]
     pub place: ParameterValue,
+    /// What that scene says of the claim.
     #[serde(flatten)]
     pub measured: Evidence,
 }

@@ -64,8 +64,11 @@ pub enum Repair {
 /// What is changed on a finding's scene before the listings are executed once, with its words.
 #[derive(Clone, Copy)]
 pub enum Preparation {
+    /// Nothing.
     AsPrinted,
+    /// A reading takes another value: the value, and the words for it.
     Reading(&'static str, &'static str),
+    /// The model is changed: the words, and how.
     Model(&'static str, fn(&mut Model)),
 }
 
@@ -79,6 +82,7 @@ impl Finding {
         (self.measure)(case).unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
     }
 
+    /// Returns the smallest scene that shows the finding.
     pub fn scene(&self) -> Scene {
         Scene::open(&format!("findings/{}", self.id)).expect("a finding's scene is sound")
     }
@@ -97,11 +101,14 @@ choices! {
     }
 }
 
+/// What a scene says of a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
+    /// The verdict.
     pub verdict: Verdict,
     /// The number that the finding names; 0 where it is not triggered and nothing could be counted.
     pub number: f64,
+    /// What was found, in words.
     pub detail: String,
 }
 

@@ -9,10 +9,10 @@ use engine::contact::turned;
 use paper::door::{Call, ContactStatus};
 use problem::model::{EdgeId, Model};
 
-/// C1: the target edges turned round.
+/// C1: the target edges reversed.
 pub(super) fn turned_edges(case: &Case) -> Outcome<'_> {
     let state = |status: &ContactStatus| (status.edge.is_some(), status.in_contact);
-    compared(case, &turned(case.model()), "turned round", |own, other| state(own) != state(other))
+    compared(case, &turned(case.model()), "reversed", |own, other| state(own) != state(other))
 }
 
 /// C2: `trg` in reverse.

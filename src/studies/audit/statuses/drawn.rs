@@ -22,8 +22,10 @@ const STEEPEST: f64 = 0.6;
 /// Height of the target's lower side.
 const BOTTOM: f64 = -6.0;
 
+/// The kind of a random scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
+    /// How many edges the target has.
     pub edges: usize,
     /// How deep the deepest node is, in c_tll.
     pub depth: f64,
@@ -44,6 +46,7 @@ pub struct DrawnScene {
     pub touching: Vec<bool>,
 }
 
+/// Draws a scene of a kind; its contact nodes lie well inside or outside the target.
 pub fn draw(rng: &mut Rng, kind: Kind) -> DrawnScene {
     let surface = surface(rng, kind);
     let (stamp, touching) = stamp(rng, &surface, kind);

@@ -40,31 +40,41 @@ const WEIGHTS: u64 = 12;
 /// What was measured, in numbers that the seed determines.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Measurement {
+    /// How many scenes were drawn.
     pub scenes: usize,
+    /// The seed of the random numbers.
     pub seed: u64,
     /// The SHA-256 of the scenes: over that of the scenes before and those of a scene and its mesh.
     pub scenes_sha256: String,
+    /// The mistakes of the rules by the depth of the jump.
     pub by_depth: Vec<Row>,
     /// Operations by size, both orientations together.
     pub by_size: Vec<Row>,
 }
 
+/// The scenes of one kind, together.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Row {
+    /// The number of target edges.
     pub edges: usize,
     /// Depth of the jump, in c_tll.
     pub depth: f64,
     /// `below` or `above` the stamp, or `both`: where the target lies.
     pub target: &'static str,
+    /// The number of contact nodes, over all scenes.
     pub nodes: usize,
+    /// How many of them are in contact.
     pub touching: usize,
+    /// What each status rule made of them.
     pub rules: Vec<Score>,
 }
 
+/// What a status rule made of the contact nodes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Score {
+    /// The rule.
     pub rule: StatusRule,
-    /// Nodes in contact that it takes for apart.
+    /// Nodes in contact that it treats as separated.
     pub missed: usize,
     /// Nodes apart that it takes for in contact.
     pub false_contacts: usize,
