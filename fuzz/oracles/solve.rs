@@ -34,7 +34,7 @@ pub fn hold(data: &[u8]) {
         Variant::Unilateral => {
             assert_eq!(pulling(&solution.contact, solution.model.load.amax()), []);
         }
-        _ => is_confirmed(&solution),
+        Variant::Printed | Variant::Tied | Variant::Stepped => is_confirmed(&solution),
     }
 }
 

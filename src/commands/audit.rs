@@ -30,9 +30,8 @@ on its smallest scene, or on SCENE where that is given. The whole takes 30 to 80
 solve.
 
 --statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies
-and takes the cheaper: signs, as the listing prints it, and intersection; projection is the exact
-answer. Wrong statuses are counted by depth of the jump, operations by size. It takes 150 times as
-long as solve on fig1.
+and takes the cheaper. Of each rule that solve --status offers, wrong statuses are counted by depth
+of the jump, operations by size. It takes 150 times as long as solve on fig1.
 
 Examples:
   plane-contact audit

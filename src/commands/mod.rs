@@ -156,8 +156,7 @@ pub struct ReadingArg {
 /// How a scene is run.
 #[derive(clap::Args)]
 pub struct RunArgs {
-    /// printed, tied, stepped, unilateral [default: the scene's].
-    #[arg(long)]
+    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
     variant: Option<Variant>,
     #[command(flatten)]
     model: ModelArgs,

@@ -17,20 +17,18 @@ use plane_contact::report::{self, tables};
 use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::{check_accuracy, solve_to};
 
-use super::arithmetic::ArithmeticArgs;
 use super::{
-    ModelArgs, ReadingArg, SceneArgs, TablesArgs, folder, folder_name, print, print_stderr,
-    progress, read_listing, report_error, waiting,
+    RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_stderr, progress,
+    read_listing, report_error, waiting,
 };
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(after_help = format!("\
 Prints iterations, bodies, contact nodes, error estimates, and the distance from the reference
-solution. Writes to --out: mesh.svg (the paper's fig. 4), von_mises_stress.svg and
-von_mises_strain.svg (fig. 5), pressure.svg, fields.vtu (for ParaView), result.json. Beyond 20,000
-triangles result.json leaves their values to fields.vtu, and pictures show them as pixels.
-
+solution. Beyond 20,000 triangles result.json leaves their values to fields.vtu, and pictures show
+them as pixels. Writes to --out:
+{}
 Examples:
   plane-contact solve
   plane-contact solve strand --variant tied --out out/tied
@@ -40,15 +38,13 @@ Examples:
   plane-contact solve strand --accuracy 1e-3
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
   plane-contact solve strand --probe 0,-8 --probe=-2,-9
-  plane-contact solve my/scene.json --reading R6=stress,R8=m")]
+  plane-contact solve my/scene.json --reading R6=stress,R8=m", report::folder::help()))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: String,
-    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
-    variant: Option<Variant>,
     #[command(flatten)]
-    model: ModelArgs,
+    run: RunArgs,
     #[command(flatten)]
     changes: SceneArgs,
     /// Execute this edited listing in place of c_cnt (notation: listings/README.md).
@@ -58,8 +54,6 @@ pub struct Args {
     /// without contact.
     #[arg(long, value_name = "FILE")]
     km: Option<PathBuf>,
-    #[command(flatten)]
-    arithmetic: ArithmeticArgs,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
     /// largest.
     #[arg(long, value_name = "A",
@@ -69,8 +63,6 @@ pub struct Args {
     /// may be given more than once.
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     probe: Vec<[f64; 2]>,
-    #[command(flatten)]
-    reading: ReadingArg,
     /// Folder for pictures and data [default: out/<scene>-<variant>, and every option that differs
     /// from the scene's own].
     #[arg(long, value_name = "DIR")]
@@ -141,8 +133,7 @@ pub fn run(args: &Args) -> Result<u8> {
 /// The scene or an option is at fault, or the run does not fit in memory.
 fn request(args: &Args) -> Result<Request> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
-    let request = args.model.request(&scene, args.variant, &args.reading);
-    let request = edited(args, request.arithmetic(args.arithmetic.into()))?;
+    let request = edited(args, args.run.request(&scene))?;
     engine::check(&request)?;
     engine::check_points(&scene.model, &args.probe)?;
     args.accuracy.map_or(Ok(()), check_accuracy)?;

@@ -48,17 +48,18 @@ pub(super) fn bytes_of_path(model: &Model, steps: f64, iterations: f64) -> f64 {
 
 /// Returns the bytes of the path of the load that a run follows; 0 without friction, where there is none.
 fn bytes_of_own_path(request: &Request, model: &Model) -> f64 {
-    /// Iterations of a step: 2 on the paper's example; of mortar in the current geometry, which measures
-    /// contact again until the shape settles, 4 there and 6 to 16 where a block tilts.
-    const ITERATIONS: [f64; 2] = [2.0, 12.0];
     let has_path = model.has_contact() && request.contact.friction != Friction::NONE;
     if !has_path || request.variant != Variant::Unilateral {
         return 0.0;
     }
     let steps = (request.contact.load_steps * model.stages.len()) as f64;
-    let settles = request.contact.coupling == Coupling::Mortar
-        && request.contact.geometry == Geometry::Current;
-    bytes_of_path(model, steps, steps * ITERATIONS[usize::from(settles)])
+    // Of a step: 2 on the paper's example; of mortar in the current geometry, which measures contact
+    // again until the shape settles, 4 there and 6 to 16 where a block tilts.
+    let iterations = match (request.contact.coupling, request.contact.geometry) {
+        (Coupling::Mortar, Geometry::Current) => 12.0,
+        (Coupling::Mortar, Geometry::Initial) | (Coupling::Nts, _) => 2.0,
+    };
+    bytes_of_path(model, steps, steps * iterations)
 }
 
 /// Returns the same of the path of a run, or of what is held of the equilibrium beside it, whichever is

@@ -165,12 +165,14 @@ impl Bench<'_> {
         let corners = &self.estimates.mesh.recovered[k];
         let between = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
         let own = TriangleValues::new(&TriangleState::new(model, id, state, None));
+        let bounds = self.rounding(id);
         let recovered = self.stressed(id, &between);
         let differences = corners.map(|corner| self.stressed(id, &(corner - state.sigma)));
         let is_recovered = self.estimates.mesh.stress_errors[k].is_finite();
         let is_bounded = is_recovered && self.no_limit(id).is_none();
         let quantity = |quantity: &Quantity<TriangleValues>| {
             let numbers = |of: &TriangleValues| (quantity.value)(of).numbers();
+            let bounds = (quantity.value)(&bounds).components().unwrap_or_default();
             let (recovered, differences) =
                 (numbers(&recovered), differences.each_ref().map(numbers));
             let component = |(c, (name, value)): (usize, (String, f64))| {
@@ -183,7 +185,7 @@ impl Bench<'_> {
                     value,
                     recovered: recovered.as_ref().map(|of| of[c]).filter(|_| is_recovered),
                     mesh: mesh.filter(|_| is_bounded),
-                    arithmetic: self.rounding(id, quantity.name, c).and_then(finite),
+                    arithmetic: finite(bounds[c]),
                 }
             };
             let names = match quantity.symbols {
@@ -209,23 +211,21 @@ impl Bench<'_> {
         TriangleValues::new(&TriangleState::new(model, id, &state, None))
     }
 
-    /// Returns what rounding may do to a component of a quantity of a triangle; None where no bound is
-    /// computed.
-    fn rounding(&self, id: TriangleId, quantity: &str, component: usize) -> Option<f64> {
+    /// Returns what rounding may do to the values of a triangle; NaN where no bound is computed.
+    fn rounding(&self, id: TriangleId) -> TriangleValues {
         let (model, k) = (&*self.solution.model, id.index());
         let material = model.triangle(id).material;
-        let [x, y, xy] = [0, 1, 2].map(|c| self.bounded[k][c].error());
-        let stress = Vector3::new(x, y, xy);
-        match (quantity, component) {
-            ("sigma", 3) => Some(element::out_of_plane_stress(model.plane, material.nu, &stress)),
-            ("sigma", c) => Some(stress[c]),
-            ("epsilon", c) if c < 3 => {
-                let c_of_stress = compliance(model.plane, material.nu) / material.e;
-                Some((c_of_stress.abs() * stress)[c])
-            }
-            ("von_mises_stress", _) => Some(self.of_stress[k]),
-            _ => None,
-        }
+        let stress = Vector3::from_fn(|c, _| self.bounded[k][c].error());
+        let compliance = compliance(model.plane, material.nu) / material.e;
+        let [x, y, xy] = stress.into();
+        let [e_x, e_y, g_xy] = (compliance.abs() * stress).into();
+        TriangleValues::new(&TriangleState {
+            sigma: [x, y, xy, element::out_of_plane_stress(model.plane, material.nu, &stress)],
+            epsilon: [e_x, e_y, g_xy, f64::NAN],
+            von_mises_stress: self.of_stress[k],
+            von_mises_strain: f64::NAN,
+            mesh_error: None,
+        })
     }
 }
 

@@ -63,11 +63,9 @@ pub(super) fn published<T: SparseScalar>(
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
-    let is_mortar =
-        request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed;
     let mut run = Run {
         equations: Equations::new(request, &model, &sheet, session, interpreter, &number)?,
-        surfaces: is_mortar.then(|| Surfaces::new(&model)).transpose()?,
+        surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
         u: DVector::from_element(model.dofs(), T::zero()),
         support: [T::zero(), T::zero()],
         visited: Vec::new(),
@@ -107,7 +105,7 @@ pub(super) fn check_published<T: Precision>(
     model: &Model,
 ) -> Result<(), InputError> {
     check_size::<T>(request, model)?;
-    if request.contact.coupling == Coupling::Mortar && request.variant != Variant::Printed {
+    if request.is_bound_by_mortar() {
         check_mortar(request.arithmetic.scalar)?;
     }
     check_load(request, model, &model.load_in(|x| number_of::<T>(request, x)))
@@ -409,13 +407,7 @@ fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
 
 /// Checks that a scalar has the square roots and the digits that the integrals of mortar need.
 fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
-    let why = match scalar {
-        ScalarName::Exact => "its integrals take square roots",
-        ScalarName::F32 => "its integrals lose too many digits",
-        ScalarName::F64 | ScalarName::F64x2 | ScalarName::Bounded | ScalarName::BoundedDouble => {
-            return Ok(());
-        }
-    };
+    let Some(why) = scalar.properties().no_mortar else { return Ok(()) };
     let what = format!("mortar coupling does not run in {scalar}: {why}");
     Err(InputError::new("scalar", what, "use f64 or f64x2, or coupling nts"))
 }

@@ -113,6 +113,15 @@ impl Request {
         self.arithmetic.solver(self.variant == Variant::Printed)
     }
 
+    /// Returns whether mortar gives eq. (1) its weights, under the variants that impose it.
+    pub(super) fn is_bound_by_mortar(&self) -> bool {
+        match (self.variant, self.contact.coupling) {
+            (Variant::Tied | Variant::Stepped, Coupling::Mortar) => true,
+            (Variant::Tied | Variant::Stepped, Coupling::Nts)
+            | (Variant::Printed | Variant::Unilateral, Coupling::Mortar | Coupling::Nts) => false,
+        }
+    }
+
     /// Returns whether one of the paper's listings is edited.
     pub fn is_edited(&self, which: Which) -> bool {
         self.edited.iter().any(|edited| edited.which == which)

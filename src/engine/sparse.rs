@@ -67,13 +67,17 @@ impl SparseSolver {
         self.bodies.kept()
     }
 
-    /// Solves by an iteration, where one is asked for.
-    fn iterate<T: Iterates>(
+    /// Solves by an iteration, where one is asked for, else `directly`.
+    fn solve<T: Iterates>(
         &self,
         state: &StateEquations<T>,
-    ) -> Option<Result<Solved<T>, Unsolved>> {
-        let matrix = || state.stiffness.reduced(state.t);
-        self.solver.iterates().then(|| T::iterate(&matrix(), state.f, self.solver, self.tol))
+        directly: impl FnOnce() -> Result<Solved<T>, Unsolved>,
+    ) -> Result<Solved<T>, Unsolved> {
+        if self.solver.iterates() {
+            T::iterate(&state.stiffness.reduced(state.t), state.f, self.solver, self.tol)
+        } else {
+            directly()
+        }
     }
 
     /// Returns T of a state in `f64`, and its factors on the condensed bodies.
@@ -115,11 +119,10 @@ impl SparseScalar for f64 {
         by: &SparseSolver,
         state: &StateEquations<f64>,
     ) -> Result<Solved<f64>, Unsolved> {
-        if let Some(solved) = by.iterate(state) {
-            return solved;
-        }
-        let (_, x, residual) = by.in_f64(state, state.stiffness, state.f)?;
-        Ok(Solved { x, residual })
+        by.solve(state, || {
+            let (_, x, residual) = by.in_f64(state, state.stiffness, state.f)?;
+            Ok(Solved { x, residual })
+        })
     }
 }
 
@@ -129,12 +132,11 @@ impl SparseScalar for f32 {
         by: &SparseSolver,
         state: &StateEquations<f32>,
     ) -> Result<Solved<f32>, Unsolved> {
-        if let Some(solved) = by.iterate(state) {
-            return solved;
-        }
-        let matrix = state.stiffness.reduced(state.t);
-        let x = DVector::from_vec(Ldlt::new(&matrix)?.solve(state.f.as_slice()));
-        Ok(Solved { residual: matrix.residual(&x, state.f), x })
+        by.solve(state, || {
+            let matrix = state.stiffness.reduced(state.t);
+            let x = DVector::from_vec(Ldlt::new(&matrix)?.solve(state.f.as_slice()));
+            Ok(Solved { residual: matrix.residual(&x, state.f), x })
+        })
     }
 }
 
@@ -156,13 +158,12 @@ impl SparseScalar for F64x2 {
         by: &SparseSolver,
         state: &StateEquations<F64x2>,
     ) -> Result<Solved<F64x2>, Unsolved> {
-        if let Some(solved) = by.iterate(state) {
-            return solved;
-        }
-        let matrix = state.stiffness.reduced(state.t);
-        let factors = by.factors(state, &by.session.stiffness(state.model)).1;
-        let (x, _) = in_double(&matrix, state.f, factors)?;
-        Ok(Solved { residual: matrix.residual(&x, state.f), x })
+        by.solve(state, || {
+            let matrix = state.stiffness.reduced(state.t);
+            let factors = by.factors(state, &by.session.stiffness(state.model)).1;
+            let (x, _) = in_double(&matrix, state.f, factors)?;
+            Ok(Solved { residual: matrix.residual(&x, state.f), x })
+        })
     }
 }
 
@@ -213,12 +214,7 @@ fn in_double(
 
 /// Returns whether `solver` takes Tᵀ K T as a sparse matrix in numbers of a scalar.
 pub(super) fn takes_sparse(solver: Solver, scalar: ScalarName) -> bool {
-    use ScalarName::{Exact, F32, F64, F64x2};
-    match solver {
-        Solver::SparseCholesky => scalar != Exact,
-        Solver::Cg | Solver::Refined => matches!(scalar, F32 | F64 | F64x2),
-        Solver::DenseLu | Solver::SparseLu | Solver::DenseCholesky => false,
-    }
+    scalar.properties().sparse.contains(&solver)
 }
 
 /// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.

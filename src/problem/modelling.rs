@@ -121,6 +121,16 @@ choices! {
     }
 }
 
+impl Geometry {
+    /// Returns whether contact is measured again in each shape that is reached.
+    pub fn is_current(self) -> bool {
+        match self {
+            Geometry::Current => true,
+            Geometry::Initial => false,
+        }
+    }
+}
+
 choices! {
     /// The method that binds a contact node to the target surface.
     Coupling {

@@ -43,21 +43,62 @@ pub fn write(
     Ok(String::from_utf8(files.swap_remove(0).1).expect("JSON is UTF-8"))
 }
 
+/// A file of a run.
+#[derive(Clone, Copy)]
+enum File {
+    Result,
+    Fields,
+    Mesh,
+    /// A picture of a quantity of triangles.
+    Picture(&'static Quantity<TriangleValues>),
+    Pressure,
+}
+
+impl File {
+    /// Returns the files that a run may leave; pictures of the quantities that are scalars.
+    fn all(wanted: FolderOptions) -> impl Iterator<Item = File> {
+        let quantities = TriangleValues::QUANTITIES.iter();
+        let scalars = quantities.filter(|quantity| quantity.components().len() == 1);
+        let pictures = std::iter::once(File::Mesh).chain(scalars.map(File::Picture));
+        let pictures = pictures.chain([File::Pressure]).filter(move |_| wanted.pictures);
+        [File::Result, File::Fields].into_iter().chain(pictures)
+    }
+
+    fn name(self) -> String {
+        match self {
+            File::Result => "result.json".into(),
+            File::Fields => "fields.vtu".into(),
+            File::Mesh => "mesh.svg".into(),
+            File::Picture(quantity) => format!("{}.svg", quantity.array()),
+            File::Pressure => "pressure.svg".into(),
+        }
+    }
+
+    /// Returns what it shows, and when it is written.
+    fn words(self) -> String {
+        match self {
+            File::Result => "all that is printed, and the values of nodes and triangles".into(),
+            File::Fields => "those values, for ParaView".into(),
+            File::Mesh => "the mesh, as fig. 4 of the paper".into(),
+            File::Picture(quantity) => {
+                format!("{} on the deformed shape, as fig. 5, where it is known", quantity.title)
+            }
+            File::Pressure => {
+                "contact pressure along the contact surface, where there is one".into()
+            }
+        }
+    }
+}
+
 /// Returns the names of the files that a run may leave.
 pub fn names(wanted: FolderOptions) -> Vec<String> {
-    let data = ["result.json", "fields.vtu"].map(String::from);
-    let pictures = ["mesh.svg", "pressure.svg"].map(String::from);
-    let pictures = pictures.into_iter().chain(drawn().map(picture_name));
-    data.into_iter().chain(pictures.filter(|_| wanted.pictures)).collect()
+    File::all(wanted).map(File::name).collect()
 }
 
-/// Returns the quantities of triangles of which there are pictures: all scalars.
-fn drawn() -> impl Iterator<Item = &'static Quantity<TriangleValues>> {
-    TriangleValues::QUANTITIES.iter().filter(|quantity| quantity.components().len() == 1)
-}
-
-fn picture_name(quantity: &Quantity<TriangleValues>) -> String {
-    format!("{}.svg", quantity.array())
+/// Returns a line for each file that a run may leave: its name, and what it shows.
+pub fn help() -> String {
+    let line = |file: File| format!("  {:<21} {}\n", file.name(), file.words());
+    File::all(FolderOptions::default()).map(line).collect()
 }
 
 /// Computes the content of a file.
@@ -71,33 +112,31 @@ pub fn contents(
     wanted: FolderOptions,
 ) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
-    let drawing = Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
+    let drawing = &Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
     let displacement = &solution.displacements()[..];
-    let mut files: Vec<(String, Content)> = vec![
-        (
-            "result.json".into(),
-            Box::new(|| result(solution, assessment, plan, wanted).into_bytes()),
-        ),
-        ("fields.vtu".into(), Box::new(|| vtu::vtu(&drawing, solution, assessment))),
-    ];
-    if wanted.pictures {
-        files.push(("mesh.svg".into(), Box::new(|| picture::mesh(&drawing).into_bytes())));
-        let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
-        for quantity in drawn() {
-            let Some(array) = triangle_array(quantity, &triangles, &scene.units) else { continue };
-            let drawing = &drawing;
-            let picture = move || {
-                let (quantity, unit, values) = (quantity.title, &array.unit[..], &array.values[..]);
-                let field = Field { quantity, unit, values, displacement, largest_at: None };
-                picture::field(drawing, &field).into_bytes()
-            };
-            files.push((picture_name(quantity), Box::new(picture)));
-        }
-        if !solution.contact.is_empty() {
-            let pressure = || pressures(solution, assessment).into_bytes();
-            files.push(("pressure.svg".into(), Box::new(pressure)));
-        }
-    }
+    let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
+    let content = |file| -> Option<Content> {
+        Some(match file {
+            File::Result => {
+                Box::new(move || result(solution, assessment, plan, wanted).into_bytes())
+            }
+            File::Fields => Box::new(move || vtu::vtu(drawing, solution, assessment)),
+            File::Mesh => Box::new(move || picture::mesh(drawing).into_bytes()),
+            File::Picture(quantity) => {
+                let array = triangle_array(quantity, &triangles, &scene.units)?;
+                let quantity = quantity.title;
+                Box::new(move || {
+                    let (unit, values) = (&array.unit[..], &array.values[..]);
+                    let field = Field { quantity, unit, values, displacement, largest_at: None };
+                    picture::field(drawing, &field).into_bytes()
+                })
+            }
+            File::Pressure if solution.contact.is_empty() => return None,
+            File::Pressure => Box::new(move || pressures(solution, assessment).into_bytes()),
+        })
+    };
+    let files = File::all(wanted).filter_map(|file| Some((file.name(), content(file)?)));
+    let files: Vec<(String, Content)> = files.collect();
     files.par_iter().with_max_len(1).map(|(name, content)| (name.clone(), content())).collect()
 }
 

@@ -247,7 +247,8 @@ impl EditedListing {
 
 fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
     // One digit more than the scalar keeps, so that it reads back; of exact numbers forty.
-    let digits = solution.request.arithmetic.scalar.digits().map_or(40, |digits| digits + 1);
+    let digits =
+        solution.request.arithmetic.scalar.properties().digits.map_or(40, |digits| digits + 1);
     let decimal = |u| rational::decimal(u, digits as usize);
     let pairs = solution.digits.as_ref()?.as_chunks().0;
     Some(pairs.iter().map(|[x, y]| [decimal(x), decimal(y)]).collect())

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::program;
+use crate::common::recorded::assert_recorded_exactly;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use crate::faced;
 use nalgebra::DVector;
@@ -15,9 +16,10 @@ use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::{EdgeId, Model, NodeId};
+use plane_contact::problem::modelling::StatusRule::{Intersection, Signs};
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use plane_contact::studies::audit::statuses::{Measurement, Row, measure};
+use plane_contact::studies::audit::statuses::{Measurement, Row, Score, measure};
 
 const C: f64 = 0.001;
 
@@ -99,43 +101,51 @@ const ROOF: &[[f64; 2]] = &[[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
 const VALLEY: &[[f64; 2]] = &[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]];
 const SLOPE: &[[f64; 2]] = &[[-2.0, -0.4], [2.0, 0.4]];
 
-/// Name, chain, contact node; statuses by signs, intersection, projection.
-type Case = (&'static str, &'static [[f64; 2]], [f64; 2], [usize; 3]);
+/// Name, chain, contact node; whether it is in contact, and the rules that get that wrong.
+type Case = (&'static str, &'static [[f64; 2]], [f64; 2], bool, &'static [StatusRule]);
+
+/// The status of a case by a rule.
+fn expected(case: &Case, rule: StatusRule) -> usize {
+    let (_, _, _, touches, wrong) = case;
+    usize::from(*touches != wrong.contains(&rule))
+}
 
 /// Nodes farther than c_tll from the surface: here line 16 has no say.
 const FAR: &[Case] = &[
-    ("above", FLAT, [0.3, 0.5], [0, 0, 0]),
-    ("deep", FLAT, [0.3, -0.1], [0, 1, 1]),
-    ("deep under a node of the surface", FLAT, [0.0, -0.1], [0, 1, 1]),
-    ("deeper than its element", FLAT, [0.3, -3.0], [0, 0, 1]),
-    ("past the end", FLAT, [1.5, -0.1], [0, 0, 0]),
-    ("past the end, a side through the flank", FLAT, [1.02, -0.1], [0, 1, 0]),
-    ("above a convex corner", ROOF, [0.0, 1.3], [0, 0, 0]),
-    ("beside a convex corner", ROOF, [0.3, 0.9], [0, 0, 0]),
-    ("under a convex corner", ROOF, [0.0, 0.9], [0, 1, 1]),
-    ("above a concave corner", VALLEY, [0.0, 0.3], [0, 0, 0]),
-    ("under a concave corner", VALLEY, [0.0, -0.1], [0, 1, 1]),
-    ("above a slope", SLOPE, [1.0, 0.25], [0, 0, 0]),
-    ("deep under a slope", SLOPE, [1.0, 0.15], [0, 1, 1]),
+    ("above", FLAT, [0.3, 0.5], false, &[]),
+    ("deep", FLAT, [0.3, -0.1], true, &[Signs]),
+    ("deep under a node of the surface", FLAT, [0.0, -0.1], true, &[Signs]),
+    ("deeper than its element", FLAT, [0.3, -3.0], true, &[Signs, Intersection]),
+    ("past the end", FLAT, [1.5, -0.1], false, &[]),
+    ("past the end, a side through the flank", FLAT, [1.02, -0.1], false, &[Intersection]),
+    ("above a convex corner", ROOF, [0.0, 1.3], false, &[]),
+    ("beside a convex corner", ROOF, [0.3, 0.9], false, &[]),
+    ("under a convex corner", ROOF, [0.0, 0.9], true, &[Signs]),
+    ("above a concave corner", VALLEY, [0.0, 0.3], false, &[]),
+    ("under a concave corner", VALLEY, [0.0, -0.1], true, &[Signs]),
+    ("above a slope", SLOPE, [1.0, 0.25], false, &[]),
+    ("deep under a slope", SLOPE, [1.0, 0.15], true, &[Signs]),
 ];
 
 /// Nodes no farther than c_tll.
 const NEAR: &[Case] = &[
-    ("within c_tll", FLAT, [0.3, 0.0005], [1, 1, 1]),
-    ("on the surface", FLAT, [0.3, 0.0], [1, 1, 1]),
-    ("just inside", FLAT, [0.3, -0.0005], [1, 1, 1]),
-    ("past the end, within c_tll", FLAT, [1.0005, -0.0002], [1, 1, 1]),
-    ("within c_tll of a convex corner", ROOF, [0.0, 1.0005], [1, 1, 1]),
+    ("within c_tll", FLAT, [0.3, 0.0005], true, &[]),
+    ("on the surface", FLAT, [0.3, 0.0], true, &[]),
+    ("just inside", FLAT, [0.3, -0.0005], true, &[]),
+    ("past the end, within c_tll", FLAT, [1.0005, -0.0002], true, &[]),
+    ("within c_tll of a convex corner", ROOF, [0.0, 1.0005], true, &[]),
 ];
 
 /// The nodes of `NEAR` and `FAR` upright.
 #[test]
 fn each_rule_on_hand_made_scenes() {
-    for (name, chain, node, expected) in NEAR.iter().chain(FAR) {
+    for case in NEAR.iter().chain(FAR) {
+        let (name, chain, node, ..) = case;
         let model = model(chain, &[*node], UPRIGHT);
-        let found = [StatusRule::Signs, StatusRule::Intersection, StatusRule::Projection]
-            .map(|rule| dy(rule, &model, &model.nodes)[0]);
-        assert_eq!(found, *expected, "{name}");
+        for rule in StatusRule::ALL {
+            let found = dy(*rule, &model, &model.nodes);
+            assert_eq!(found, [expected(case, *rule)], "{name}, {rule}");
+        }
     }
 }
 
@@ -143,21 +153,18 @@ fn each_rule_on_hand_made_scenes() {
 /// line 16's vertical distance (C1, C3).
 #[test]
 fn projection_and_intersection_do_not_depend_on_the_axes() {
-    for (k, (name, chain, node, expected)) in NEAR.iter().chain(FAR).enumerate() {
+    for (k, case) in NEAR.iter().chain(FAR).enumerate() {
+        let (name, chain, node, ..) = case;
         let model = model(chain, &[*node], UPRIGHT);
         for degrees in [0.0, 30.0, 90.0, 137.0, 180.0, 270.0, 301.0] {
             for mirrored in [false, true] {
                 let turn = turned(degrees);
                 let shape = mapped(&model, |[x, y]| turn([x, if mirrored { -y } else { y }]));
                 let place = format!("{name}, turned by {degrees}, mirrored {mirrored}");
-                let projection = dy(StatusRule::Projection, &model, &shape);
-                assert_eq!(projection, [expected[2]], "{place}");
-                if k >= NEAR.len() {
-                    assert_eq!(
-                        dy(StatusRule::Intersection, &model, &shape),
-                        [expected[1]],
-                        "{place}"
-                    );
+                let mut rules = vec![StatusRule::Projection];
+                rules.extend((k >= NEAR.len()).then_some(StatusRule::Intersection));
+                for rule in rules {
+                    assert_eq!(dy(rule, &model, &shape), [expected(case, rule)], "{place}, {rule}");
                 }
             }
         }
@@ -492,37 +499,15 @@ fn signs_are_the_default() {
     assert_eq!(StatusRule::default(), StatusRule::Signs);
 }
 
-/// Nodes, nodes in contact, then for signs, intersection, projection: missed + false, operations.
-/// Seed 1, 20 scenes a row.
-const BY_DEPTH: &str = "\
-16 0.5 below: 158 23, 2 + 9 18021, 0 + 0 75781, 0 + 0 57617
-16 0.5 above: 152 21, 1 + 0 17923, 0 + 0 72189, 0 + 1 54659
-16 2 below: 175 23, 21 + 7 20662, 0 + 0 89054, 0 + 0 62922
-16 2 above: 157 28, 6 + 0 18831, 0 + 0 78979, 0 + 0 56371
-16 8 below: 157 33, 29 + 6 18555, 0 + 0 80903, 0 + 0 56892
-16 8 above: 150 30, 18 + 0 18273, 0 + 0 78532, 0 + 0 54181
-16 32 below: 156 50, 50 + 5 18614, 0 + 0 87171, 0 + 0 56434
-16 32 above: 166 63, 57 + 0 19550, 0 + 0 95821, 0 + 1 59271
-16 128 below: 135 100, 98 + 2 15957, 0 + 0 91788, 0 + 0 49411
-16 128 above: 151 100, 98 + 0 17979, 0 + 0 101774, 0 + 1 54359
-16 512 below: 156 122, 122 + 0 17857, 97 + 0 84988, 2 + 4 56713
-16 512 above: 144 126, 126 + 0 16813, 103 + 0 78751, 1 + 2 52002
-";
-const BY_SIZE: &str = "\
-8 4 both: 79 23, 18 + 3 5089, 0 + 0 22280, 0 + 0 15507
-16 4 both: 145 24, 21 + 3 17111, 0 + 0 73879, 0 + 0 52584
-32 4 both: 289 40, 32 + 2 64763, 0 + 0 284219, 0 + 0 199907
-64 4 both: 580 64, 52 + 2 256109, 0 + 0 1117404, 0 + 0 782765
-128 4 both: 1283 133, 112 + 0 1136451, 2 + 0 4948788, 0 + 0 3409719
-256 4 both: 2115 218, 173 + 4 3647227, 2 + 1 16193739, 0 + 0 11169903
-";
-
+/// Edges, depth and side of the target; nodes, nodes in contact; then for each rule missed + false
+/// contacts and operations, on 20 scenes a row.
 #[test]
 fn the_measurement_is_pinned() {
     let Measurement { by_depth, by_size, .. } = measure(20, 1);
     let line = |row: &Row| {
         let rules = row.rules.iter().map(|score| {
-            format!(", {} + {} {}", score.missed, score.false_contacts, score.operations)
+            let Score { rule, missed, false_contacts, operations } = score;
+            format!(", {rule} {missed} + {false_contacts} {operations}")
         });
         let rules: String = rules.collect();
         format!(
@@ -530,8 +515,8 @@ fn the_measurement_is_pinned() {
             row.edges, row.depth, row.target, row.nodes, row.touching
         )
     };
-    assert_eq!(by_depth.iter().map(line).collect::<String>(), BY_DEPTH);
-    assert_eq!(by_size.iter().map(line).collect::<String>(), BY_SIZE);
+    let lines: String = by_depth.iter().chain(&by_size).map(line).collect();
+    assert_recorded_exactly("statuses", &lines);
 }
 
 #[test]
@@ -542,7 +527,8 @@ fn the_command_prints_tables_or_json() {
     };
     let (status, tables) = run(&["audit", "--statuses", "--scenes", "3"]);
     assert_eq!(status, Some(0));
-    for words in ["seed 1", "depth / c_tll", "signs", "intersection", "projection", "Operations"] {
+    let rules = StatusRule::ALL.iter().map(|rule| rule.name());
+    for words in ["seed 1", "depth / c_tll", "Operations"].into_iter().chain(rules) {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
     let (_, json) = run(&["audit", "--statuses", "--scenes", "3", "--seed", "7", "--json"]);
@@ -556,7 +542,7 @@ fn the_command_prints_tables_or_json() {
     let svg = std::fs::read_to_string(out.join("statuses.svg")).unwrap();
     let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
     let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
-    assert_eq!(points, 36, "6 depths, 3 rules, 2 orientations");
+    assert_eq!(points, 12 * StatusRule::ALL.len(), "6 depths, 2 orientations, each rule");
 }
 
 /// Where a contact node is restrained along x, the restraint's part of its reaction is unknown unless

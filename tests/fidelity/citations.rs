@@ -2,13 +2,13 @@
 //!
 //! - `listings/READING.md` is cited in sources as `` `listings/READING.md`, section N `` and in no
 //!   other form; section N exists.
-//! - Every reading and finding that is named has a row in READING.md's tables, and every row is a
-//!   reading, or a finding of the register with its lines and its folder.
+//! - Every reading and finding that is named has a row in READING.md's tables, which
+//!   `tests/fidelity/reading_page.rs` makes.
 //! - Every page (`*.md`) and every file of the repository that is named is there, and every link of
 //!   a page
 //!   leads to a file. What was written outside the repository is not cited.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -78,12 +78,11 @@ fn sections(reading: &str) -> BTreeSet<usize> {
     headings.map(|h| h.split('.').next().unwrap().parse().expect("a numbered heading")).collect()
 }
 
-/// The rows of READING.md's tables that begin with an id, and the second cell of each.
-fn rows(reading: &str) -> BTreeMap<String, String> {
-    let mut rows = BTreeMap::new();
+/// The ids with which rows of READING.md's tables begin.
+fn rows(reading: &str) -> BTreeSet<String> {
+    let mut rows = BTreeSet::new();
     for line in reading.lines().filter(|line| line.starts_with('|')) {
-        let mut cells = line.split('|').skip(1).map(str::trim);
-        let (id, lines) = (cells.next().unwrap_or(""), cells.next().unwrap_or(""));
+        let id = line.split('|').nth(1).unwrap_or("").trim();
         // A finding's id is a link to its folder; section 7 names findings again, without one.
         let linked = id.strip_prefix('[').and_then(|id| id.split_once("](../golden/findings/"));
         let id = match linked {
@@ -91,11 +90,11 @@ fn rows(reading: &str) -> BTreeMap<String, String> {
                 assert_eq!(target, format!("{id}/README.md)"), "the link of {id}");
                 id
             }
-            None if id.starts_with('R') && !rows.contains_key(id) => id,
+            None if id.starts_with('R') && !rows.contains(id) => id,
             None => continue,
         };
         if is_id(id) {
-            assert!(rows.insert(id.into(), lines.into()).is_none(), "{id} has two rows");
+            assert!(rows.insert(id.into()), "{id} has two rows");
         }
     }
     rows
@@ -193,7 +192,7 @@ fn links(line: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn every_citation_leads_somewhere() {
     let (reading, texts) = (reading(), texts());
-    let (sections, ids) = (sections(&reading), rows(&reading).into_keys().collect());
+    let (sections, ids) = (sections(&reading), rows(&reading));
     assert!(texts.iter().any(|text| text.path == READING), "the walk reaches {READING}");
     let faults: Vec<String> = texts.iter().flat_map(|t| faults(t, &sections, &ids)).collect();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
@@ -207,40 +206,6 @@ fn every_citation_leads_somewhere() {
 fn the_sections_are_numbered_from_1() {
     let sections = sections(&reading());
     assert_eq!(sections, (1..=sections.len()).collect());
-}
-
-#[test]
-fn the_tables_have_every_reading_and_finding() {
-    let expected = [('R', 10), ('C', 15), ('K', 9)];
-    let expected =
-        expected.iter().flat_map(|(c, last)| (1..=*last).map(move |n| format!("{c}{n}")));
-    let rows = rows(&reading());
-    assert_eq!(rows.keys().cloned().collect::<BTreeSet<_>>(), expected.collect());
-    for id in rows.keys().filter(|id| !id.starts_with('R')) {
-        let folder = Path::new(ROOT).join("golden/findings").join(id);
-        assert!(folder.is_dir(), "golden/findings/{id}");
-    }
-}
-
-/// The lines of a finding are the register's.
-#[test]
-fn the_tables_have_the_lines_of_the_register() {
-    let rows = rows(&reading());
-    let register = Path::new(ROOT).join("src/studies/audit/findings/register.rs");
-    let register = fs::read_to_string(register).expect("the register of findings");
-    let mut findings = 0;
-    for finding in register.split("id: \"").skip(1) {
-        let field = |name: &str, open: &str, close: &str| {
-            let rest = finding.split_once(&format!("{name}: {open}")).expect(name).1;
-            rest.split_once(close).expect(name).0.to_string()
-        };
-        let id = finding.split('"').next().unwrap();
-        let (listing, lines) = (field("listing", "\"", "\""), field("lines", "&[", "]"));
-        let expected = if lines.is_empty() { listing } else { format!("{listing} {lines}") };
-        assert_eq!(rows.get(id), Some(&expected), "{id}");
-        findings += 1;
-    }
-    assert_eq!(findings, rows.keys().filter(|id| !id.starts_with('R')).count());
 }
 
 #[test]

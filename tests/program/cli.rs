@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use plane_contact::problem::modelling::Variant;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -299,7 +300,7 @@ fn a_singular_matrix_is_exit_status_3() {
         .replace("\"c_tll\": 0.001", "\"c_tll\": 0.0")
         .replace("[8, 2.3, 0.032,", "[8, 2.3, 0.038,");
     std::fs::write(folder.path().join("c8.json"), scene).unwrap();
-    for variant in ["printed", "tied", "stepped"] {
+    for variant in Variant::OF_THE_PAPER.iter().map(|variant| variant.name()) {
         let words = ["iteration 1", "singular", "no node is in contact", "body \"2\""];
         fails(folder.path(), &["solve", "c8.json", "--variant", variant], 3, &words);
     }
@@ -624,7 +625,7 @@ fn a_scene_without_contact_is_audited_too() {
         serde_json::from_str(&succeeds(folder.path(), &["audit", "plain.json", "--json"])).unwrap();
     let failed = |row: &&Value| !row["failure"].is_null();
     let rows: Vec<&Value> = audit["readings"].as_array().unwrap().iter().filter(failed).collect();
-    assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["ORIGIN = 0"]);
+    assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["R9: ORIGIN = 0"]);
     fails(folder.path(), &["listing", "trace", "plain.json"], 2, &["the scene has no contact"]);
     fails(
         folder.path(),
@@ -654,13 +655,13 @@ fn audit_of_readings_on_fig1() {
     };
     assert!(of("R2 = printed")["entries"].as_u64().unwrap() > 0);
     assert!(of("R4 = left-to-right")["failure"].as_str().unwrap().contains("line 18"));
-    assert!(of("ORIGIN = 0")["failure"].as_str().unwrap().contains("index is invalid"));
+    assert!(of("R9: ORIGIN = 0")["failure"].as_str().unwrap().contains("index is invalid"));
     for reading in [
-        "0/0 = 0",
-        "comparisons to 1e-12",
-        "below 1e-307 is 0",
-        "1 .. 0 is empty",
-        "a failed last if is 0",
+        "R9: 0/0 = 0",
+        "R9: comparisons to 1e-12",
+        "R9: below 1e-307 is 0",
+        "R9: 1 .. 0 is empty",
+        "R9: a failed last if is 0",
     ] {
         let row = of(reading);
         assert_eq!(

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use plane_contact::ResultFile;
 use plane_contact::paper::listings::Which;
+use plane_contact::problem::modelling::Variant;
 use tempfile::TempDir;
 
 use crate::common::program::run;
@@ -41,7 +42,7 @@ fn listings(replace: &[(&str, &str)]) -> TempDir {
 fn the_printed_listings_run_as_their_mirror() {
     let folder = listings(&[("←", "<-"), ("∧", "and"), ("≤", "<=")]);
     for scene in ["fig1", "two-blocks"] {
-        for variant in ["printed", "tied", "stepped"] {
+        for variant in Variant::OF_THE_PAPER.iter().map(|variant| variant.name()) {
             let common = [scene, "--variant", variant, "--solver", "dense-lu"];
             let own = result(folder.path(), &common);
             let edited = ["--c-cnt", "c_cnt.txt", "--km", "Km.txt"];

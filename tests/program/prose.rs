@@ -32,7 +32,6 @@ const GIVEN: &[(&str, &str)] = &[
     ("sqrt(2/3 e:e)", "a formula"),
     ("MSH 2.2 or 4.1", "versions of a file format"),
     ("IEEE 754", "a standard"),
-    ("NAFEMS CGS-1", "the name of a benchmark"),
     ("fewer than 300 nodes", "a limit, tested by tests/program/mathcad.rs"),
     ("Mathcad 14 or 15", "versions"),
     ("The exit status is 1 where", "exit statuses are tested by tests/program/cli.rs"),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use plane_contact::files::json as reader;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::file;
 use plane_contact::studies::lesson::exercise::{ANSWERS, Answers, Exercise};
 use serde_json::{Value, json};
@@ -154,7 +155,7 @@ fn python(script: &str, input: &str) -> String {
 
 /// Documents of every command, of every shape.
 fn succeeding(documents: &mut Documents) {
-    for variant in ["printed", "tied", "stepped", "unilateral"] {
+    for variant in Variant::ALL {
         documents.printed("result", 0, &format!("solve fig1 --variant {variant}"));
     }
     documents.printed("result", 0, "solve two-blocks --scalar exact --probe 0.5,0.5");

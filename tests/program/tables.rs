@@ -8,12 +8,12 @@ use std::sync::LazyLock;
 use plane_contact::engine::{Assessment, Session, Solution, SolutionDistance, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use plane_contact::report;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::statuses;
 use plane_contact::studies::benchmark::{
-    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Punch, PunchPatch, Strand,
+    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
 };
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
 use plane_contact::studies::trade::{self, Varied};
@@ -216,19 +216,9 @@ fn calculix() {
 /// What the scenes of `scene mesh` are made of.
 #[test]
 fn generated_scenes() {
-    let builders = [
-        Blocks::default().generate(),
-        PunchPatch::default().generate(),
-        Hertz::default().generate(),
-        Punch::default().generate(),
-        Annulus::default().generate(),
-        Hole::default().generate(),
-        Cook::default().generate(),
-        Ellipse::default().generate(),
-        Strand::default().generate(),
-    ];
-    let rows = builders.into_iter().flat_map(|builder| {
-        let scene = builder.and_then(|builder| builder.build()).expect("the defaults are sound");
+    let rows = Kind::all().into_iter().flat_map(|kind| {
+        let builder = kind.generate().expect("the defaults are sound");
+        let scene = builder.build().expect("the defaults are sound");
         let [fx, fy] = scene.model.total_load().map(rounded);
         let load = format!("{fx}, {fy}");
         let row =
@@ -411,19 +401,19 @@ fn status_rules() {
         let wrong = wrong.collect::<Vec<_>>().join(" | ");
         format!("{} | {} | {wrong}", row.depth, row.target)
     };
-    let head = "depth of the jump over c_tll | target lies | `signs`, wrong | `intersection`, wrong | `projection`, wrong";
+    let cells = |cell: &dyn Fn(usize) -> String| {
+        (0..StatusRule::ALL.len()).map(cell).collect::<Vec<_>>().join(" | ")
+    };
+    let heads = cells(&|k| format!("`{}`, wrong", StatusRule::ALL[k]));
+    let head = format!("depth of the jump over c_tll | target lies | {heads}");
     let operations =
         |k: usize| -> u64 { measured.by_size.iter().map(|row| row.rules[k].operations).sum() };
-    let over_signs = |k| operations(k) as f64 / operations(0) as f64;
-    let last = format!(
-        "operations, over those of `signs` | both | 1 | {:.1} | {:.1}",
-        over_signs(1),
-        over_signs(2)
-    );
+    let ratios = cells(&|k| format!("{:.1}", operations(k) as f64 / operations(0) as f64));
+    let last = format!("operations, over those of `{}` | both | {ratios}", StatusRule::ALL[0]);
     assert_table(
         "statuses",
         "Status rules on random scenes whose contact is known.",
         "audit --statuses",
-        &markdown(head, measured.by_depth.iter().map(row).chain([last])),
+        &markdown(&head, measured.by_depth.iter().map(row).chain([last])),
     );
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use plane_contact::problem::modelling::Variant;
 use tempfile::TempDir;
 
 use crate::common::golden::assert_golden_by;
@@ -81,7 +82,7 @@ const SCENES: [&str; 3] = ["fig1", "two-blocks", "strand"];
 #[test]
 fn solve() {
     for scene in SCENES {
-        for variant in ["printed", "tied", "stepped", "unilateral"] {
+        for variant in Variant::ALL.iter().map(|variant| variant.name()) {
             let args = ["solve", scene, "--variant", variant, "--out", "out"];
             assert_text(scene, &format!("solve-{variant}"), &args);
         }

@@ -33,8 +33,10 @@ pub struct Args {
     /// Paths of scenes, or names of embedded ones.
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<String>,
-    /// Variants, each of which is run: printed, tied, stepped, unilateral [default: the scene's].
-    #[arg(long, value_name = "V,...", value_delimiter = ',')]
+    #[arg(long, value_name = "V,...", value_delimiter = ',', help = format!(
+        "Variants, each of which is run. {} [default: the scene's]",
+        Variant::help()
+    ))]
     variant: Vec<Variant>,
     #[command(flatten)]
     model: ModelArgs,
@@ -42,10 +44,11 @@ pub struct Args {
     arithmetic: ArithmeticArgs,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Record these numbers of the end alone, and no iterations: u, stress, reactions, gap, pressure,
-    /// "largest von Mises stress", "largest von Mises strain" [default: all, and the iterations].
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(FIELDS))]
+        value_parser = PossibleValuesParser::new(FIELDS), help = format!(
+        "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
+        FIELDS.join(", ")
+    ))]
     only: Vec<String>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
     #[arg(long, value_name = "FILE")]

@@ -81,7 +81,7 @@ pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
         Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
             (again, Certainty::InDoubleDouble)
         }
-        _ => (solution, Certainty::Unknown),
+        Ok(_) | Err(_) => (solution, Certainty::Unknown),
     }
 }
 

@@ -27,7 +27,7 @@ use crate::unilateral::FIRST_GROWTH;
 use crate::{Decision, Detail, Solution, Step, Stiffness};
 use numbers::scalar::{Bounded, Scalar, Unsure};
 use problem::model::NodeId;
-use problem::modelling::{Coupling, Geometry};
+use problem::modelling::Coupling;
 
 /// The rounding of a coordinate and of what a search computes from it, in units of the coordinate.
 const COORDINATE: f64 = 8.0;
@@ -136,7 +136,7 @@ impl<'a> StateCheck<'a> {
     /// elsewhere, length.
     fn faces_surely(&self, step: &Step, radius: f64) -> bool {
         let Some(surfaces) = &self.surfaces else { return true };
-        if self.solution.request.contact.geometry == Geometry::Initial {
+        if !self.solution.request.contact.geometry.is_current() {
             // The last state is measured in the same shape.
             return true;
         }
@@ -148,12 +148,14 @@ impl<'a> StateCheck<'a> {
 
     /// Returns what nodes that stand up to `radius` from their places in a shape face otherwise.
     fn elsewhere(&self, surfaces: &Surfaces, shape: &[[f64; 2]], radius: f64) -> Elsewhere {
-        if self.solution.request.contact.coupling == Coupling::Nts {
-            return Elsewhere::Nts(surfaces.pairings_nearby(shape, radius));
+        match self.solution.request.contact.coupling {
+            Coupling::Nts => Elsewhere::Nts(surfaces.pairings_nearby(shape, radius)),
+            Coupling::Mortar => {
+                let within = |x: f64| Bounded::new(x, radius);
+                let shape: Vec<_> = shape.iter().map(|place| place.map(within)).collect();
+                Elsewhere::Mortar(surfaces.mortar(&shape).unsure)
+            }
         }
-        let within = |x: f64| Bounded::new(x, radius);
-        let shape: Vec<_> = shape.iter().map(|place| place.map(within)).collect();
-        Elsewhere::Mortar(surfaces.mortar(&shape).unsure)
     }
 
     /// Looks at how the contact states were found: by the active set alone, or in other ways too.
@@ -298,7 +300,7 @@ impl<'a> StateCheck<'a> {
     fn check_parts(&mut self, state: &BoundedState, detail: &Unilateral) {
         let Some(surfaces) = &self.surfaces else { return };
         let (model, contact) = (&*self.solution.model, &self.solution.request.contact);
-        let is_current = contact.geometry == Geometry::Current;
+        let is_current = contact.geometry.is_current();
         let measured_in = if is_current { &*state.step.shape } else { &model.nodes };
         let largest = measured_in.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let of_u = state.u.iter().map(|u| 2.0 * u.error()).fold(0.0, f64::max);

@@ -215,7 +215,7 @@ impl<'a> Problem<'a> {
 
     /// Returns whether contact is measured in the current shape.
     pub(super) fn is_current(&self) -> bool {
-        self.request.contact.geometry == Geometry::Current
+        self.request.contact.geometry.is_current()
     }
 
     /// Returns the target that each contact node faces: in the shape that displacements `u` lead to,
@@ -315,8 +315,10 @@ impl<'a> Problem<'a> {
     /// each with its depth, length; None where none lies deeper than [`UNSEEN`].
     pub(super) fn deepest_nodes(&self, u: &DVector<f64>) -> [Option<(NodeId, f64)>; 2] {
         let shape = self.model.shape(u);
-        let is_nts = self.request.contact.coupling == Coupling::Nts;
-        let unseen = is_nts.then(|| self.surfaces.deepest_target_node(&shape)).flatten();
+        let unseen = match self.request.contact.coupling {
+            Coupling::Nts => self.surfaces.deepest_target_node(&shape),
+            Coupling::Mortar => None,
+        };
         let inside = self.surfaces.deepest_contact_node(self.model, &shape);
         let least = UNSEEN * size(self.model);
         [unseen, inside].map(|deepest| deepest.filter(|(_, depth)| *depth > least))

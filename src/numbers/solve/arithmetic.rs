@@ -52,25 +52,67 @@ choices! {
     }
 }
 
-impl ScalarName {
-    /// Returns the decimal digits that it keeps; None where it keeps all.
-    pub fn digits(self) -> Option<u32> {
-        match self {
-            ScalarName::F32 => Some(7),
-            ScalarName::F64 | ScalarName::Bounded => Some(16),
-            ScalarName::F64x2 | ScalarName::BoundedDouble => Some(31),
-            ScalarName::Exact => None,
-        }
-    }
+/// What is known of a scalar.
+pub struct Properties {
+    /// The decimal digits that it keeps; None where it keeps all.
+    pub digits: Option<u32>,
+    /// The bytes of a number; of a rational number those of its address.
+    pub bytes: usize,
+    /// The solvers that are offered.
+    pub solvers: &'static [Solver],
+    /// Those of them that take a contact state as a sparse matrix.
+    pub sparse: &'static [Solver],
+    /// Why the integrals of mortar coupling are not computed in it; None where they are.
+    pub no_mortar: Option<&'static str>,
+}
 
-    /// Returns the solvers that are offered in the scalar.
-    pub fn solvers(self) -> &'static [Solver] {
+impl ScalarName {
+    /// Returns what is known of it.
+    pub fn properties(self) -> Properties {
         use Solver::{Cg, DenseLu, Refined, SparseCholesky};
         match self {
-            ScalarName::F64 | ScalarName::Bounded => Solver::ALL,
-            ScalarName::F32 => &[DenseLu, SparseCholesky, Cg],
-            ScalarName::F64x2 => &[DenseLu, SparseCholesky, Cg, Refined],
-            ScalarName::Exact | ScalarName::BoundedDouble => &[DenseLu, SparseCholesky],
+            ScalarName::F64 => Properties {
+                digits: Some(16),
+                bytes: 8,
+                solvers: Solver::ALL,
+                sparse: &[SparseCholesky, Cg, Refined],
+                no_mortar: None,
+            },
+            ScalarName::F32 => Properties {
+                digits: Some(7),
+                bytes: 4,
+                solvers: &[DenseLu, SparseCholesky, Cg],
+                sparse: &[SparseCholesky, Cg],
+                no_mortar: Some("its integrals lose too many digits"),
+            },
+            ScalarName::F64x2 => Properties {
+                digits: Some(31),
+                bytes: 16,
+                solvers: &[DenseLu, SparseCholesky, Cg, Refined],
+                sparse: &[SparseCholesky, Cg, Refined],
+                no_mortar: None,
+            },
+            ScalarName::Bounded => Properties {
+                digits: Some(16),
+                bytes: 16,
+                solvers: Solver::ALL,
+                sparse: &[SparseCholesky],
+                no_mortar: None,
+            },
+            ScalarName::BoundedDouble => Properties {
+                digits: Some(31),
+                bytes: 16,
+                solvers: &[DenseLu, SparseCholesky],
+                sparse: &[SparseCholesky],
+                no_mortar: None,
+            },
+            ScalarName::Exact => Properties {
+                digits: None,
+                bytes: 16,
+                solvers: &[DenseLu, SparseCholesky],
+                sparse: &[],
+                no_mortar: Some("its integrals take square roots"),
+            },
         }
     }
 }
@@ -105,7 +147,7 @@ impl Arithmetic {
     /// Returns the solver asked for; else sparse LU in `f64` for a matrix that is
     /// `printed`, which need not be positive definite, and sparse Cholesky for every other one.
     pub fn solver(&self, printed: bool) -> Solver {
-        let offers_sparse_lu = self.scalar.solvers().contains(&Solver::SparseLu);
+        let offers_sparse_lu = self.scalar.properties().solvers.contains(&Solver::SparseLu);
         let own =
             if printed && offers_sparse_lu { Solver::SparseLu } else { Solver::SparseCholesky };
         self.solver.unwrap_or(own)
@@ -119,7 +161,7 @@ impl Arithmetic {
     /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
     /// Errors: names the solvers that are offered, or the fault of the tolerance.
     pub fn check(&self) -> Result<()> {
-        let (solver, offered) = (self.solver(true), self.scalar.solvers());
+        let (solver, offered) = (self.solver(true), self.scalar.properties().solvers);
         if !offered.contains(&solver) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();
             let what = format!("{solver} does not solve in {}", self.scalar);

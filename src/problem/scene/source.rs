@@ -68,16 +68,15 @@ pub fn mesh(
     })?;
     let length = file.length;
     gmsh::read(file, length).map_err(|error| {
-        let fix = match error.fault {
-            Fault::Memory { .. } => memory::FIX,
-            _ => "save the mesh again from Gmsh",
-        };
-        let what = match &error.fault {
+        let is_memory = matches!(error.fault, Fault::Memory { .. });
+        let fix = if is_memory { memory::FIX } else { "save the mesh again from Gmsh" };
+        let what = if let Fault::Unexpected { expected, .. } = &error.fault
+            && expected.starts_with("$MeshFormat")
+        {
             // A file that is no mesh may hold secrets of who runs the scene.
-            Fault::Unexpected { expected, .. } if expected.starts_with("$MeshFormat") => {
-                format!("it is no mesh of Gmsh: expected {expected}")
-            }
-            _ => error.to_string(),
+            format!("it is no mesh of Gmsh: expected {expected}")
+        } else {
+            error.to_string()
         };
         InputError::new(format!("mesh {name:?}"), what, fix)
     })

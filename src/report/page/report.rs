@@ -135,7 +135,7 @@ fn run(run: &Run) -> Value {
 fn is_shown(own: &Step, next: &Step) -> bool {
     match (&own.detail, &next.detail) {
         (Detail::Unilateral(own), Detail::Unilateral(next)) => own.load < next.load,
-        _ => true,
+        (Detail::Published(_), _) | (_, Detail::Published(_)) => true,
     }
 }
 

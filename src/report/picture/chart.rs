@@ -57,7 +57,10 @@ pub enum Style {
 
 impl Style {
     fn is_curve(self) -> bool {
-        matches!(self, Style::Dotted | Style::Line)
+        match self {
+            Style::Dotted | Style::Line => true,
+            Style::Dots | Style::Rings => false,
+        }
     }
 }
 
@@ -93,7 +96,7 @@ fn legend(series: &[Series]) -> Vec<(Sign, String)> {
         let colour = colour(k, series.style);
         let sign = match series.style {
             Style::Rings => Sign::Ring(colour),
-            _ => Sign::Node(colour),
+            Style::Dotted | Style::Line | Style::Dots => Sign::Node(colour),
         };
         (sign, series.name.clone())
     };

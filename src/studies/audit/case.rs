@@ -98,7 +98,7 @@ impl Case {
     pub fn prepare(&self) {
         let run = |variant: &Variant| match variant {
             Variant::Printed => drop(self.run(*variant)),
-            _ => drop(self.certain(*variant)),
+            Variant::Tied | Variant::Stepped | Variant::Unilateral => drop(self.certain(*variant)),
         };
         let unilateral = || {
             let _ = self.certain(Variant::Unilateral);

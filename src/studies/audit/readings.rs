@@ -20,7 +20,7 @@ use problem::modelling::Variant;
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,
-    /// The value that differs from the default, such as `R1 = inside`.
+    /// The value that differs from the default, such as `R1 = inside` or `R9: ORIGIN = 0`.
     pub reading: String,
     /// The lines of the listing that it concerns.
     pub lines: &'static str,
@@ -90,7 +90,7 @@ impl Effect {
     ) -> Self {
         let mut effect = Effect {
             id: row.id,
-            reading: if row.is_option() { row.label(value) } else { value.name.into() },
+            reading: row.label(value),
             lines: row.lines,
             statuses: None,
             entries: None,

@@ -1,15 +1,6 @@
 //! Scenes of published benchmarks on structured meshes: contact patch tests, Hertz, a flat punch,
 //! Lamé, Kirsch, Cook, NAFEMS LE1; and the paper's example on a mesh of any size.
 //!
-//! | kind | what is known |
-//! |---|---|
-//! | [`Blocks`], [`PunchPatch`] | one stress everywhere |
-//! | [`Hertz`] | half width and peak pressure (NAFEMS CGS-1) |
-//! | [`Punch`] | the pressure under a flat rigid punch |
-//! | [`Annulus`], [`Hole`] | Lamé's and Kirsch's closed forms |
-//! | [`Cook`], [`Ellipse`] | a displacement; a stress (NAFEMS LE1) |
-//! | [`Strand`] | nothing in closed form; the paper's scene, for any radii |
-//!
 //! Meshes are made of rows of nodes, joined two by two by triangles; that of the strand by Delaunay
 //! refinement. The same parameters lead to the same bytes.
 
@@ -57,6 +48,16 @@ impl Kind {
     pub fn names() -> Vec<String> {
         let command = <Self as clap::Subcommand>::augment_subcommands(clap::Command::new("mesh"));
         command.get_subcommands().map(|kind| kind.get_name().to_string()).collect()
+    }
+
+    /// Returns each kind with its default parameters.
+    pub fn all() -> Vec<Self> {
+        let command = <Self as clap::Subcommand>::augment_subcommands(clap::Command::new("mesh"));
+        let kind = |name| {
+            let matches = command.clone().get_matches_from(["mesh".to_string(), name]);
+            <Self as clap::FromArgMatches>::from_arg_matches(&matches).expect("a name of a kind")
+        };
+        Kind::names().into_iter().map(kind).collect()
     }
 
     /// Generates the scene; it has the kind's name.

@@ -171,7 +171,7 @@ fn step(problem: &Problem) -> String {
     let model = problem.model;
     let load = match problem.contact {
         Contact::Equations(_, Some(friction)) => &model.load + friction,
-        _ => model.load.clone(),
+        Contact::Equations(_, None) | Contact::Pair(_) => model.load.clone(),
     };
     for (dof, force) in model.all_dofs().zip(load.iter()) {
         if *force != 0.0 && !model.is_restrained(dof) {

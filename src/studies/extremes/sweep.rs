@@ -51,7 +51,7 @@ impl Method {
         measure: impl Fn(f64, &Exacts) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
         // An exact answer is compared as an f64.
-        let carried = f64::from(scalar.digits().unwrap_or(16));
+        let carried = f64::from(scalar.properties().digits.unwrap_or(16));
         Method { name: name.into(), carried, least: LEAST, measure: Box::new(measure) }
     }
 

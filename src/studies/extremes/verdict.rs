@@ -64,7 +64,9 @@ impl Verdict {
     pub fn breaks_down(&self, least: f64) -> bool {
         match self {
             Verdict::Refused(_) => true,
-            _ => self.digits(f64::INFINITY).is_some_and(|digits| digits < least),
+            Verdict::Exact | Verdict::Digits(_) | Verdict::Wrong(_) | Verdict::Unknown => {
+                self.digits(f64::INFINITY).is_some_and(|digits| digits < least)
+            }
         }
     }
 }

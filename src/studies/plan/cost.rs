@@ -114,14 +114,7 @@ impl Work<'_> {
 
     /// The bytes of a number.
     fn number_bytes(&self) -> usize {
-        match self.request.arithmetic.scalar {
-            ScalarName::F32 => 4,
-            ScalarName::F64 => 8,
-            ScalarName::F64x2
-            | ScalarName::Bounded
-            | ScalarName::BoundedDouble
-            | ScalarName::Exact => 16,
-        }
+        self.request.arithmetic.scalar.properties().bytes
     }
 
     /// K is 2R x 2R, the others have the equations that are solved.

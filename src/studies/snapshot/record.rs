@@ -47,7 +47,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
         (Ok(solution), Bounds::Computed) => Some(rounding(solution, &session)),
-        _ => None,
+        (Err(_), _) | (_, Bounds::LeftOut) => None,
     };
     // A solution may leave out steps that were taken back.
     let steps = solved.as_ref().map_or(&steps, |solution| &solution.steps);
@@ -245,13 +245,12 @@ impl Recorded<'_> {
                         .for_each(|j| add(i, j, matrix[(i, j)]));
                 }
             }
-            _ => {
-                let t = match request.variant {
-                    Variant::Unilateral => {
-                        Elimination::closing(&model.restrained, &step.constraints)
-                    }
-                    _ => Elimination::new(&model.restrained, &step.constraints),
-                };
+            (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
+                let t = Elimination::new(&model.restrained, &step.constraints);
+                stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
+            }
+            (Detail::Unilateral(_), _) => {
+                let t = Elimination::closing(&model.restrained, &step.constraints);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
         }

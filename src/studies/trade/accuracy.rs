@@ -99,25 +99,27 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
     use ScalarName::{Bounded, BoundedDouble, Exact, F32};
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
     const DENSE: usize = 600;
-    match (request.variant, request.contact.coupling) {
-        (Variant::Unilateral, _) => return vec![sparse(ScalarName::F64)],
-        (Variant::Tied | Variant::Stepped, Coupling::Mortar) => {
-            return vec![sparse(Bounded), sparse(BoundedDouble)];
-        }
-        _ => (),
-    }
-    let small = request.scene.model.dofs() <= DENSE;
-    let with = |scalar| match request.variant {
-        Variant::Printed if small => by(scalar, Solver::DenseLu),
-        _ => sparse(scalar),
+    let is_small = request.scene.model.dofs() <= DENSE;
+    let all = |by: fn(ScalarName) -> Arithmetic| {
+        vec![by(F32), by(Bounded), by(BoundedDouble), sparse(Exact)]
     };
-    vec![with(F32), with(Bounded), with(BoundedDouble), sparse(Exact)]
+    match (request.variant, request.contact.coupling) {
+        (Variant::Unilateral, Coupling::Nts | Coupling::Mortar) => vec![sparse(ScalarName::F64)],
+        (Variant::Tied | Variant::Stepped, Coupling::Mortar) => {
+            vec![sparse(Bounded), sparse(BoundedDouble)]
+        }
+        (Variant::Tied | Variant::Stepped, Coupling::Nts) => all(sparse),
+        (Variant::Printed, Coupling::Nts | Coupling::Mortar) if is_small => {
+            all(|scalar| by(scalar, Solver::DenseLu))
+        }
+        (Variant::Printed, Coupling::Nts | Coupling::Mortar) => all(sparse),
+    }
 }
 
 /// Returns why it is pointless to run in `scalar`.
 fn not_run(request: &Request, scalar: ScalarName, accuracy: f64) -> Option<String> {
     // Of exact displacements 40 digits are written.
-    let digits = scalar.digits().unwrap_or(39);
+    let digits = scalar.properties().digits.unwrap_or(39);
     if accuracy.log10() < -f64::from(digits) {
         return Some("its digits are too few".into());
     }
