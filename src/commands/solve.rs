@@ -26,9 +26,9 @@ use super::{
 #[derive(clap::Args)]
 #[command(after_help = format!("\
 Prints iterations, bodies, contact nodes, error estimates, and the distance from the reference
-solution. Beyond 20,000 triangles result.json leaves their values to fields.vtu, and pictures show
-them as pixels. Writes to --out:
-{}
+solution. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
+{}.
+
 Examples:
   plane-contact solve
   plane-contact solve strand --variant tied --out out/tied

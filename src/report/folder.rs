@@ -73,21 +73,6 @@ impl File {
             File::Pressure => "pressure.svg".into(),
         }
     }
-
-    /// Returns what it shows, and when it is written.
-    fn words(self) -> String {
-        match self {
-            File::Result => "all that is printed, and the values of nodes and triangles".into(),
-            File::Fields => "those values, for ParaView".into(),
-            File::Mesh => "the mesh, as fig. 4 of the paper".into(),
-            File::Picture(quantity) => {
-                format!("{} on the deformed shape, as fig. 5, where it is known", quantity.title)
-            }
-            File::Pressure => {
-                "contact pressure along the contact surface, where there is one".into()
-            }
-        }
-    }
 }
 
 /// Returns the names of the files that a run may leave.
@@ -95,10 +80,16 @@ pub fn names(wanted: FolderOptions) -> Vec<String> {
     File::all(wanted).map(File::name).collect()
 }
 
-/// Returns a line for each file that a run may leave: its name, and what it shows.
+/// Returns the files that a run may leave, for help: four a line, with what not every name says.
 pub fn help() -> String {
-    let line = |file: File| format!("  {:<21} {}\n", file.name(), file.words());
-    File::all(FolderOptions::default()).map(line).collect()
+    let described = |file: File| match file {
+        File::Fields => format!("{} (for ParaView)", file.name()),
+        File::Mesh => format!("{} (the paper's fig. 4)", file.name()),
+        File::Result | File::Picture(_) | File::Pressure => file.name(),
+    };
+    let files: Vec<String> = File::all(FolderOptions::default()).map(described).collect();
+    let lines: Vec<String> = files.chunks(4).map(|line| line.join(", ")).collect();
+    lines.join(",\n")
 }
 
 /// Computes the content of a file.
