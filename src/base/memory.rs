@@ -47,6 +47,9 @@ pub const FIX_THREADS: &str = "give it more memory, or fewer threads (RAYON_NUM_
 
 /// Checks that the stacks of `threads` threads fit in the addresses that the process may still ask for:
 /// a thread that starts where none are left cannot allocate, and aborts the process.
+///
+/// # Errors
+/// There is no room for the stacks: says how much is free.
 pub fn check_stacks(threads: usize) -> Result<()> {
     /// Rust's own size of a thread's stack, bytes.
     const STACK: f64 = 2_097_152.0;
@@ -56,6 +59,9 @@ pub fn check_stacks(threads: usize) -> Result<()> {
 }
 
 /// Checks that `needed` bytes fit in those that are free; `place` and `fix` are those of the error.
+///
+/// # Errors
+/// More is needed than is free: says how much.
 pub fn check_bytes(needed: f64, place: &str, whose: &str, fix: &str) -> Result<()> {
     if needed <= LITTLE {
         return Ok(());

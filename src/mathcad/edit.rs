@@ -47,6 +47,9 @@ pub enum EditError {
 
 impl Edit {
     /// Reads an edit from its text.
+    ///
+    /// # Errors
+    /// The text is no edit: says in which line.
     pub fn parse(text: &str) -> Result<Self, EditError> {
         let mut edit = Edit { reason: String::new(), changes: vec![] };
         for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {

@@ -92,6 +92,9 @@ impl<'l> Runner<'l> {
     }
 
     /// Calls the listing's function.
+    ///
+    /// # Errors
+    /// The listing fails: says in which line and why.
     pub fn call(&mut self, arguments: &[Value]) -> Fallible<Outcome> {
         self.call_observed(arguments, &mut ())
     }

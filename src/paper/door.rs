@@ -25,7 +25,9 @@ const IND_1: usize = 6;
 
 /// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance. A model
 /// that the reading changes is no longer shared.
-/// Errors: the plane problem of R6 does not allow a Poisson's ratio.
+///
+/// # Errors
+/// The plane problem of R6 does not allow a Poisson's ratio.
 pub fn under(mut model: Arc<Model>, reading: &Reading) -> Result<Arc<Model>, InputError> {
     if let Some(plane) = reading.r6 {
         Arc::make_mut(&mut model).plane = plane;
@@ -124,7 +126,9 @@ pub fn shape<T: Scalar>(node_n: &Table<T>) -> Vec<[T; 2]> {
 }
 
 /// Returns `Km` without contact and without restraints, 2R x 2R, force/length.
-/// Errors: an entry of the matrix overflows.
+///
+/// # Errors
+/// An entry of the matrix overflows.
 pub fn free_stiffness<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
@@ -176,7 +180,9 @@ pub fn statuses<T: Scalar>(model: &Model, pairs: &Pairs<T>) -> Vec<ContactStatus
 
 /// Returns statuses that another rule than the listing's decided as pairs in the listing's arrays,
 /// with the weights of its lines 11 to 31.
-/// Errors: those lines fail as printed: the weights of a vertical edge.
+///
+/// # Errors
+/// Those lines fail as printed: the weights of a vertical edge.
 pub fn pairs<T: Scalar>(
     model: &Model,
     sheet: &Worksheet<T>,
@@ -251,6 +257,9 @@ pub struct Call {
 
 impl Call {
     /// Calls `c_cnt` under `reading` in a shape, given as the coordinates of each node, length.
+    ///
+    /// # Errors
+    /// The listing fails: says in which line.
     pub fn c_cnt(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Result<Self, Failure> {
         let sheet = worksheet(model, |x| x);
         let pairs = c_cnt(&sheet, reading, &node_n(model, shape))?;
@@ -266,7 +275,9 @@ impl Call {
 
     /// Calls `Km` with the pairs of `c_cnt`. Returns `MJS`, with a row and a column for each degree
     /// of freedom, force/length.
-    /// Errors: an entry of the matrix overflows.
+    ///
+    /// # Errors
+    /// An entry of the matrix overflows.
     pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
         Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_sparse().dense())
     }

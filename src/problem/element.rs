@@ -30,7 +30,9 @@ choices! {
 
 impl Plane {
     /// Checks that `nu` is a Poisson's ratio of the plane problem.
-    /// Errors: the ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
+    ///
+    /// # Errors
+    /// The ratio is outside (-1, 0.5) in plane strain, or (-1, 1) in plane stress.
     pub fn check_poisson(self, nu: f64, place: &str) -> Result<()> {
         let (below, name) = match self {
             Plane::Strain => (0.5, "plane strain"),

@@ -175,7 +175,9 @@ const MOST_ITERATIONS: usize = 1_000_000;
 pub const MOST_LOAD_STEPS: usize = 100_000;
 
 /// Checks a number of iterations.
-/// Errors: it is 0 or too large.
+///
+/// # Errors
+/// It is 0 or too large.
 pub fn check_iterations(iterations: usize) -> Result<()> {
     if (1..=MOST_ITERATIONS).contains(&iterations) {
         return Ok(());
@@ -185,7 +187,9 @@ pub fn check_iterations(iterations: usize) -> Result<()> {
 }
 
 /// Checks a tolerance of the contact search, length.
-/// Errors: it is negative, or no number.
+///
+/// # Errors
+/// It is negative, or no number.
 pub fn check_tolerance(tolerance: f64) -> Result<()> {
     if tolerance >= 0.0 && tolerance.is_finite() {
         return Ok(());
@@ -214,7 +218,9 @@ pub struct ContactModel {
 
 impl ContactModel {
     /// Checks the number of steps.
-    /// Errors: it is 0 or too large.
+    ///
+    /// # Errors
+    /// It is 0 or too large.
     pub fn check(&self) -> Result<()> {
         if (1..=MOST_LOAD_STEPS).contains(&self.load_steps) {
             return Ok(());

@@ -31,6 +31,9 @@ impl Default for FolderOptions {
 
 /// Writes the files of a run to `folder`; returns the content of `result.json`. `plan` is the plan
 /// that the run followed.
+///
+/// # Errors
+/// A file cannot be written.
 pub fn write(
     folder: &Path,
     solution: &Solution,

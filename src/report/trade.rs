@@ -23,6 +23,9 @@ pub fn json(scene: &Scene, trade: &Trade) -> String {
 }
 
 /// Writes `trade.json`, `trade.csv` and the pictures to `folder`; gives back the first.
+///
+/// # Errors
+/// A file cannot be written.
 pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
     let json = json(scene, trade);
     let timed = picture(trade).map(|picture| ("trade.svg".into(), picture));

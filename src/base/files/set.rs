@@ -62,7 +62,9 @@ fn no_file(folder: &Path) -> io::Result<()> {
 }
 
 /// Returns the files of an earlier run of `command` in `folder`, which may be removed.
-/// Errors: says which of them, or of `names`, would be lost with what the user did to it.
+///
+/// # Errors
+/// Says which of them, or of `names`, would be lost with what the user did to it.
 fn old_files(
     folder: &Folder,
     manifest: &Manifest,

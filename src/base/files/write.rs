@@ -10,7 +10,9 @@ use crate::error::{InputError, Result};
 
 /// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
 /// target that is no ordinary file (a pipe, a device) is written directly.
-/// Errors: the folder or the file cannot be written; an existing file keeps its content.
+///
+/// # Errors
+/// The folder or the file cannot be written; an existing file keeps its content.
 pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
     let content = content.as_ref();
     let written = match std::fs::canonicalize(path) {
@@ -25,7 +27,9 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
 }
 
 /// Checks that a file can be written to `path`, before its content is computed.
-/// Errors: a folder is in its place.
+///
+/// # Errors
+/// A folder is in its place.
 pub fn check_file(path: &Path) -> Result<()> {
     if !path.is_dir() {
         return Ok(());
@@ -35,7 +39,9 @@ pub fn check_file(path: &Path) -> Result<()> {
 }
 
 /// Writes `content` to a new file at `path`, and creates its folder where it is missing.
-/// Errors: there is a file, or it cannot be written.
+///
+/// # Errors
+/// There is a file, or it cannot be written.
 pub fn write_new(path: &Path, content: &str) -> io::Result<()> {
     put(path, content.as_bytes(), |from, to| {
         Ok(TempPath::try_from_path(from)?.persist_noclobber(to)?)

@@ -47,7 +47,9 @@ use problem::modelling::StatusRule;
 /// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
 /// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
 /// the signed distance to it: > 0 inside the target.
-/// Errors: the lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 and the weights of 22
+///
+/// # Errors
+/// The lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 and the weights of 22
 /// under *intersection*.
 pub fn statuses<T: Scalar>(
     rule: StatusRule,
@@ -89,7 +91,9 @@ fn guarded(reading: &Reading) -> Reading {
 
 /// Returns the decisions of a rule in iteration `k` that rounding may have taken, in numbers that carry
 /// a bound.
-/// Errors: those of [`statuses`].
+///
+/// # Errors
+/// Those of [`statuses`].
 pub fn decisions<T: Scalar>(
     rule: StatusRule,
     model: &Model,

@@ -39,6 +39,9 @@ impl<'a, 'i> Math<'a, 'i> {
     }
 
     /// Returns the element inside it at place `k`, from 0.
+    ///
+    /// # Errors
+    /// There is no such element.
     pub fn part(self, k: usize) -> Read<Math<'a, 'i>> {
         self.parts().nth(k).ok_or_else(|| Unsupported(format!("an incomplete `{}`", self.tag())))
     }
@@ -68,6 +71,9 @@ impl<'a, 'i> Math<'a, 'i> {
 }
 
 /// Refuses a region that is nested too deeply.
+///
+/// # Errors
+/// The elements are nested too deeply.
 pub fn check_depth(node: Node<'_, '_>) -> Read<()> {
     let mut deepest = 0;
     for descendant in node.descendants() {
@@ -83,6 +89,9 @@ pub fn check_depth(node: Node<'_, '_>) -> Read<()> {
 }
 
 /// Reads a name.
+///
+/// # Errors
+/// The notation has no such name.
 pub fn name(id: Math<'_, '_>) -> Read<String> {
     if id.tag() != "id" {
         return Err(unsupported(id));
@@ -102,6 +111,9 @@ pub fn name(id: Math<'_, '_>) -> Read<String> {
 }
 
 /// Reads the lines of a program or the one line of an expression, indented `level` deep.
+///
+/// # Errors
+/// The notation lacks a construct of the program.
 pub fn lines(node: Math<'_, '_>, level: usize) -> Read<Vec<String>> {
     let mut lines = vec![];
     match node.tag() {
@@ -172,6 +184,9 @@ fn head(node: Math<'_, '_>) -> Read<String> {
 }
 
 /// Reads what is assigned to: a name, or an entry of a name.
+///
+/// # Errors
+/// The notation lacks a construct of the target.
 pub fn target(node: Math<'_, '_>) -> Read<String> {
     let what = match node.tag() {
         "id" => return name(node),
@@ -184,6 +199,9 @@ pub fn target(node: Math<'_, '_>) -> Read<String> {
 }
 
 /// Reads what a loop runs over.
+///
+/// # Errors
+/// The notation lacks a construct of the range.
 pub fn range(node: Math<'_, '_>) -> Read<String> {
     match node.tag() {
         "range" => {}
@@ -206,6 +224,9 @@ pub fn range(node: Math<'_, '_>) -> Read<String> {
 }
 
 /// Returns an expression of the file in the text notation.
+///
+/// # Errors
+/// The notation lacks a construct of the expression.
 pub fn expression(node: Math<'_, '_>) -> Read<String> {
     text(node, false)
 }

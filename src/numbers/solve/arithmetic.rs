@@ -159,7 +159,9 @@ impl Arithmetic {
     }
 
     /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
-    /// Errors: names the solvers that are offered, or the fault of the tolerance.
+    ///
+    /// # Errors
+    /// Names the solvers that are offered, or the fault of the tolerance.
     pub fn check(&self) -> Result<()> {
         let (solver, offered) = (self.solver(true), self.scalar.properties().solvers);
         if !offered.contains(&solver) {

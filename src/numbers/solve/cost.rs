@@ -22,7 +22,9 @@ pub fn seconds(equations: usize, growing: bool, iterations: usize) -> f64 {
 }
 
 /// Checks that exact solutions end within the limit.
-/// Errors: says how long they may take where they do not.
+///
+/// # Errors
+/// Says how long they may take where they do not.
 pub fn check(equations: usize, growing: bool, iterations: usize) -> Result<()> {
     let seconds = seconds(equations, growing, iterations);
     if seconds <= LIMIT {

@@ -24,7 +24,9 @@ pub struct DenseLu {
 
 impl DenseLu {
     /// Factors an n x n `matrix`, in its place.
-    /// Errors: names a pivot below 16 n · eps of its own column's largest entry, which counts as
+    ///
+    /// # Errors
+    /// Names a pivot below 16 n · eps of its own column's largest entry, which counts as
     /// zero (rounding leaves some n · eps where the exact pivot is 0): column by column, so that a
     /// body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
@@ -83,7 +85,9 @@ pub struct DenseCholesky {
 
 impl DenseCholesky {
     /// Factors an n x n `matrix`, of which the lower triangle is read.
-    /// Errors: names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
+    ///
+    /// # Errors
+    /// Names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
     pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Singular> {
         let n = matrix.nrows();
         faer::set_global_parallelism(Par::Seq);

@@ -70,7 +70,9 @@ impl Field for RBig {
 
 /// Returns the solution x of A x = `b`, by Gauss's elimination with the largest pivot of each
 /// column.
-/// Errors: names a pivot that is 0, or below 16 n · eps of the largest entry of its column.
+///
+/// # Errors
+/// Names a pivot that is 0, or below 16 n · eps of the largest entry of its column.
 pub fn solve_dense<F: Field>(
     matrix: impl Fn(usize, usize) -> F,
     mut b: Vec<F>,

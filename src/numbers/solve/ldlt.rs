@@ -22,7 +22,9 @@ pub struct Ldlt<F> {
 
 impl<F: Field> Ldlt<F> {
     /// Factors an n x n `matrix`.
-    /// Errors: names a pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix
+    ///
+    /// # Errors
+    /// Names a pivot that is 0, or below 16 n · eps of its own diagonal entry. A matrix
     /// that is not semidefinite may have one and yet a unique solution.
     pub fn new(matrix: &SparseSymmetric<F>) -> Result<Self, Singular> {
         let n = matrix.size();

@@ -49,11 +49,17 @@ pub trait Precision: Scalar {
     fn solve(a: DMatrix<Self>, b: &DVector<Self>, by: Solver, tol: Option<f64>) -> Outcome<Self>;
 
     /// Solves by `sparse-lu` from a matrix that is sparse already.
+    ///
+    /// # Errors
+    /// The matrix is singular.
     fn solve_sparse(a: &SparseSquare<Self>, b: &DVector<Self>) -> Outcome<Self> {
         Self::solve(a.dense(), b, Solver::SparseLu, None)
     }
 
     /// Does `work`, and frees every number that it made but its result.
+    ///
+    /// # Errors
+    /// Those of `work`.
     fn sweep<E>(work: impl FnOnce() -> Result<Solved<Self>, E>) -> Result<Solved<Self>, E> {
         work()
     }
@@ -62,11 +68,15 @@ pub trait Precision: Scalar {
 /// A scalar in which A x = b is solved to a tolerance, by products with A and factors in fewer digits.
 pub trait Iterates: Precision {
     /// Solves by Cholesky factors in fewer digits, refined to `tol`; by `cg` where there are none.
-    /// Errors: the factors tell that A is singular, or the iteration did not converge.
+    ///
+    /// # Errors
+    /// The factors tell that A is singular, or the iteration did not converge.
     fn refined(a: &SparseSymmetric<Self>, b: &DVector<Self>, tol: f64) -> Outcome<Self>;
 
     /// Solves by `cg` or `refined` to `tol`, A symmetric and positive definite.
-    /// Errors: the factors tell that A is singular, or the iteration did not converge.
+    ///
+    /// # Errors
+    /// The factors tell that A is singular, or the iteration did not converge.
     fn iterate(
         a: &SparseSymmetric<Self>,
         b: &DVector<Self>,

@@ -29,7 +29,9 @@ pub struct SparseCholesky {
 
 impl SparseCholesky {
     /// Factors a `matrix` that must be positive definite.
-    /// Errors: names an equation that a trial load, scaled by the diagonal, moves without bound:
+    ///
+    /// # Errors
+    /// Names an equation that a trial load, scaled by the diagonal, moves without bound:
     /// the matrix is singular or nearly so.
     pub fn new(matrix: SparseSymmetric) -> Result<Self, Singular> {
         let Some(factors) = Cholesky::new(&matrix) else {

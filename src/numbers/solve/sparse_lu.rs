@@ -26,7 +26,9 @@ pub struct SparseLu {
 
 impl SparseLu {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
-    /// Errors: those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
+    ///
+    /// # Errors
+    /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
         let columns = columns(matrix);

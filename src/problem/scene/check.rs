@@ -12,7 +12,9 @@ use base::error::{InputError, Result};
 use base::plain::six_digits;
 
 /// Checks the thickness and the number of iterations.
-/// Errors: the thickness is not positive, or the number of iterations is 0 or too large.
+///
+/// # Errors
+/// The thickness is not positive, or the number of iterations is 0 or too large.
 pub fn numbers(file: &Description) -> Result<()> {
     if !(file.thickness > 0.0 && file.thickness.is_finite()) {
         let what = format!("the thickness {} is not positive", six_digits(file.thickness));
@@ -22,7 +24,9 @@ pub fn numbers(file: &Description) -> Result<()> {
 }
 
 /// Returns the place of each triangle's material in the scene file, in the order of `EL`.
-/// Errors: a material is out of its range, a triangle has no material or two, or a group has no
+///
+/// # Errors
+/// A material is out of its range, a triangle has no material or two, or a group has no
 /// triangle.
 pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<u32>> {
     let mut of_element: Vec<Option<u32>> = vec![None; mesh.elements.len()];
@@ -57,7 +61,9 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
 }
 
 /// Returns whether each degree of freedom is restrained.
-/// Errors: a restraint names no place or two, or a node or group that does not exist.
+///
+/// # Errors
+/// A restraint names no place or two, or a node or group that does not exist.
 pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<bool>> {
     let mut restrained = vec![false; 2 * mesh.nodes.len()];
     let mut restrain = |n: usize, axis: &Axis| {
@@ -93,7 +99,9 @@ pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Ve
 }
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
-/// Errors: the tolerance is negative, the number of steps is 0 or too large, or the surfaces do not
+///
+/// # Errors
+/// The tolerance is negative, the number of steps is 0 or too large, or the surfaces do not
 /// exist or share a node.
 pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
@@ -123,7 +131,9 @@ pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Conta
 
 /// Checks that restraints fix each body that no contact surface touches, and, taken as one, the
 /// bodies that contact joins.
-/// Errors: a body can still move; the error says how.
+///
+/// # Errors
+/// A body can still move; the error says how.
 pub fn restrained_bodies(model: &Model) -> Result<()> {
     let surfaces = model.surface_nodes();
     let (joined, alone): (Vec<&Body>, Vec<&Body>) =

@@ -17,7 +17,9 @@ const SCENE: json::Kind =
     json::Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: false };
 
 /// Parses a scene file, with the source of its mesh still in it.
-/// Errors: the text is no scene file; the error names the field's path, the line and the column.
+///
+/// # Errors
+/// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
     json::read(text, &SCENE)
 }

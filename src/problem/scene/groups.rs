@@ -86,7 +86,9 @@ impl<'m> Groups<'m> {
 
     /// Returns the places in the mesh of a group's elements of dimension `dim` (1: edges, 2: triangles),
     /// ascending.
-    /// Errors: no such group exists in that dimension, or it has no element.
+    ///
+    /// # Errors
+    /// No such group exists in that dimension, or it has no element.
     pub fn places(&self, dim: usize, group: &GroupRef, place: &str) -> Result<&[u32]> {
         let tag = self.tag(dim, group);
         if let Some(places) = tag.and_then(|tag| self.places.get(&(dim, tag))) {
@@ -117,7 +119,9 @@ impl<'m> Groups<'m> {
     }
 
     /// Returns a group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
-    /// Errors: those of [`Self::places`].
+    ///
+    /// # Errors
+    /// Those of [`Self::places`].
     pub fn members(
         &self,
         dim: usize,

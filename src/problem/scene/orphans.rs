@@ -7,7 +7,9 @@ use base::error::{InputError, Result};
 
 /// Drops the nodes `dropped`, which belong to no triangle, with the points and edges on them. Every node
 /// keeps its number.
-/// Errors: the description does not allow it, or names a dropped node.
+///
+/// # Errors
+/// The description does not allow it, or names a dropped node.
 pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Result<()> {
     if !description.drop_orphans {
         let what = format!(

@@ -30,6 +30,9 @@ impl Scene {
     /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
     /// for half a scene, which has no mesh. A restraint or a force on a single node stays on that
     /// node.
+    ///
+    /// # Errors
+    /// The finer scene cannot be built.
     pub fn refined(&self) -> Result<Option<Refined>> {
         let Some(source) = &self.source else { return Ok(None) };
         let (file, mesh) = (&source.description, &source.mesh);

@@ -43,7 +43,9 @@ impl Read for FileBeside {
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
 /// in the scene file's folder.
-/// Errors: the fields name no source, or two; the file cannot be read; a row of a table has another
+///
+/// # Errors
+/// The fields name no source, or two; the file cannot be read; a row of a table has another
 /// form.
 pub fn mesh(
     scene: &mut Description,

@@ -39,7 +39,9 @@ impl From<Vec<usize>> for Surface {
 
 /// Returns the node numbers of the contact surface `cnt`, in order along it. A list is taken as it
 /// is; a group's edges are followed as a chain from its first end.
-/// Errors: a group is no single chain, or a number is no node.
+///
+/// # Errors
+/// A group is no single chain, or a number is no node.
 pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.cnt";
     match surface {
@@ -60,7 +62,9 @@ pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<
 }
 
 /// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
-/// Errors: a number is no edge.
+///
+/// # Errors
+/// A number is no edge.
 pub fn target_edges(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.trg";
     match surface {
@@ -92,6 +96,9 @@ fn not_empty(numbers: &[usize], place: &str) -> Result<()> {
 }
 
 /// Follows `edges` as one chain from its first end, or a closed one from its first node.
+///
+/// # Errors
+/// The edges branch, or are more than one chain.
 pub fn chain(edges: &[[usize; 2]]) -> Result<Vec<usize>, String> {
     let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
     for (k, edge) in edges.iter().enumerate() {

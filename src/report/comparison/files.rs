@@ -22,6 +22,9 @@ use studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pa
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
 /// the first one's content.
+///
+/// # Errors
+/// A file cannot be written.
 pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let Compared { scene, model, comparison, .. } = compared;
     let Comparison { ours, theirs, von_mises, displacement, .. } = comparison;

@@ -69,6 +69,9 @@ impl Case {
     }
 
     /// The run of a variant, or why there is none.
+    ///
+    /// # Errors
+    /// The run fails.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
         let run = || self.session.solve(&self.request(variant), &mut |_| ());
         self.runs[variant_index(variant)].get_or_init(run).as_ref()
@@ -76,6 +79,9 @@ impl Case {
 
     /// The run of a variant, in double-doubles where rounding decides nothing but in those
     /// ([`certain`]); or why there is none.
+    ///
+    /// # Errors
+    /// The run fails.
     pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
         let run = self.run(variant)?;
         Ok(self.certain[variant_index(variant)].get_or_init(|| certain(run.clone(), &self.session)))
@@ -83,6 +89,9 @@ impl Case {
 
     /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
     /// [`certain`](Case::certain) is; or why there is none.
+    ///
+    /// # Errors
+    /// The finer run fails.
     pub fn finer(&self) -> Result<&(Solution, Certainty), &Error> {
         let run = || {
             let mut request = self.request(self.published_variant());
@@ -147,6 +156,9 @@ impl Case {
     }
 
     /// What `c_cnt` finds at the initial shape under the default reading.
+    ///
+    /// # Errors
+    /// `c_cnt` fails: says in which line.
     pub fn initial(&self) -> Result<Call, Failure> {
         Call::c_cnt(self.model(), &Reading::default(), &self.model().nodes)
     }

@@ -92,7 +92,9 @@ pub type Range = Vec<(ParameterValue, Arc<Case>)>;
 
 /// The places of the range, each with its scene under `reading` but for R8; the runs of the one
 /// that is in the range of every parameter are made once.
-/// Errors: a value is outside what the generator allows.
+///
+/// # Errors
+/// A value is outside what the generator allows.
 pub fn range(reading: Reading) -> Result<Range> {
     let case = |(strand, r8): &(Strand, ToleranceUnit)| {
         let scene = strand.generate().and_then(|scene| scene.build())?;

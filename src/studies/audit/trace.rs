@@ -105,6 +105,9 @@ pub fn trace(
 
 /// Executes a listing as [`trace`] does, and hands over `each` statement of the turns that `wanted`
 /// asks for as it is executed: none is kept.
+///
+/// # Errors
+/// The listing fails: says in which line.
 pub fn follow(
     which: Which,
     listing: &Listing,
@@ -127,6 +130,9 @@ pub fn follow(
 }
 
 /// Executes a listing and returns what it computes, with the lines that its own `trace` wrote.
+///
+/// # Errors
+/// The listing fails: says in which line.
 pub fn run<O: Observer>(
     which: Which,
     listing: &Listing,

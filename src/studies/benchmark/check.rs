@@ -23,7 +23,9 @@ pub fn count(parameter: &str, n: usize, least: usize) -> Result<()> {
 }
 
 /// Checks that a number of divisions is even too: a node must stand in the middle.
-/// Errors: it is odd, or outside the range of [`count`].
+///
+/// # Errors
+/// It is odd, or outside the range of [`count`].
 pub fn even(parameter: &str, n: usize) -> Result<()> {
     count(parameter, n, 2)?;
     if n.is_multiple_of(2) {

@@ -64,7 +64,9 @@ impl Hertz {
     }
 
     /// Generates the scene.
-    /// Errors: there are fewer than four elements, or too many; the radius or the load is not
+    ///
+    /// # Errors
+    /// There are fewer than four elements, or too many; the radius or the load is not
     /// positive; the half width is beyond a quarter of the radius.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("size", self.size, 4)?;

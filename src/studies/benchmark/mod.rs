@@ -61,7 +61,9 @@ impl Kind {
     }
 
     /// Generates the scene; it has the kind's name.
-    /// Errors: a parameter is out of its range.
+    ///
+    /// # Errors
+    /// A parameter is out of its range.
     pub fn generate(&self) -> Result<SceneBuilder> {
         match self {
             Kind::Blocks(kind) => kind.generate(),

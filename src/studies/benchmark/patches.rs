@@ -31,7 +31,9 @@ const SIZE: [f64; 2] = [50.0, 25.0];
 
 impl Blocks {
     /// Generates the scene.
-    /// Errors: there is no division, or there are too many.
+    ///
+    /// # Errors
+    /// There is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("upper", self.upper, 1)?;
         check::count("lower", self.lower, 1)?;
@@ -98,7 +100,9 @@ const ALL: f64 = 7.0;
 
 impl PunchPatch {
     /// Generates the scene.
-    /// Errors: a number of divisions is odd, zero or too large; the pressure is not positive.
+    ///
+    /// # Errors
+    /// A number of divisions is odd, zero or too large; the pressure is not positive.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::even("punch", self.punch)?;
         check::even("foundation", self.foundation)?;

@@ -35,7 +35,9 @@ const RADII: [f64; 2] = [10.0, 20.0];
 
 impl Annulus {
     /// Generates the scene.
-    /// Errors: there is no division, or there are too many.
+    ///
+    /// # Errors
+    /// There is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("radial", self.radial, 1)?;
         check::count("around", self.around, 2)?;
@@ -80,7 +82,9 @@ Examples:
 
 impl Hole {
     /// Generates the scene.
-    /// Errors: there are fewer than two divisions, or too many; the outer radius is below 1.5 or
+    ///
+    /// # Errors
+    /// There are fewer than two divisions, or too many; the outer radius is below 1.5 or
     /// beyond 1e6.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("around", self.around, 2)?;
@@ -150,7 +154,9 @@ Examples:
 
 impl Cook {
     /// Generates the scene.
-    /// Errors: there is no division, or there are too many.
+    ///
+    /// # Errors
+    /// There is no division, or there are too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
         check::count("n", n, 1)?;
@@ -193,7 +199,9 @@ const OUTER: [f64; 2] = [3.25, 2.75];
 
 impl Ellipse {
     /// Generates the scene.
-    /// Errors: there are fewer than two divisions, or too many.
+    ///
+    /// # Errors
+    /// There are fewer than two divisions, or too many.
     pub fn generate(&self) -> Result<SceneBuilder> {
         let n = self.n;
         check::count("n", n, 2)?;

@@ -34,7 +34,9 @@ Examples:
 
 impl Punch {
     /// Generates the scene.
-    /// Errors: there are fewer than four divisions, or too many; the outer radius is below 2 or
+    ///
+    /// # Errors
+    /// There are fewer than four divisions, or too many; the outer radius is below 2 or
     /// beyond 1e4.
     pub fn generate(&self) -> Result<SceneBuilder> {
         check::count("punch", self.punch, 4)?;

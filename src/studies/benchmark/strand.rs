@@ -83,7 +83,9 @@ const GROWTH: f64 = 0.19;
 
 impl Strand {
     /// Generates the scene.
-    /// Errors: the duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the
+    ///
+    /// # Errors
+    /// The duct's radius is outside 1 to 22 mm; the strand's is outside a third of it to the
     /// whole; the size is outside 0.05 mm to 0.16 of the strand's radius, or beyond 0.4 of the width
     /// of the block beside the duct; the top is outside 0.3 to 1.7, or above 1 where the chords of the
     /// wall would cut into the disc.

@@ -60,6 +60,9 @@ pub struct Part {
 
 impl Contact {
     /// Checks that a variant constrains something, so that there are equations to write.
+    ///
+    /// # Errors
+    /// The variant is `printed`, which constrains nothing.
     pub fn check_equations(variant: Variant) -> Result<()> {
         if variant != Variant::Printed {
             return Ok(());

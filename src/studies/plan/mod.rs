@@ -124,7 +124,9 @@ pub struct ContactPlan {
 
 impl Plan {
     /// The plan of `request`. Neither a matrix is built nor an equation solved.
-    /// Errors: A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
+    ///
+    /// # Errors
+    /// A Poisson's ratio that R6 does not allow; a solver that the scalar does not have.
     pub fn new(request: &Request) -> Result<Self> {
         let Request { ref scene, variant, arithmetic, .. } = *request;
         arithmetic.check()?;
@@ -180,6 +182,9 @@ impl Plan {
     }
 
     /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks first.
+    ///
+    /// # Errors
+    /// The run needs more memory than is free.
     pub fn check_memory(&self, free: Option<u128>) -> Result<()> {
         memory::check(self.nodes, self.cost.dense_matrices, free)
     }

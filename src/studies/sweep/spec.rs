@@ -102,7 +102,9 @@ impl Values {
     }
 
     /// Returns the values.
-    /// Errors: a step is no finite number.
+    ///
+    /// # Errors
+    /// A step is no finite number.
     fn list(self) -> Result<Vec<Value>, &'static str> {
         let Steps { from, to, count, log } = match self {
             Values::List(list) => return Ok(list),

@@ -45,6 +45,9 @@ pub struct AccurateSolution {
 }
 
 /// Checks that an accuracy is between 0 and 1.
+///
+/// # Errors
+/// It is not between 0 and 1.
 pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
     if accuracy > 0.0 && accuracy < 1.0 {
         return Ok(());

@@ -275,6 +275,9 @@ pub(crate) fn refined(
 }
 
 /// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`.
+///
+/// # Errors
+/// The refinement does not converge.
 pub fn refine(
     factors: &dyn Factors<f64>,
     times: impl Fn(&DVector<f64>) -> DVector<f64>,

@@ -22,7 +22,9 @@ const OTHER_KINDS: [&str; 32] = [
 ];
 
 /// Returns the kind of `element`, whose type has the number `number` in Gmsh.
-/// Errors: the kind is not among those that are read.
+///
+/// # Errors
+/// The kind is not among those that are read.
 pub fn kind(tokens: &Tokens, element: usize, number: i32) -> Result<&'static Kind> {
     KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
         let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());

@@ -18,7 +18,9 @@ const SHORTEST: usize = 8;
 /// Nodes, elements and physical names are returned in ascending order; tags that are negative in
 /// the file (a reversed orientation) are returned positive. The counts in a file of `length` bytes
 /// are believed as far as it can hold so many.
-/// Errors: the first fault, with its line (text) or byte (binary).
+///
+/// # Errors
+/// The first fault, with its line (text) or byte (binary).
 pub fn read(file: impl Read, length: usize) -> Result<Mesh, GmshError> {
     let mut tokens = Tokens::new(file);
     tokens.skip_mark()?;
@@ -160,7 +162,9 @@ impl Reader<'_> {
     }
 
     /// Makes room for the nodes that the file declares.
-    /// Errors: there is no memory for a scene with so many.
+    ///
+    /// # Errors
+    /// There is no memory for a scene with so many.
     pub fn expect_nodes(&mut self, declared: usize) -> Result<()> {
         let count = self.within_memory(declared, "nodes", NODE)?;
         self.nodes.reserve(count);
@@ -168,7 +172,9 @@ impl Reader<'_> {
     }
 
     /// Makes room for the elements that the file declares.
-    /// Errors: there is no memory for a scene with so many.
+    ///
+    /// # Errors
+    /// There is no memory for a scene with so many.
     pub fn expect_elements(&mut self, declared: usize) -> Result<()> {
         let count = self.within_memory(declared, "elements", ELEMENT)?;
         self.elements.reserve(count);

@@ -232,7 +232,9 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the name of the section that begins here, without `$`; None at the file's end.
-    /// Errors: something else is there than what was `expected`.
+    ///
+    /// # Errors
+    /// Something else is there than what was `expected`.
     pub fn section(&mut self, expected: &str) -> Result<Option<String>> {
         self.word();
         if self.token().is_empty() && self.broken.is_none() {
@@ -294,7 +296,9 @@ impl<'a> Tokens<'a> {
     }
 
     /// Skips a byte order mark at the beginning of the file.
-    /// Errors: it is that of UTF-16.
+    ///
+    /// # Errors
+    /// It is that of UTF-16.
     pub fn skip_mark(&mut self) -> Result<()> {
         self.begin();
         match self.held[..] {

@@ -16,6 +16,9 @@ const LARGEST_TAG: usize = i32::MAX as usize;
 
 impl Mesh {
     /// Checks that `n` is a node of the mesh.
+    ///
+    /// # Errors
+    /// The mesh has no such node.
     pub fn check_node(&self, n: usize, place: &str) -> Result<()> {
         let r = self.nodes.len();
         if (1..=r).contains(&n) {
@@ -30,7 +33,9 @@ impl Mesh {
     /// Checks the conditions that the listings assume: nodes are numbered 1 to R and lie in one
     /// plane, elements name existing nodes, triangles have a positive area, and no triangle occurs
     /// twice.
-    /// Errors: the first condition that is violated, by node or element number.
+    ///
+    /// # Errors
+    /// The first condition that is violated, by node or element number.
     pub fn check(&self) -> Result<()> {
         self.check_names()?;
         self.check_nodes()?;

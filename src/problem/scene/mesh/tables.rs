@@ -7,7 +7,9 @@ use base::memory;
 impl Mesh {
     /// Reads the paper's own tables: rows of `node` are number, x, y, z; rows of `elem` are number,
     /// type, 2, physical tag, geometric tag, nodes.
-    /// Errors: a row has another form, or there is no memory for so many.
+    ///
+    /// # Errors
+    /// A row has another form, or there is no memory for so many.
     pub fn from_tables(node: &[[f64; 4]], elem: &[Vec<usize>]) -> Result<Self> {
         let whose = format!("{} nodes and {} elements", node.len(), elem.len());
         let bytes = NODE * node.len() as f64 + ELEMENT * elem.len() as f64;
