@@ -7,12 +7,16 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::memory;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
-use plane_contact::report::{audit as report, folder, pressure, statuses as status_report};
+use plane_contact::report::{
+    audit as report, folder, pressure, prices as price_report, statuses as status_report,
+};
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+use plane_contact::studies::audit::prices;
 use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
@@ -39,6 +43,7 @@ Examples:
   plane-contact audit --range
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
+  plane-contact audit fig1 --prices
   plane-contact audit --statuses --scenes 1000 --json
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
                                                   a picture a finding and a variant")]
@@ -57,6 +62,10 @@ pub struct Args {
     /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
     #[arg(long, conflicts_with_all = ["scene", "finding", "range"])]
     statuses: bool,
+    /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
+    /// back, and show what each costs; takes a minute on strand.
+    #[arg(long, conflicts_with_all = ["finding", "range", "statuses"])]
+    prices: bool,
     /// Random scenes for each row of the tables of --statuses.
     #[arg(long, value_name = "N", default_value_t = 200, requires = "statuses")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -78,6 +87,7 @@ pub fn run(args: &Args) -> Result<()> {
     match &args.finding {
         Some(id) => explain(args, find(id)?),
         None if args.statuses => statuses(args),
+        None if args.prices => prices(args),
         None => whole(args),
     }
 }
@@ -95,6 +105,23 @@ fn statuses(args: &Args) -> Result<()> {
         return print(&json);
     }
     args.tables.print("audit", status_report::report(&measured))
+}
+
+fn prices(args: &Args) -> Result<()> {
+    args.tables.check("audit")?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    memory::check(scene.model.nodes.len(), 2, memory::free())?;
+    let bar = progress(prices::steps(), "run {pos} of {len} {wide_bar} {eta}");
+    let found = prices::prices(&scene, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let json = price_report::json(&found, &scene);
+    if let Some(out) = &args.out {
+        files::write_all(out, "audit --prices", &[("prices.json", &json)])?;
+    }
+    if args.json {
+        return print(&json);
+    }
+    args.tables.print("audit", price_report::report(&found, &scene))
 }
 
 fn find(id: &str) -> Result<&'static Finding, InputError> {

@@ -126,7 +126,7 @@ pub type Spanned = (Token, Span);
 /// A place in a line, in bytes, and what is wrong there.
 pub type Complaint = (usize, String);
 
-/// Splits the `text` of a line into tokens.
+/// Splits the `text` of a line into tokens; from `#` on it is a remark.
 ///
 /// # Errors
 /// Names a character or number that the notation does not know, or brackets more than
@@ -134,16 +134,16 @@ pub type Complaint = (usize, String);
 pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
     let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };
     let mut at = 0;
-    while at < text.len() {
+    loop {
         let spaces = text[at..].len() - text[at..].trim_start_matches(' ').len();
         at += spaces;
-        if at < text.len() {
-            let (token, length) = lexer.token(at)?;
-            lexer.push(lexer.closing(token), at..at + length, spaces)?;
-            at += length;
+        if text[at..].is_empty() || text[at..].starts_with('#') {
+            return Ok(lexer.found);
         }
+        let (token, length) = lexer.token(at)?;
+        lexer.push(lexer.closing(token), at..at + length, spaces)?;
+        at += length;
     }
-    Ok(lexer.found)
 }
 
 struct Lexer<'a> {

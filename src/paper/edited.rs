@@ -30,7 +30,7 @@ impl Edited {
     /// It begins with neither of the paper's headers, or cannot be read.
     pub fn new(place: &str, text: &str) -> Result<Self> {
         let text = text.trim_start_matches('\u{feff}');
-        let which = Which::of(text).ok_or_else(|| {
+        let which = Which::from_text(text).ok_or_else(|| {
             let what = "the file begins with neither c_cnt nor Km";
             InputError::new(place, what, "keep the listing's first line")
         })?;

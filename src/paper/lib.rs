@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`mirror`] | the two listings in Rust, in printed order, each line quoted above its own piece; their printed conditions, failures and worksheet, and the table of readings (R1 to R10) |
 //! | [`listings`] | the listings as text, executed by the interpreter of Mathcad's notation |
+//! | [`corrected`] | the corrected listings, with the loop around them, executed |
 //! | [`edited`] | listings that a user edited, in place of the paper's |
 //! | [`door`] | the only conversion between the model, which counts from 0, and the paper's tables, which count from 1 |
 //!
@@ -11,6 +12,7 @@
 //! matrix). Text and mirror are equal to the last bit on random scenes, failures included.
 #![forbid(unsafe_code)]
 
+pub mod corrected;
 pub mod door;
 pub mod edited;
 pub mod listings;

@@ -7,7 +7,7 @@ use mathcad::value::Array;
 use mathcad::{
     Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
 };
-use problem::element;
+use problem::element::{self, Plane};
 
 choices! {
     /// One of the paper's two listings.
@@ -30,6 +30,7 @@ fn limits(sheet: &Worksheet<f64>) -> Limits {
 pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
 
 impl Which {
+    /// Returns the text of record.
     pub fn text(self) -> &'static str {
         match self {
             Which::CCnt => include_str!("../../listings/c_cnt.txt"),
@@ -38,7 +39,7 @@ impl Which {
     }
 
     /// Returns the listing that a text, or an edit of a listing, begins with.
-    pub fn of(text: &str) -> Option<Which> {
+    pub fn from_text(text: &str) -> Option<Which> {
         let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
         Which::ALL.iter().copied().find(|w| header.trim_start().starts_with(w.name()))
     }
@@ -48,12 +49,15 @@ impl Which {
         let listing =
             Listing::parse(self.name(), self.text()).expect("the text of record is sound");
         reading.changes().fold(listing, |listing, change| match change {
-            Change::Text(edit) if Which::of(edit) == Some(self) => edited(&listing, edit),
+            Change::Text(edit) if Which::from_text(edit) == Some(self) => edited(&listing, edit),
             Change::Text(_) | Change::Settings(_) | Change::None => listing,
         })
     }
 
     /// Parses another text in place of the listing.
+    ///
+    /// # Errors
+    /// The text leaves the notation.
     pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
         Listing::parse(self.name(), text)
     }
@@ -73,6 +77,9 @@ pub fn settings(reading: &Reading) -> Settings {
 }
 
 /// Executes `c_cnt` on the shape `node_n`.
+///
+/// # Errors
+/// The listing fails, or ends without contact pairs.
 pub fn c_cnt<O: Observer>(
     listing: &Listing,
     settings: &Settings,
@@ -105,6 +112,9 @@ pub fn c_cnt<O: Observer>(
 }
 
 /// Executes `Km` on the contact pairs `k_cnt`.
+///
+/// # Errors
+/// The listing fails, or its value is no array.
 pub fn km<O: Observer>(
     listing: &Listing,
     settings: &Settings,
@@ -152,6 +162,24 @@ pub fn tables(sheet: &Worksheet<f64>) -> Vec<(&'static str, Value)> {
         ("E", Value::from(&sheet.E)),
         ("ν", Value::from(&sheet.nu)),
     ]
+}
+
+const STRAIN: &str = "D(Ey,nu) :=
+  f ← Ey / ((1 + nu)·(1 − 2·nu))
+  (f·(1 − nu)   f·nu   0; f·nu   f·(1 − nu)   0; 0   0   f·((1 − 2·nu) / 2))
+";
+
+const STRESS: &str = "D(Ey,nu) :=
+  f ← Ey / (1 − nu·nu)
+  (f   f·nu   0; f·nu   f   0; 0   0   f·((1 − nu) / 2))
+";
+
+/// Returns a listing of `D`, which the paper does not print.
+pub fn elasticity(plane: Plane) -> &'static str {
+    match plane {
+        Plane::Strain => STRAIN,
+        Plane::Stress => STRESS,
+    }
 }
 
 /// Defines the names that are above the listings on the worksheet.

@@ -44,6 +44,7 @@ pub mod page;
 pub mod picture;
 pub mod plan;
 pub mod pressure;
+pub mod prices;
 pub mod quantities;
 mod result_file;
 pub mod scenes;

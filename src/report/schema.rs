@@ -8,7 +8,8 @@ use serde_json::{Map, Value, json};
 use super::failure::Failed;
 use super::json::{Document, Found};
 use super::{
-    ResultFile, answers, audit, comparison, evaluation, extremes, plan, snapshot, trace, worksheet,
+    ResultFile, answers, audit, comparison, evaluation, extremes, plan, prices, snapshot, trace,
+    worksheet,
 };
 use problem::scene::Description;
 use studies::audit::statuses::Measurement;
@@ -59,6 +60,12 @@ pub const SCHEMAS: &[Named] = &[
         of: "audit --finding",
         commands: &[],
         make: printed::<Document<audit::FindingRow>>,
+    },
+    Named {
+        name: "prices",
+        of: "audit --prices",
+        commands: &[],
+        make: printed::<Document<prices::Document>>,
     },
     Named {
         name: "c_cnt",

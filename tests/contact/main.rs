@@ -17,6 +17,7 @@ mod calculix;
 mod calculix_files;
 mod condensed;
 mod corners;
+mod corrected;
 mod drawn;
 mod faced;
 mod facing;

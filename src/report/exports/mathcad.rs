@@ -5,7 +5,7 @@ use super::{Export, Run};
 use ::mathcad::value::Array;
 use ::mathcad::xmcd::{page::Page, write};
 use ::mathcad::{Listing, Value};
-use paper::listings::{Which, settings, tables};
+use paper::listings::{Which, elasticity, settings, tables};
 use problem::element::Plane;
 
 /// The tables that programs of the worksheet compute.
@@ -40,16 +40,6 @@ const GRADIENTS: &str = "B() :=
       b[3,2·k] ← b[1,2·k−1]
     all[n] ← b
   all
-";
-
-const STRAIN: &str = "D(Ey,nu) :=
-  f ← Ey / ((1 + nu)·(1 − 2·nu))
-  (f·(1 − nu)   f·nu   0; f·nu   f·(1 − nu)   0; 0   0   f·((1 − 2·nu) / 2))
-";
-
-const STRESS: &str = "D(Ey,nu) :=
-  f ← Ey / (1 − nu·nu)
-  (f   f·nu   0; f·nu   f   0; 0   0   f·((1 − nu) / 2))
 ";
 
 const MOVED: &str = "moved(u) :=
@@ -111,10 +101,7 @@ pub fn worksheet(export: &Export) -> String {
     }
     page.heading("Elements (not printed in the paper) / Элементы (в статье не напечатаны)");
     page.program(&listing(AREAS)).program(&listing(GRADIENTS));
-    page.program(&listing(match export.sheet.plane {
-        Plane::Strain => STRAIN,
-        Plane::Stress => STRESS,
-    }));
+    page.program(&listing(elasticity(export.sheet.plane)));
     page.heading("The paper's listings / Листинги статьи");
     page.text(&readings(export));
     for which in Which::ALL {

@@ -4,6 +4,7 @@ mod assumptions;
 mod case;
 pub mod claims;
 pub mod findings;
+pub mod prices;
 pub mod range;
 pub mod readings;
 pub mod statuses;

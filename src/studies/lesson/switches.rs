@@ -70,7 +70,7 @@ pub fn chapter(finding: &Finding) -> Vec<Switch> {
     match finding.edit {
         Repair::None { .. } => vec![before],
         Repair::Edit { text } => {
-            let which = Which::of(text).expect("an edit names its listing");
+            let which = Which::from_text(text).expect("an edit names its listing");
             let listing = listings::edited(&which.under(&Reading::default()), text);
             let after = Switch {
                 name: "repaired".into(),

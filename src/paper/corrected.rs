@@ -1,0 +1,169 @@
+//! The corrected algorithm: the programs of `listings/corrected/`, executed by the interpreter.
+
+use std::rc::Rc;
+
+use super::door;
+use super::listings::{edited, elasticity, tables};
+use base::choices;
+use mathcad::array::{Column, Table};
+use mathcad::value::Array;
+use mathcad::{Edit, Failure, Limits, Listing, Settings, Sheet, Value};
+use problem::model::{Model, NodeId};
+
+choices! {
+    /// The programs of the corrected algorithm.
+    Program {
+        /// The normals at the ends of the target edges.
+        Normals = "normals",
+        /// The contact pairs (fig. 2).
+        CCnt = "c_cnt",
+        /// The stiffness matrix (fig. 3), bordered by the equations of contact.
+        Km = "Km",
+        /// The load, and the gaps that are to close.
+        Fm = "Fm",
+        /// The iterations.
+        Iterate = "iterate",
+    }
+}
+
+impl Program {
+    /// Returns the text of record.
+    pub fn text(self) -> &'static str {
+        match self {
+            Program::Normals => include_str!("../../listings/corrected/normals.txt"),
+            Program::CCnt => include_str!("../../listings/corrected/c_cnt.txt"),
+            Program::Km => include_str!("../../listings/corrected/Km.txt"),
+            Program::Fm => include_str!("../../listings/corrected/Fm.txt"),
+            Program::Iterate => include_str!("../../listings/corrected/iterate.txt"),
+        }
+    }
+
+    /// Returns the program, read.
+    pub fn listing(self) -> Listing {
+        Listing::parse(self.name(), self.text()).expect("the text of record is sound")
+    }
+}
+
+choices! {
+    /// The components of displacement that a node in contact shares with its target.
+    Bound {
+        /// Those along the normal: the node slides freely.
+        Normal = "normal",
+        /// Both, as eq. (1) says.
+        Both = "both",
+    }
+}
+
+/// A printed fault that is put back into the corrected programs.
+pub struct Fault {
+    /// The finding that describes it.
+    pub finding: &'static str,
+    /// The edit of one program, in the format of `listings/readings/README.md`; its reason says what
+    /// the fault is.
+    pub edit: &'static str,
+}
+
+/// The faults that can be put back one at a time.
+pub const FAULTS: &[Fault] = &[
+    Fault { finding: "C1", edit: include_str!("../../listings/corrected/faults/C1.edit") },
+    Fault { finding: "C2", edit: include_str!("../../listings/corrected/faults/C2.edit") },
+    Fault { finding: "C3", edit: include_str!("../../listings/corrected/faults/C3.edit") },
+    Fault { finding: "C5", edit: include_str!("../../listings/corrected/faults/C5.edit") },
+    Fault { finding: "C12", edit: include_str!("../../listings/corrected/faults/C12.edit") },
+    Fault { finding: "K1", edit: include_str!("../../listings/corrected/faults/K1.edit") },
+    Fault { finding: "K2", edit: include_str!("../../listings/corrected/faults/K2.edit") },
+    Fault { finding: "K4", edit: include_str!("../../listings/corrected/faults/K4.edit") },
+    Fault { finding: "K5", edit: include_str!("../../listings/corrected/faults/K5.edit") },
+    Fault { finding: "K8", edit: include_str!("../../listings/corrected/faults/K8.edit") },
+    Fault { finding: "K9", edit: include_str!("../../listings/corrected/faults/K9.edit") },
+];
+
+impl Fault {
+    /// Says what the fault is, in a sentence.
+    pub fn words(&self) -> String {
+        let reason = Edit::parse(self.edit).expect("the edits in listings are sound").reason;
+        let (_, words) = reason.trim_end().split_once(": ").expect("it begins with its finding");
+        words.into()
+    }
+}
+
+/// What the iterations end with.
+#[derive(Clone, Debug)]
+pub struct Ending {
+    /// The displacements, x and y of each node in turn, length.
+    pub u: Vec<f64>,
+    /// The nodes in contact, each with the force that presses it, force.
+    pub in_contact: Vec<(NodeId, f64)>,
+    /// The number of iterations.
+    pub iterations: usize,
+    /// Whether the last iteration asked for the contact pairs that it was given, with displacements
+    /// below the size of the model: rounding turns a body that is free to turn by more.
+    pub is_settled: bool,
+}
+
+/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model.
+///
+/// `edits` change the programs, in the format of `listings/readings/README.md`: none for the texts
+/// of record.
+///
+/// # Errors
+/// A program fails: the matrix is singular where contact and restraints leave a body free to move.
+pub fn iterate(
+    model: &Model,
+    bound: Bound,
+    edits: &[&str],
+    steps: usize,
+) -> Result<Ending, Box<Failure>> {
+    let sheet = sheet(model, bound, edits);
+    let main = program(Program::Iterate, edits);
+    let limits = Limits { steps: u64::MAX, entries: 1 << 28, ..Limits::default() };
+    let mut runner = main.runner_in(&sheet, &Settings::default(), &limits);
+    let outcome = runner.call(&[Value::from(steps)])?;
+    let local = |name: &str| &outcome.locals[name];
+    let column = |value| Column::<f64>::try_from(value).expect("a column");
+    let pairs = Table::<f64>::try_from(local("k_cnt")).expect("an array");
+    let masters = Column::from_vec((1..=pairs.rows()).map(|n| pairs[(n, 1)]).collect());
+    let forces = column(local("p"));
+    let nodes = model.contact.nodes.iter().copied().zip(forces.as_slice().iter().copied());
+    let u = column(&outcome.value).as_slice()[..model.dofs()].to_vec();
+    let size = model.bounds().larger_side();
+    Ok(Ending {
+        in_contact: nodes.filter(|(_, p)| *p != 0.0).collect(),
+        iterations: local("k").number().map_or(0, |k| k as usize),
+        is_settled: column(local("last")) == masters && u.iter().all(|x| x.abs() < size),
+        u,
+    })
+}
+
+/// Returns the worksheet above `iterate`: the scene's tables, its load, and the other programs.
+fn sheet(model: &Model, bound: Bound, edits: &[&str]) -> Sheet {
+    let mut sheet = Sheet::default();
+    for (name, value) in tables(&door::worksheet(model, |x| x)) {
+        sheet.define(name, value);
+    }
+    let load = model.load_in(|x| x);
+    sheet.define("F", Array::column(load.iter().copied().collect()));
+    sheet.define(
+        "both",
+        match bound {
+            Bound::Normal => 0.0,
+            Bound::Both => 1.0,
+        },
+    );
+    let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
+    let others = Program::ALL.iter().filter(|other| **other != Program::Iterate);
+    for listing in others.map(|other| program(*other, edits)).chain([d]) {
+        sheet.define_program(Rc::new(listing));
+    }
+    sheet
+}
+
+/// Returns a program with the edits that concern it.
+fn program(program: Program, edits: &[&str]) -> Listing {
+    let concerns = |edit: &&&str| {
+        let range = edit.lines().find(|line| !line.starts_with('#'));
+        range.is_some_and(|range| range.starts_with(&format!("{} line", program.name())))
+    };
+    let own = edits.iter().filter(concerns);
+    own.fold(program.listing(), |listing, edit| edited(&listing, edit))
+}

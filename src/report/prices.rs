@@ -1,0 +1,104 @@
+//! What the printed faults cost, for people and for machines.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::json;
+use super::layout::listed;
+use super::model::{Cell, Report, Table};
+use problem::scene::Scene;
+use studies::audit::prices::{Outcome, Price};
+
+/// The error below which a fault costs nothing: rounding.
+const NOTHING: f64 = 1e-9;
+
+/// The document that `audit --prices --json` prints.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    /// The corrected algorithm, then a fault a row.
+    prices: &'a [Price],
+}
+
+/// Returns the prices as JSON.
+pub fn json(prices: &[Price], scene: &Scene) -> String {
+    json::line(Some(scene), &Document { prices })
+}
+
+/// Reports the prices: a row for the corrected algorithm and one for each fault.
+pub fn report(prices: &[Price], scene: &Scene) -> Report {
+    let share = |price: &Price, of: fn(&Outcome) -> Option<f64>| {
+        of(&price.outcome).map_or(Cell::from("-"), |x| Cell::decimals(100.0 * rounded(x), 2))
+    };
+    let table = Table::from_rows(prices.iter())
+        .column("finding", |price| price.finding.unwrap_or("-"))
+        .column("fault put back", |price| price.fault.clone())
+        .column("ends", |price| ends(&price.outcome))
+        .column("in contact", |price| match &price.outcome {
+            Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
+            Outcome::Failure { .. } => Cell::from("-"),
+        })
+        .column("transmitted load, %", |price| share(price, transmitted))
+        .column("error in energy, %", |price| share(price, energy))
+        .column("error of largest von Mises stress, %", |price| share(price, von_mises));
+    let failures = prices.iter().filter_map(|price| match &price.outcome {
+        Outcome::Failure { failure } => {
+            Some(format!("{}: {failure}", price.finding.unwrap_or("corrected")))
+        }
+        Outcome::Result { .. } => None,
+    });
+    let free: Vec<&str> = prices
+        .iter()
+        .filter(|price| energy(&price.outcome).is_some_and(|error| error.abs() <= NOTHING))
+        .filter_map(|price| price.finding)
+        .collect();
+    let nothing = match free.is_empty() {
+        true => "Every fault costs something on this scene.".to_string(),
+        false => format!("Without effect on this scene: {}.", listed(&free)),
+    };
+    Report::titled(format!("What the printed faults cost on {}", scene.name))
+        .line(
+            "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
+             back. Errors are against the solution without friction, node to segment, in the \
+             initial geometry, on the same mesh.",
+        )
+        .table("Prices", table)
+        .notes(failures)
+        .line(nothing)
+}
+
+/// Says how a run ended.
+fn ends(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Result { iterations, is_settled: true, .. } => format!("after {iterations}"),
+        Outcome::Result { iterations, is_settled: false, .. } => {
+            format!("not settled after {iterations}")
+        }
+        Outcome::Failure { .. } => "stops".into(),
+    }
+}
+
+fn transmitted(outcome: &Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Result { transmitted, .. } => Some(*transmitted),
+        Outcome::Failure { .. } => None,
+    }
+}
+
+fn energy(outcome: &Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Result { energy_relative, .. } => Some(*energy_relative),
+        Outcome::Failure { .. } => None,
+    }
+}
+
+fn von_mises(outcome: &Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Result { von_mises_relative, .. } => Some(*von_mises_relative),
+        Outcome::Failure { .. } => None,
+    }
+}
+
+/// Returns a share, 0 where it is rounding.
+fn rounded(x: f64) -> f64 {
+    if x.abs() <= NOTHING { 0.0 } else { x }
+}

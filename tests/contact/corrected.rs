@@ -1,0 +1,139 @@
+//! The corrected algorithm of `listings/corrected/`: along the normal beside the reference without
+//! friction, which has one solution; with both components beside the conditions, written out here.
+
+use crate::common::tolerances::{CORRECTED, CORRECTED_CONDITIONS, assert_near};
+use crate::corners::Writing;
+use crate::drawn::{Drawn, Kind, Support, scenes};
+use nalgebra::DVector;
+use plane_contact::engine::contact::Surfaces;
+use plane_contact::engine::{Request, solve};
+use plane_contact::paper::corrected::{Bound, iterate};
+use plane_contact::paper::door::Call;
+use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::benchmark::Hertz;
+
+/// The iterations of the paper.
+const STEPS: usize = 20;
+
+/// The number of random scenes.
+const SCENES: usize = 500;
+
+/// Returns the request of the reference: no friction, node to segment, the initial geometry.
+fn reference(scene: &Scene) -> Request {
+    let mut request = Request::new(scene).variant(Variant::Unilateral);
+    request.contact.friction = Friction::NONE;
+    request.contact.coupling = Coupling::Nts;
+    request.contact.geometry = Geometry::Initial;
+    request
+}
+
+/// Random scenes on smooth targets, whose bodies are held against turning.
+fn smooth() -> impl Iterator<Item = (String, Scene)> {
+    let is_smooth = |drawn: &Drawn| match drawn.kind {
+        Kind::Flat | Kind::Bent | Kind::Wavy | Kind::Groove => drawn.support != Support::Hinged,
+        Kind::Roof | Kind::Narrow | Kind::Plate | Kind::Held => false,
+    };
+    let drawn = scenes(45, 4 * SCENES).enumerate().filter(move |(_, drawn)| is_smooth(drawn));
+    drawn.take(SCENES).map(|(number, drawn)| {
+        let scene = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
+        (format!("scene {number}, {:?}, {:?}", drawn.kind, drawn.support), scene.build().unwrap())
+    })
+}
+
+fn assert_is_reference(what: &str, scene: &Scene) {
+    let request = reference(scene);
+    let ending = iterate(&request.model().unwrap(), Bound::Normal, &[], STEPS).expect(what);
+    assert!(ending.is_settled, "{what}");
+    let theirs = solve(&request, &mut |_| ()).expect(what);
+    let difference = (DVector::from_vec(ending.u) - &theirs.u).amax();
+    assert_near(what, difference, 0.0, theirs.u.amax(), &CORRECTED);
+    assert_eq!(ending.in_contact.len(), theirs.last().in_contact, "{what}");
+}
+
+#[test]
+fn along_the_normal_it_is_the_reference_without_friction() {
+    for name in ["strand", "fig1", "two-blocks"] {
+        assert_is_reference(name, &Scene::open(name).unwrap());
+    }
+    let random = smooth().map(|(what, scene)| assert_is_reference(&what, &scene));
+    assert_eq!(random.count(), SCENES);
+}
+
+#[test]
+fn it_is_the_reference_on_hertz_with_a_thousand_equations() {
+    let hertz = Hertz { size: 9, ..Hertz::default() }.generate().unwrap().build().unwrap();
+    assert!((900..1100).contains(&(2 * hertz.model.nodes.len())));
+    assert_is_reference("hertz", &hertz);
+}
+
+/// Checks an ending with both components bound: equilibrium of every free equation under the load
+/// and the forces of contact, closed gaps, pressure, and no penetration. With the contact set these
+/// determine the displacements.
+fn assert_conditions(what: &str, model: &Model) {
+    let ending = iterate(model, Bound::Both, &[], STEPS).expect(what);
+    assert!(ending.is_settled, "{what}");
+    let u = DVector::from_vec(ending.u);
+    let of = |node: NodeId| [u[2 * node.index()], u[2 * node.index() + 1]];
+    let mut free = model.clone();
+    free.restrained.fill(false);
+    let stiffness = Call::without_contact(&free).km(&Reading::default()).unwrap();
+    let mut force = &stiffness * &u - &model.load;
+    let size = model.load.amax();
+    let surfaces = Surfaces::new(model).unwrap();
+    for pairing in surfaces.pairings(Coupling::Nts, &model.nodes).into_iter().flatten() {
+        let closed = ending.in_contact.iter().find(|(node, _)| *node == pairing.node);
+        let [nx, ny] = pairing.normal;
+        let [x, y] = pairing.motion(of);
+        let gap = pairing.opening(|node| model.nodes[node.index()]);
+        let Some((_, pressing)) = closed else {
+            assert!(nx * x + ny * y + gap >= 0.0, "{what}: {:?} penetrates", pairing.node);
+            continue;
+        };
+        assert!(*pressing > 0.0, "{what}: {:?} pulls", pairing.node);
+        assert_near(what, x + gap * nx, 0.0, u.amax(), &CORRECTED_CONDITIONS);
+        assert_near(what, y + gap * ny, 0.0, u.amax(), &CORRECTED_CONDITIONS);
+        // The force of contact on the node is taken from it and given to its master nodes. Where a
+        // restraint holds the node, it is not known from the node's equation: nothing is asked there.
+        for k in 0..2 {
+            let dof = 2 * pairing.node.index() + k;
+            let contact = if model.restrained[dof] { f64::NAN } else { force[dof] };
+            for (master, weight) in pairing.masters.iter().filter(|(_, weight)| *weight != 0.0) {
+                force[2 * master.index() + k] += weight * contact;
+            }
+            force[dof] = 0.0;
+        }
+    }
+    let asked = (0..force.len()).filter(|dof| !model.restrained[*dof] && !force[*dof].is_nan());
+    let left = asked.map(|dof| force[dof].abs()).fold(0.0, f64::max);
+    assert_near(what, left, 0.0, size, &CORRECTED_CONDITIONS);
+}
+
+#[test]
+fn with_both_components_it_fulfils_its_conditions() {
+    for name in ["strand", "fig1", "two-blocks"] {
+        assert_conditions(name, &Scene::open(name).unwrap().model);
+    }
+}
+
+/// A stamp that may turn is refused, or its iterations do not settle: it is never answered wrongly.
+#[test]
+fn a_hinge_is_not_answered_silently() {
+    let hinged = scenes(10, 1000).filter(|drawn| drawn.support == Support::Hinged);
+    let mut unanswered = 0;
+    for drawn in hinged {
+        let builder = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
+        let scene = builder.build().unwrap();
+        let ending = iterate(&scene.model, Bound::Normal, &[], STEPS);
+        let size = scene.model.bounds().larger_side();
+        match ending {
+            Ok(ending) if ending.is_settled => {
+                assert!(ending.u.iter().all(|x| x.abs() < size), "{:?}", drawn.kind);
+            }
+            Ok(_) | Err(_) => unanswered += 1,
+        }
+    }
+    assert!(unanswered > 0);
+}
