@@ -87,6 +87,16 @@ impl Fault {
     }
 }
 
+impl Bound {
+    /// Returns the value of the programs' name `both`.
+    pub fn both(self) -> f64 {
+        match self {
+            Bound::Normal => 0.0,
+            Bound::Both => 1.0,
+        }
+    }
+}
+
 /// What the iterations end with.
 #[derive(Clone, Debug)]
 pub struct Ending {
@@ -143,13 +153,7 @@ fn sheet(model: &Model, bound: Bound, edits: &[&str]) -> Sheet {
     }
     let load = model.load_in(|x| x);
     sheet.define("F", Array::column(load.iter().copied().collect()));
-    sheet.define(
-        "both",
-        match bound {
-            Bound::Normal => 0.0,
-            Bound::Both => 1.0,
-        },
-    );
+    sheet.define("both", bound.both());
     let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
     let others = Program::ALL.iter().filter(|other| **other != Program::Iterate);
     for listing in others.map(|other| program(*other, edits)).chain([d]) {

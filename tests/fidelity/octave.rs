@@ -145,3 +145,23 @@ fn octave_has_our_displacements_on_shipped_scenes() {
         }
     }
 }
+
+/// The corrected algorithm in Octave, whose solver is another, ends where ours does.
+#[test]
+fn octave_executes_the_corrected_algorithm() {
+    if !octave_is_there() {
+        return;
+    }
+    let folder = TempDir::new().expect("a folder");
+    for scene in ["fig1", "two-blocks"] {
+        let name = scene.replace('-', "_");
+        let file = format!("{name}.m");
+        let export = ["mathcad", "export", scene, "--corrected", "--to", "octave", "--out", &file];
+        assert!(run(folder.path(), &export).status.success(), "{scene}");
+        let printed = execute(folder.path(), &[name]).remove(0).expect("it runs");
+        let ours = &printed["ours_U"];
+        let largest = ours.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(largest > 0.0, "{scene}");
+        assert_near(scene, printed["difference_U"][0], 0.0, largest, &OCTAVE);
+    }
+}

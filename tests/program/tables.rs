@@ -11,6 +11,7 @@ use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use plane_contact::report;
 use plane_contact::studies::audit::claims::Verdict;
+use plane_contact::studies::audit::prices::{self, Outcome, Price};
 use plane_contact::studies::audit::statuses;
 use plane_contact::studies::benchmark::{
     Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
@@ -23,6 +24,7 @@ use crate::claims::JUDGED;
 use crate::common::fitted_hertz::over_hertz;
 use crate::common::golden_file::assert_file;
 use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
+use crate::common::tolerances::CORRECTED;
 
 static STRAND: LazyLock<Scene> =
     LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));
@@ -69,6 +71,46 @@ fn thousands(number: usize) -> String {
     } else {
         format!("{},{:03}", number / 1000, number % 1000)
     }
+}
+
+/// What each printed fault costs on strand, and what the table must show on any scene: without a fault
+/// nothing, with a weight added once, or a loop over nodes left out, nothing either.
+#[test]
+fn prices() {
+    let prices = prices::prices(&STRAND, &|| ()).expect("strand has a solution");
+    let row = |price: &Price| {
+        let finding = price.finding.unwrap_or("-");
+        let cells = match &price.outcome {
+            &Outcome::Result {
+                iterations,
+                in_contact,
+                transmitted,
+                energy_relative,
+                von_mises_relative,
+                is_settled,
+            } => {
+                let costs_nothing = energy_relative.abs() < CORRECTED.limit;
+                let is_free = [None, Some("C12"), Some("K4")].contains(&price.finding);
+                assert!(costs_nothing || !is_free, "{finding}");
+                let settled = if is_settled { "" } else { ", not settled" };
+                let [transmitted, energy, stress] =
+                    [transmitted, energy_relative, von_mises_relative].map(|x| percent(x, 1));
+                format!(
+                    "{iterations}{settled} | {in_contact} | {transmitted} | {energy} | {stress}"
+                )
+            }
+            Outcome::Failure { .. } => "stops: the matrix is singular | - | - | - | -".into(),
+        };
+        format!("{finding} | {} | {cells}", price.fault)
+    };
+    let table = markdown(
+        "finding | fault put back | iterations | contact nodes | load that reaches the block | error \
+         in the energy norm | error of the largest von Mises stress",
+        prices.iter().map(row),
+    );
+    let title = "What each printed fault costs on the paper's example, put back alone into the corrected \
+                 algorithm: errors against the solution without friction on the same mesh.";
+    assert_table("prices", title, "audit --prices", &table);
 }
 
 #[test]

@@ -6,10 +6,12 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Request};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::paper::corrected::{Bound, iterate};
 use plane_contact::paper::door;
+use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::exports::{Export, Run, mathcad, octave};
+use plane_contact::report::exports::{CorrectedExport, Export, Run, mathcad, octave};
 
 use crate::commands::{ReadingArg, waiting, write_or_print};
 
@@ -27,11 +29,13 @@ plane_contact::choices! {
 #[derive(clap::Args)]
 #[command(after_help = "\
 The listings are those printed, with the iterations of the variant printed and our results beside them.
-Octave wants the file called as its function: NAME.m.
+Octave wants the file called as its function: NAME.m. --corrected writes the corrected algorithm of
+listings/corrected/ in their place: no friction, in the initial geometry.
 
 Examples:
   plane-contact mathcad export fig1 --out fig1.xmcd
-  plane-contact mathcad export fig1 --to octave --out fig1.m")]
+  plane-contact mathcad export fig1 --to octave --out fig1.m
+  plane-contact mathcad export fig1 --corrected --out corrected.xmcd")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
@@ -39,6 +43,9 @@ pub struct Args {
     /// mathcad or octave.
     #[arg(long, value_name = "PROGRAM", default_value = "mathcad")]
     to: Target,
+    /// Write the corrected algorithm.
+    #[arg(long, conflicts_with = "reading")]
+    corrected: bool,
     #[command(flatten)]
     reading: ReadingArg,
     /// Write to a file in place of standard output.
@@ -48,12 +55,12 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let text = match args.to {
-        Target::Mathcad => listings(args, mathcad::worksheet)?,
-        Target::Octave => {
-            let name = function_name(args);
-            listings(args, |export| octave::program(export, &name))?
-        }
+    let name = function_name(args);
+    let text = match (args.to, args.corrected) {
+        (Target::Mathcad, false) => listings(args, mathcad::worksheet)?,
+        (Target::Mathcad, true) => corrected(args, mathcad::corrected)?,
+        (Target::Octave, false) => listings(args, |export| octave::program(export, &name))?,
+        (Target::Octave, true) => corrected(args, |export| octave::corrected(export, &name))?,
     };
     write_or_print(&args.out, &text)
 }
@@ -64,12 +71,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     let reading = args.reading.reading;
     let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
     let model = request.model()?;
-    if model.nodes.len() > MOST_NODES {
-        let what =
-            format!("the scene has {} nodes, at most {MOST_NODES} are written", model.nodes.len());
-        let fix = "make a coarser mesh";
-        return Err(InputError::new(&scene.name, what, fix).into());
-    }
+    check_size(&scene, &model)?;
     if let Some(n) = model.dropped.first() {
         let what =
             format!("node {n} belongs to no triangle: Km as printed is singular (finding K4)");
@@ -102,6 +104,40 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
         run,
     }))
 }
+
+/// Writes the corrected algorithm with the scene's tables and load, and its displacements.
+fn corrected(args: &Args, write: impl Fn(&CorrectedExport) -> String) -> Result<String> {
+    let scene = Scene::open(&args.scene)?;
+    let model = &*scene.model;
+    check_size(&scene, model)?;
+    let bound = Bound::Normal;
+    let ending = waiting("executing", || iterate(model, bound, &[], STEPS));
+    let ending = ending.map_err(|failure| {
+        let fix = "restrain the bodies; contact alone leaves one free to move";
+        InputError::new(&scene.name, failure.to_string(), fix)
+    })?;
+    Ok(write(&CorrectedExport {
+        title: &scene.title,
+        sheet: &door::worksheet(model, |x| x),
+        thickness: model.thickness,
+        force: model.load_in(|x| x).iter().copied().collect(),
+        bound,
+        steps: STEPS,
+        u: ending.u,
+    }))
+}
+
+fn check_size(scene: &Scene, model: &Model) -> Result<(), InputError> {
+    if model.nodes.len() <= MOST_NODES {
+        return Ok(());
+    }
+    let what =
+        format!("the scene has {} nodes, at most {MOST_NODES} are written", model.nodes.len());
+    Err(InputError::new(&scene.name, what, "make a coarser mesh"))
+}
+
+/// The iterations of the corrected algorithm, as many as the paper's.
+const STEPS: usize = 20;
 
 /// The most nodes of a scene that Mathcad is given: its matrix has twice as many rows.
 const MOST_NODES: usize = 300;

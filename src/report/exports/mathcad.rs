@@ -1,11 +1,13 @@
 //! The worksheet: tables, `Ae`, `B`, `D`, the listings, the iterations, and our results beside
 //! Mathcad's.
 
-use super::{Export, Run};
+use super::{CorrectedExport, Export, Run};
 use ::mathcad::value::Array;
 use ::mathcad::xmcd::{page::Page, write};
-use ::mathcad::{Listing, Value};
+use ::mathcad::{Listing, Settings, Value};
+use paper::corrected::Program;
 use paper::listings::{Which, elasticity, settings, tables};
+use paper::mirror::Worksheet;
 use problem::element::Plane;
 
 /// The tables that programs of the worksheet compute.
@@ -83,25 +85,14 @@ const SHOWN_EQUATIONS: usize = 60;
 pub fn worksheet(export: &Export) -> String {
     let mut page = Page::default();
     introduction(&mut page, export);
-    page.heading("The scene's tables / Таблицы сцены");
-    for (name, value) in tables(export.sheet) {
-        if !COMPUTED.contains(&name) {
-            define(&mut page, name, &value);
-        }
-    }
-    page.define("thickness", write::real(export.thickness), 1);
-    for (name, table) in [("R", "node"), ("M", "EL")] {
-        page.define(name, expression(&format!("rows({table})")), 1);
-    }
+    scene_tables(&mut page, export.sheet, export.thickness);
     let node_n = Value::from(export.node_n);
     if export.node_n == &export.sheet.node {
         page.define("node_n", write::id("node"), 1);
     } else {
         define(&mut page, "node_n", &node_n);
     }
-    page.heading("Elements (not printed in the paper) / Элементы (в статье не напечатаны)");
-    page.program(&listing(AREAS)).program(&listing(GRADIENTS));
-    page.program(&listing(elasticity(export.sheet.plane)));
+    elements(&mut page, export.sheet);
     page.heading("The paper's listings / Листинги статьи");
     page.text(&readings(export));
     for which in Which::ALL {
@@ -116,6 +107,55 @@ pub fn worksheet(export: &Export) -> String {
         iterations(&mut page, export, run);
     }
     page.finish(export.title, &settings(export.reading))
+}
+
+/// Writes the worksheet of the corrected algorithm.
+pub fn corrected(export: &CorrectedExport) -> String {
+    let mut page = Page::default();
+    page.heading(export.title);
+    page.text(
+        "The corrected algorithm of plane-contact (listings/corrected/README.md) with the tables of one \
+         scene: what the findings ask for, in the notation of A. M. Filipov's and M. V. Khomenko's \
+         listings. It is not the paper's. Nothing here was calculated by Mathcad yet.",
+    );
+    scene_tables(&mut page, export.sheet, export.thickness);
+    page.define("F", write::matrix(&Array::column(export.force.clone())), export.force.len());
+    page.define("both", write::real(export.bound.both()), 1);
+    elements(&mut page, export.sheet);
+    page.heading("The corrected listings / Исправленные листинги");
+    for program in Program::ALL {
+        page.program(&program.listing());
+    }
+    page.heading("The iterations / Итерации");
+    page.define("U", expression(&format!("iterate({})", export.steps)), 1);
+    page.define("u", expression("submatrix(U,1,2·R,1,1)"), 1);
+    page.evaluate(expression("u"), export.u.len(), "u");
+    page.heading(
+        "plane-contact's results, and the difference / Результаты plane-contact и разность",
+    );
+    beside(&mut page, "u_ours", &Array::column(export.u.clone()), "u");
+    page.finish(export.title, &Settings::default())
+}
+
+/// Defines the tables of a scene that no program computes.
+fn scene_tables(page: &mut Page, sheet: &Worksheet<f64>, thickness: f64) {
+    page.heading("The scene's tables / Таблицы сцены");
+    for (name, value) in tables(sheet) {
+        if !COMPUTED.contains(&name) {
+            define(page, name, &value);
+        }
+    }
+    page.define("thickness", write::real(thickness), 1);
+    for (name, table) in [("R", "node"), ("M", "EL")] {
+        page.define(name, expression(&format!("rows({table})")), 1);
+    }
+}
+
+/// Adds the programs of what the paper does not print of the elements.
+fn elements(page: &mut Page, sheet: &Worksheet<f64>) {
+    page.heading("Elements (not printed in the paper) / Элементы (в статье не напечатаны)");
+    page.program(&listing(AREAS)).program(&listing(GRADIENTS));
+    page.program(&listing(elasticity(sheet.plane)));
 }
 
 fn introduction(page: &mut Page, export: &Export) {

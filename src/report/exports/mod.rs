@@ -6,6 +6,7 @@ pub mod octave;
 pub mod probe;
 
 use ::mathcad::array::Table;
+use paper::corrected::Bound;
 use paper::mirror::{Pairs, Reading, Worksheet};
 
 /// What is exported.
@@ -22,6 +23,24 @@ pub struct Export<'a> {
     pub thickness: f64,
     /// The load and its iterations, if they are exported too.
     pub run: Option<Run>,
+}
+
+/// The corrected algorithm on a scene, and what this program has for it.
+pub struct CorrectedExport<'a> {
+    /// What the worksheet is called.
+    pub title: &'a str,
+    /// The worksheet of the scene.
+    pub sheet: &'a Worksheet<f64>,
+    /// What the areas are multiplied by, length.
+    pub thickness: f64,
+    /// The load on each equation, force. 2R.
+    pub force: Vec<f64>,
+    /// The components of displacement that a node in contact shares with its target.
+    pub bound: Bound,
+    /// The most iterations.
+    pub steps: usize,
+    /// The displacements at the end, length. 2R.
+    pub u: Vec<f64>,
 }
 
 /// The iterations of the variant `printed`, and what this program has for them.

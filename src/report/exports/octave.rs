@@ -7,12 +7,13 @@
 
 use std::collections::BTreeSet;
 
-use super::Export;
+use super::{CorrectedExport, Export};
 use ::mathcad::syntax::{
     Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step,
 };
 use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
+use paper::corrected::Program;
 use paper::listings::{Which, tables};
 use problem::element::Plane;
 
@@ -81,19 +82,15 @@ function d = D(e, nu)
 end
 ";
 
+const SOLVER: &str = "
+function x = lsolve(a, b)
+  x = a \\ b;
+end
+";
+
 /// Writes the program of an export; its function, and with it the file, is to be called `name`.
 pub fn program(export: &Export, name: &str) -> String {
-    let mut globals = Globals::default();
-    let mut tables_text = String::new();
-    for (table, value) in tables(export.sheet) {
-        match &value {
-            Value::Number(_) => drop(globals.scalars.insert(table)),
-            Value::Nested(_) => drop(globals.nested.insert(table)),
-            _ => {}
-        }
-        globals.names.insert(table);
-        tables_text += &format!("  {} = {};\n", ascii(table), literal(&value));
-    }
+    let (globals, tables_text) = definitions(tables(export.sheet));
     let mut text = format!(
         "% {}\n% The listings of A. M. Filipov and M. V. Khomenko as printed, for Octave and MATLAB.\n\
          % Readings: {}. Run: {name}\n",
@@ -130,13 +127,55 @@ pub fn program(export: &Export, name: &str) -> String {
     }
     text += "end\n";
     for which in Which::ALL {
-        text += &function(&which.under(export.reading), *which, export, &globals);
+        let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
+        text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
     }
-    text += match export.sheet.plane {
+    text + elasticity(export.sheet.plane) + HELPERS
+}
+
+/// Writes the program of the corrected algorithm; its function, and with it the file, is to be called
+/// `name`.
+pub fn corrected(export: &CorrectedExport, name: &str) -> String {
+    let of_scene = tables(export.sheet);
+    let force = Value::from(Array::column(export.force.clone()));
+    let (globals, definitions) = definitions(
+        of_scene.into_iter().chain([("F", force), ("both", export.bound.both().into())]),
+    );
+    let mut text = format!(
+        "% {}\n% The corrected algorithm of plane-contact, for Octave and MATLAB.\n\
+         function {name}()\n{}{definitions}  U = iterate({});\n  U = U(1:{});\n{}end\n",
+        export.title.split_whitespace().collect::<Vec<_>>().join(" "),
+        globals.declaration(),
+        export.steps,
+        export.u.len(),
+        shown("U", Some(Value::from(Array::column(export.u.clone()))))
+    );
+    for program in Program::ALL {
+        text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
+    }
+    text + elasticity(export.sheet.plane) + SOLVER + HELPERS
+}
+
+fn elasticity(plane: Plane) -> &'static str {
+    match plane {
         Plane::Strain => STRAIN,
         Plane::Stress => STRESS,
-    };
-    text + HELPERS
+    }
+}
+
+/// Returns the names of a worksheet, and the statements that define them.
+fn definitions(tables: impl IntoIterator<Item = (&'static str, Value)>) -> (Globals, String) {
+    let (mut globals, mut text) = (Globals::default(), String::new());
+    for (table, value) in tables {
+        match &value {
+            Value::Number(_) => drop(globals.scalars.insert(table)),
+            Value::Nested(_) => drop(globals.nested.insert(table)),
+            Value::Array(_) | Value::Text(_) => {}
+        }
+        globals.names.insert(table);
+        text += &format!("  {} = {};\n", ascii(table), literal(&value));
+    }
+    (globals, text)
 }
 
 /// Writes the statement that prints a result by its name, and what this program has for it beside.
@@ -162,9 +201,9 @@ impl Globals {
     }
 }
 
-/// Spells a name in ASCII; the listings' one Greek letter is `ν`.
+/// Spells a name in ASCII.
 fn ascii(name: &str) -> String {
-    name.replace('ν', "nu")
+    name.replace('ν', "nu").replace('ξ', "xi").replace('√', "sqrt")
 }
 
 fn literal(value: &Value) -> String {
@@ -183,18 +222,16 @@ fn literal(value: &Value) -> String {
     }
 }
 
-/// Translates a listing: its value, and for `c_cnt` the columns that it leaves.
-fn function(listing: &Listing, which: Which, export: &Export, globals: &Globals) -> String {
+/// Translates a listing, whose results are its value and `more` of its names.
+fn function(listing: &Listing, more: &str, conjunction: Conjunction, globals: &Globals) -> String {
     let mut scalars = BTreeSet::new();
-    let mut translator =
-        Translator { listing, globals, scalars: BTreeSet::new(), conjunction: export.reading.r4 };
+    let mut translator = Translator { listing, globals, scalars: BTreeSet::new(), conjunction };
     // A name that is a number in one statement and an array in another is none.
     for _ in 0..2 {
         translator.scalars = scalars.clone();
         scalars.clear();
         translator.find_scalars(&listing.program, &mut scalars);
     }
-    let more = if which == Which::CCnt { ", ct, yt, dy" } else { "" };
     let parameters: Vec<_> =
         listing.parameters.iter().map(|slot| ascii(listing.names.name(*slot))).collect();
     let mut text =
@@ -286,6 +323,10 @@ impl Translator<'_> {
                 put(inner, &format!("{} = {value};", self.target(target)));
             }
             Step::Evaluate { value, .. } => put(inner, &format!("value = {};", self.expr(value))),
+            Step::Return { value, .. } => {
+                put(inner, &format!("value = {};", self.expr(value)));
+                put(inner, "return");
+            }
             other => unreachable!("the listings have no {other:?}"),
         }
         let mut close = |level: usize| *text += &format!("{:1$}end\n", "", 2 * level);
@@ -324,7 +365,10 @@ impl Translator<'_> {
                 let row = |row: &[Expr]| self.list(row);
                 format!("[{}]", entries.chunks(*cols).map(row).collect::<Vec<_>>().join("; "))
             }
-            Kind::Magnitude(x) => format!("abs({})", self.expr(x)),
+            Kind::Magnitude(x) if self.is_scalar(x) => format!("abs({})", self.expr(x)),
+            Kind::Magnitude(x) => format!("norm({})", self.expr(x)),
+            Kind::Column(x, column) => format!("{}(:, {})", self.expr(x), self.expr(column)),
+            Kind::Power(x, exponent) => format!("{} ^ {}", self.expr(x), self.expr(exponent)),
             Kind::Negative(x) => format!("-{}", self.expr(x)),
             Kind::Transpose(x) => format!("{}.'", self.expr(x)),
             Kind::Arithmetic(Operation::Divide, x, y) => {
