@@ -6,16 +6,19 @@ use super::claims::{over, over_the_range};
 use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
-use super::numbers::reason;
+use super::numbers::{quantity, reason, with_unit};
 use super::picture::{Axis, Series, Style, chart};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
-use problem::scene::Scene;
+use problem::scene::{Scene, Units};
 use studies::audit::claims::{Claim, Elsewhere};
 use studies::audit::range::{self, ParameterValue};
-use studies::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade, Varied};
+use studies::benchmark::ClosedForm;
+use studies::trade::{
+    AccurateSolution, Approach, Errors, Limit, Order, Outcome, Row, Section, Trade, Varied,
+};
 
 /// Returns the content of `trade.json`.
 pub fn json(scene: &Scene, trade: &Trade) -> String {
@@ -85,6 +88,12 @@ pub fn report(trade: &Trade) -> Report {
             true => report,
             false => report.table(format!("Trials of {}", section.parameter), trials(section)),
         };
+        let report = match &section.limit {
+            Some(limit) => report
+                .table("Limit on meshes with true arcs", approaches(limit))
+                .table("Closed forms", closed_forms(limit)),
+            None => report,
+        };
         let report = match section.orders.is_empty() {
             true => report,
             false => report.table("Order of convergence", orders(&section.orders)),
@@ -107,7 +116,11 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         .column("equations", |row| row.equations)
         .column("in contact", |row| row.in_contact)
         .column("time, s", |row| row.seconds.map(|seconds| Cell::decimals(seconds, 4)))
-        .column("peak, MB", |row| row.peak_bytes.map(|b| Cell::decimals(b as f64 / 1e6, 0)))
+        .column("peak, MB", |row| row.peak_bytes.map(|b| Cell::decimals(b as f64 / 1e6, 0)));
+    if section.limit.is_some() {
+        return table;
+    }
+    let table = table
         .column("displacement", |row| row.error.map(displacement))
         .column("energy", |row| row.error.map(|e| error(e.energy, "energy")))
         .column("von Mises", |row| row.error.map(|e| error(e.von_mises, "von_mises")))
@@ -118,6 +131,29 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
     table.column("failure", |row| {
         row.failure.as_ref().and_then(|why| why.lines().next()).unwrap_or_default().to_string()
     })
+}
+
+fn approaches(limit: &Limit) -> Table<Vec<&Approach>> {
+    let table = Table::from_rows(&limit.quantities)
+        .column("quantity", |of| quantity(&of.quantity, &of.unit))
+        .column("own mesh", |of| Cell::decimals(of.own, 3));
+    let sizes = limit.sizes.iter().enumerate();
+    let table = sizes.fold(table, |table, (k, size)| {
+        let of_mesh = |of: &&Approach| of.values.get(k).map(|value| Cell::decimals(*value, 3));
+        table.column(with_unit(&size.to_string(), &limit.units.length), of_mesh)
+    });
+    table
+        .column("order", |of| of.order.map(|order| Cell::decimals(order, 2)))
+        .column("limit", |of| of.limit.map(|limit| Cell::decimals(limit, 3)))
+        .column("own mesh misses", |of| Cell::percent(of.missed, 1))
+}
+
+fn closed_forms(limit: &Limit) -> Table<Vec<&ClosedForm>> {
+    let Units { length, stress, .. } = &limit.units;
+    Table::from_rows(&limit.closed_forms)
+        .column("by hand", |form| form.author.to_string())
+        .column(quantity("half width a", length), |form| Cell::decimals(form.half_width, 3))
+        .column(quantity("peak pressure p0", stress), |form| Cell::decimals(form.peak_pressure, 2))
 }
 
 fn orders(orders: &[Order]) -> Table<Vec<&Order>> {

@@ -9,6 +9,7 @@ mod common {
     pub mod tolerances;
 }
 
+mod conforming;
 mod cook;
 mod delaunay;
 mod hertz;

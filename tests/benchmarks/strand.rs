@@ -1,4 +1,4 @@
-//! SOURCE: the paper's example; no solution is known in closed form.
+//! SOURCE: the paper's example; what closed forms come near it, `conforming.rs` tests.
 //!
 //! GOAL: the scene of `golden/strand` on a mesh of our own, for any radii and edge length: exactly
 //! mirror-symmetric, well-shaped, the two bodies side by side.

@@ -333,6 +333,45 @@ fn of_meshes(sentence: &str, json: &Value) {
             assert_shows(said[0], estimate, sentence);
             assert_shows(said[1], error, sentence);
         }
+    } else if let Some(said) = parts(
+        sentence,
+        "The arcs are true on every mesh but the scene's own, {} of radius {} and {} mm, and {}",
+    ) {
+        assert_shows(said[1], &json["limit"]["radii"][0], sentence);
+        assert_shows(said[2], &json["limit"]["radii"][1], sentence);
+    } else if let Some(said) = parts(sentence, "By hand ({}): half width {} mm, peak {} MPa, {}.") {
+        let forms = json["limit"]["closed_forms"].as_array().expect("closed forms");
+        let form = forms.iter().find(|form| form["author"] == said[0]).expect(sentence);
+        assert_shows(said[1], &form["half_width"], sentence);
+        assert_shows(said[2].trim_start_matches("pressure "), &form["peak_pressure"], sentence);
+    } else if let Some(said) = parts(sentence, "The {}; the scene's own mesh gives {}, {} that.") {
+        let quantities = json["limit"]["quantities"].as_array().expect("quantities");
+        let value = |words: &'_ str| words.split(' ').next().map(String::from).expect("a number");
+        let of_this = |q: &&Value| said[0].starts_with(q["quantity"].as_str().expect("a name"));
+        let quantity = quantities.iter().find(of_this).expect(sentence);
+        match parts(said[0], "{} converges with order {} to {}") {
+            Some(said) => {
+                assert_shows(said[1], &quantity["order"], sentence);
+                assert_shows(&value(said[2]), &quantity["limit"], sentence);
+            }
+            None => {
+                let pattern = "{} differs by {} over the last 3 meshes, and is on the finest {}";
+                let said = parts(said[0], pattern).expect(sentence);
+                let values = quantity["values"].as_array().expect("values");
+                let last: Vec<f64> = values[values.len() - 3..].iter().map(number).collect();
+                let [most, least] = [f64::max, f64::min].map(|f| last.iter().copied().reduce(f));
+                let spread = (most.expect("three") - least.expect("three")) / last[2];
+                assert_shows(said[1], &spread.into(), sentence);
+                assert_shows(&value(said[2]), &last[2].into(), sentence);
+            }
+        }
+        assert_shows(&value(said[1]), &quantity["own"], sentence);
+        let missed = number(&quantity["missed"]).abs();
+        assert_shows(
+            &said[2].replace(" above", "").replace(" below", ""),
+            &missed.into(),
+            sentence,
+        );
     } else {
         assert!(!sentence.contains(|c: char| c.is_ascii_digit()), "no table has it: {sentence}");
     }
@@ -363,7 +402,7 @@ fn of_halves(sentence: &str, json: &Value) {
 
 /// Checks every sentence of `trade` on a request; returns how many there are.
 fn check_trade(request: &Request, only: &[Varied]) -> usize {
-    let options = Options { runs: 1, only: only.to_vec() };
+    let options = Options { runs: 1, only: only.to_vec(), finest: 0.1 };
     let trade = measure(request, &options, |_| None, |_| ()).expect("it is measured");
     let json: Value = serde_json::from_str(&report::json(&request.scene, &trade)).expect("JSON");
     let mut count = 0;
@@ -414,6 +453,7 @@ fn sentences_of_trade_on_the_example_are_those_of_its_rows() {
     let parameters =
         [Varied::Tolerance, Varied::Iterations, Varied::Status, Varied::Coupling, Varied::Symmetry];
     assert!(check_trade(&Request::new(&open("strand")), &parameters[..1]) == 2);
+    assert!(check_trade(&Request::new(&open("strand")), &[Varied::Mesh]) == 10);
     let coarse = Strand { size: 0.9, ..Strand::default() }.generate().and_then(|b| b.build());
     check_trade(&Request::new(&coarse.expect("in range")), &parameters);
 }

@@ -404,7 +404,7 @@ fn settings() {
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
     let request = Request::new(&STRAND).arithmetic(arithmetic);
     let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
-    let options = trade::Options { runs: 1, only };
+    let options = trade::Options { runs: 1, only, finest: trade::FINEST };
     let trade = trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured");
     let rows = trade.sections.iter().flat_map(|section| {
         section.rows.iter().map(move |row| {

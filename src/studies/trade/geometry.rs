@@ -56,13 +56,14 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
             [places.into()].into_iter().chain(CARRYING.iter().filter_map(of)).collect()
         }
     };
-    let (parameter, against) = (Varied::Geometry, against(Varied::Geometry));
+    let (parameter, against) = (Varied::Geometry, against(Varied::Geometry, false));
     Section {
         parameter,
         against,
         rows,
         orders: Vec::new(),
         ladder: None,
+        limit: None,
         exact_seconds: None,
         asymmetry: None,
         claims,

@@ -6,10 +6,12 @@ use rayon::prelude::*;
 
 use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
+use super::limit::Limit;
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
-use super::trials::{EXACT, ErrorReference, Trial, exact_seconds, trials};
+use super::trials::{EXACT, ErrorReference, Setting, Trial, exact_seconds, trials};
 use super::{Varied, words};
+use crate::benchmark::Strand;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
@@ -26,6 +28,8 @@ pub struct Options {
     pub runs: usize,
     /// The parameters that are varied; all where the list is empty.
     pub only: Vec<Varied>,
+    /// The edges on the lower wall of the finest mesh with true arcs, length.
+    pub finest: f64,
 }
 
 /// Turns the parameters of `request` and measures what comes of each place. `peak` gives a trial's peak
@@ -46,12 +50,10 @@ pub fn measure(
     let (mut sections, mut all) = (Vec::new(), Vec::new());
     for parameter in Varied::ALL.iter().copied().filter(is_asked).filter(|k| *k != Varied::Geometry)
     {
-        let trials = trials(request, parameter);
+        let trials = trials(request, parameter, options.finest);
         let runs = timed(request, &trials, options.runs, &watch)?;
-        let meshes = match parameter {
-            Varied::Mesh => meshes(&request.scene, trials.len() - 1)?,
-            _ => Vec::new(),
-        };
+        let is_refined = |trial: &&Trial| matches!(trial.setting, Setting::Refined(1..));
+        let meshes = meshes(&request.scene, trials.iter().filter(is_refined).count())?;
         let reference = reference.as_ref();
         let bench =
             Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
@@ -90,7 +92,7 @@ pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
         Ok(steps
             + match parameter {
                 Varied::Geometry => places(request)?.len(),
-                parameter => trials(request, *parameter).len() * (options.runs + 1),
+                parameter => trials(request, *parameter, options.finest).len() * (options.runs + 1),
             })
     })
 }
@@ -177,16 +179,19 @@ impl Bench<'_> {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
-        let (orders, ladder) =
-            if parameter == Varied::Mesh { self.ladder() } else { Default::default() };
+        let arcs = if parameter == Varied::Mesh { Strand::of(self.scene) } else { None };
+        let limit = arcs.as_ref().and_then(|strand| self.limit(strand));
+        let is_nested = parameter == Varied::Mesh && arcs.is_none();
+        let (orders, ladder) = if is_nested { self.ladder() } else { Default::default() };
         let exact = (parameter == Varied::Arithmetic).then(|| exact_seconds(request));
         let half = (parameter == Varied::Symmetry).then(|| symmetry::half(self.scene)).flatten();
         let mut section = Section {
             parameter,
-            against: words::against(parameter),
+            against: words::against(parameter, arcs.is_some()),
             rows,
             orders,
             ladder,
+            limit,
             exact_seconds: exact.filter(|seconds| *seconds > EXACT),
             asymmetry: half.map(|half| half.departure),
             claims: Vec::new(),
@@ -212,6 +217,7 @@ impl Bench<'_> {
             runs: run.seconds.len(),
             peak_bytes: None,
             error: match trial.against {
+                ErrorReference::Limit => None,
                 ErrorReference::Trial(best) => self.between(place, self.best_that_ran(place, best)),
                 ErrorReference::Reference => {
                     solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
@@ -249,6 +255,19 @@ impl Bench<'_> {
         };
         let (own, truth) = (solution_of(place)?, solution_of(best?)?);
         Some(Errors::between(self.scene, &self.meshes, own, truth))
+    }
+
+    /// What the meshes with true arcs tend to; nothing where one of them failed, or there is none.
+    fn limit(&self, strand: &Strand) -> Option<Limit> {
+        let solutions: Result<Vec<&Solution>, _> =
+            self.runs.iter().map(|run| run.solution.as_ref()).collect();
+        let sizes = self.trials.iter().filter_map(|trial| {
+            let Setting::Size(size) = trial.setting else { return None };
+            Some(size)
+        });
+        let solutions = solutions.ok()?;
+        let (own, finer) = solutions.split_first().filter(|(_, finer)| !finer.is_empty())?;
+        Some(Limit::new(strand, &self.scene.units, sizes.collect(), own, finer))
     }
 
     /// Orders of convergence, from meshes each of half the element size of the one before, and what

@@ -13,6 +13,7 @@
 mod accuracy;
 mod errors;
 mod geometry;
+mod limit;
 mod measure;
 mod order;
 pub mod peak;
@@ -23,10 +24,11 @@ mod words;
 pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};
 pub use errors::Errors;
 pub use geometry::geometry;
+pub use limit::{Approach, Limit};
 pub use measure::{Options, PATIENCE, measure, pareto, steps};
 pub use order::Order;
 pub use rows::{Ladder, Row, Section, Trade};
-pub use trials::{Trial, find, trials};
+pub use trials::{FINEST, Trial, find, trials};
 
 use base::choices;
 
@@ -38,7 +40,7 @@ choices! {
         Arithmetic = "arithmetic",
         /// How the equations are solved.
         Solver = "solver",
-        /// The element size, by refinement of the mesh.
+        /// The element size: meshes with true arcs where a generator makes the scene, else refinement.
         Mesh = "mesh",
         /// The tolerance of the contact search.
         Tolerance = "c_tll",

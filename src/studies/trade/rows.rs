@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::Varied;
 use super::errors::Errors;
+use super::limit::Limit;
 use super::order::Order;
 use crate::audit::claims::JudgedClaim;
 use crate::audit::range::ParameterValue;
@@ -40,6 +41,9 @@ pub struct Section {
     pub orders: Vec<Order>,
     /// The meshes beside their limit, of the element size only; nothing where one of them failed.
     pub ladder: Option<Ladder>,
+    /// The limit of meshes with true arcs, of the element size of a scene that a generator makes only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<Limit>,
     /// How long exact numbers may take, s; of the arithmetic only, where they were left out for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exact_seconds: Option<f64>,
@@ -90,7 +94,8 @@ pub struct Row {
     pub runs: usize,
     /// The most memory of a process that did nothing else, bytes.
     pub peak_bytes: Option<u64>,
-    /// How far it is from what the section measures against, over that; nothing of a failure.
+    /// How far it is from what the section measures against, over that; nothing of a failure, and of
+    /// meshes with true arcs, which are not nested.
     pub error: Option<Errors>,
     /// How far it is from the same variant where the scene has the parameter; nothing where the scene
     /// has none of the places.

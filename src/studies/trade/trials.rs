@@ -1,6 +1,9 @@
 //! What is tried of each parameter.
 
+use std::iter::successors;
+
 use super::Varied;
+use crate::benchmark::Strand;
 use base::error::InputError;
 use engine::Request;
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
@@ -11,6 +14,10 @@ use problem::scene::{Scene, symmetry};
 pub(super) const EXACT: f64 = 10.0;
 /// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
+/// The edges on the lower wall of the coarsest mesh with true arcs, length.
+const COARSEST: f64 = 0.4;
+/// The same of the finest by default, length.
+pub const FINEST: f64 = 0.05;
 /// How many meshes are tried at most.
 const MESHES: usize = 5;
 /// The tolerances of the contact search that are tried, in the scene's unit of length.
@@ -33,12 +40,16 @@ pub enum Setting {
     Coupling(Coupling),
     /// The reference solution of the scene with its mesh refined so many times.
     Refined(usize),
+    /// The reference solution of the scene on its generator's mesh with edges of this length.
+    Size(f64),
     Half,
 }
 
 /// What a trial's error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorReference {
+    /// Not node by node: the limit of quantities on meshes that are not nested.
+    Limit,
     Reference,
     Trial(usize),
 }
@@ -99,6 +110,11 @@ impl Trial {
                 }
                 request = request.reference();
             }
+            Setting::Size(size) => {
+                let strand = Strand::of(&request.scene).expect("its trials have sizes");
+                request.scene = Strand { size, ..strand }.remesh(&request.scene)?;
+                request = request.reference();
+            }
             Setting::Half => {
                 let half = symmetry::half(&request.scene).ok_or_else(|| {
                     let what = "the scene is not symmetric about a vertical line";
@@ -117,19 +133,23 @@ impl Trial {
 }
 
 /// The trial of that name ([`Trial::name`]).
-pub fn find(request: &Request, name: &str) -> Option<Trial> {
-    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter));
+pub fn find(request: &Request, name: &str, finest: f64) -> Option<Trial> {
+    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter, finest));
     all.into_iter().find(|trial| trial.name() == name)
 }
 
 /// Everything to measure of a parameter of `request`, geometry aside, which has scenes of its own; nothing
-/// where its scene does not have the parameter.
-pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
+/// where its scene does not have the parameter. Meshes with true arcs have edges from 0.4 down to `finest`,
+/// length.
+pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
     match parameter {
         Varied::Arithmetic => arithmetic(request),
         Varied::Solver => solvers(request),
-        Varied::Mesh => meshes(&request.scene),
+        Varied::Mesh => match Strand::of(&request.scene) {
+            Some(strand) => true_arcs(&strand, &request.scene.units.length, finest),
+            None => meshes(&request.scene),
+        },
         Varied::Symmetry => halves(request, contact),
         Varied::Geometry => Vec::new(),
         _ if !contact => Vec::new(),
@@ -257,6 +277,21 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
         ..Trial::new(Varied::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
+}
+
+/// The scene's own mesh, then those with true arcs, each of half the element size of the one before, that
+/// the generator can make.
+fn true_arcs(strand: &Strand, unit: &str, finest: f64) -> Vec<Trial> {
+    let trial = |label: String, setting| Trial {
+        setting,
+        against: ErrorReference::Limit,
+        own: setting == Setting::Refined(0),
+        ..Trial::new(Varied::Mesh, label, Variant::Unilateral)
+    };
+    let sizes = successors(Some(COARSEST), |size| Some(size / 2.0)).take_while(|s| *s >= finest);
+    let sizes = sizes.filter(|size| Strand { size: *size, ..strand.clone() }.check().is_ok());
+    let sized = |size| trial(format!("{size} {unit}").trim_end().into(), Setting::Size(size));
+    [trial("own".into(), Setting::Refined(0))].into_iter().chain(sizes.map(sized)).collect()
 }
 
 /// The tolerances that are tried, the scene's `own` among them.

@@ -2,20 +2,23 @@
 
 use super::Varied;
 use super::errors::Errors;
+use super::limit::{Approach, Limit};
 use super::order::Order;
 use super::rows::{Ladder, Row, Section};
 use super::trials::{cg, sparse};
+use crate::benchmark::{ClosedForm, Strand};
 use engine::estimates::Certainty;
 use numbers::solve::{ScalarName, Solver};
 use problem::modelling::Variant;
-use problem::scene::Scene;
+use problem::scene::{Scene, Units};
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
 
 /// What errors are measured against, in words.
-pub fn against(parameter: Varied) -> &'static str {
+pub fn against(parameter: Varied, arcs_are_true: bool) -> &'static str {
     match parameter {
+        Varied::Mesh if arcs_are_true => "the limit of meshes with true arcs",
         Varied::Arithmetic => "the last row that ran",
         Varied::Solver => "f64x2",
         Varied::Mesh => "the reference solution on the finest mesh that ran",
@@ -34,6 +37,7 @@ pub fn answers(scene: &Scene, section: &Section) -> Vec<String> {
         _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to vary.".into()],
         Varied::Arithmetic => arithmetic(rows, *exact_seconds),
         Varied::Solver => solver(rows),
+        Varied::Mesh if Strand::of(scene).is_some() => true_arcs(section.limit.as_ref()),
         Varied::Mesh => mesh(scene, section),
         Varied::Tolerance => by_variant(scene, rows, tolerance),
         Varied::Iterations => by_variant(scene, rows, iterations),
@@ -144,6 +148,63 @@ fn solver(rows: &[Row]) -> Vec<String> {
         )
     });
     direct.into_iter().chain(loose).collect()
+}
+
+fn true_arcs(limit: Option<&Limit>) -> Vec<String> {
+    let Some(Limit { radii: [disc, hole], quantities, closed_forms, units, .. }) = limit else {
+        return vec!["No limit is known: not every mesh with true arcs ran.".into()];
+    };
+    let rule = format!(
+        "The arcs are true on every mesh but the scene's own, for mesh strand makes the scene: both contact \
+         surfaces lie on its circles, of radius {disc} and {hole} {}, and the block's sides, the groups and \
+         what they restrain and load are its own. Refined as it is, the scene's own mesh would stay a \
+         polygon, whose corners press: their stress has no limit.",
+        units.length
+    );
+    let peak = quantities[0].best();
+    let by_hand = closed_forms.iter().map(|form| closed_form(form, peak, units));
+    let fitted = "Peak pressure and half width are those of Hertz's parabola for p² through the pressures of the \
+                  nodes: a node's alone scatters, most beside the axis, about which the mesh is mirrored.";
+    let assumed = "Hertz takes both bodies for half planes; Persson takes a disc loaded at its centre, in a \
+                   hole of an unbounded plane, and neglects Dundurs' second constant. The scene is a block \
+                   of finite size and a part of a disc loaded on its top.";
+    let approaches = quantities.iter().map(approach);
+    let by_hand = by_hand.chain((!closed_forms.is_empty()).then(|| assumed.into()));
+    [rule, fitted.into()].into_iter().chain(approaches).chain(by_hand).collect()
+}
+
+/// Where a quantity leads to, and what the scene's own mesh misses of that.
+fn approach(of: &Approach) -> String {
+    let (Approach { quantity, unit, own, values, missed, .. }, best) = (of, of.best());
+    let leads = match of.order {
+        Some(order) => format!("converges with order {order:.2} to {best:.3} {unit}"),
+        None => {
+            let last = &values[values.len().saturating_sub(3)..];
+            let [least, most] = [f64::min, f64::max].map(|f| last.iter().copied().reduce(f));
+            let spread = most.zip(least).map_or(0.0, |(most, least)| (most - least) / best);
+            let (spread, count) = (percent(spread), last.len());
+            format!(
+                "shows no order of convergence, differs by {spread} over the last {count} meshes, and is on \
+                 the finest {best:.3} {unit}"
+            )
+        }
+    };
+    let side = if *missed < 0.0 { "below" } else { "above" };
+    let missed = percent(missed.abs());
+    format!(
+        "The {quantity} {leads}; the scene's own mesh gives {own:.3} {unit}, {missed} {side} that."
+    )
+}
+
+/// What a reader computes by hand, beside the peak pressure that finer meshes lead to.
+fn closed_form(form: &ClosedForm, peak: f64, Units { length, stress, .. }: &Units) -> String {
+    let ClosedForm { author, half_width, peak_pressure } = form;
+    let side = if *peak_pressure < peak { "below" } else { "above" };
+    let far = percent((peak_pressure / peak - 1.0).abs());
+    format!(
+        "By hand ({author}): half width {half_width:.3} {length}, peak pressure {peak_pressure:.2} {stress}, \
+         {far} {side} that of finer meshes."
+    )
 }
 
 fn mesh(scene: &Scene, section: &Section) -> Vec<String> {
