@@ -77,9 +77,14 @@ fn triangles_are_well_shaped_and_run_counter_clockwise() {
 
 #[test]
 fn parameters_at_their_limits_make_well_shaped_triangles() {
-    for (duct, strand, size) in
-        [(7.6, 7.6, 0.45), (22.0, 7.4, 1.1), (22.0, 22.0, 1.2), (1.0, 0.35, 0.05), (1.0, 1.0, 0.16)]
-    {
+    for (duct, strand, size) in [
+        (7.6, 7.6, 0.45),
+        (22.0, 7.4, 1.1),
+        (22.0, 22.0, 1.2),
+        (1.0, 0.35, 0.05),
+        (1.0, 1.0, 0.16),
+        (7.7, 7.6, 0.025),
+    ] {
         let made = Strand { duct, strand, size, ..Strand::default() }.generate().expect("in range");
         assert!(made.build().is_ok(), "duct {duct}, strand {strand}, size {size}");
         let angle = least_angle(&made.mesh);
