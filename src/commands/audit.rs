@@ -13,8 +13,10 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
 use plane_contact::report::{
-    audit as report, folder, pressure, prices as price_report, statuses as status_report,
+    audit as report, claims, folder, pressure, prices as price_report, statuses as status_report,
 };
+use plane_contact::studies::audit::claims::{CLAIMS, Claim};
+use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::prices;
 use plane_contact::studies::audit::range::range;
@@ -27,11 +29,16 @@ use super::{TablesArgs, print, print_either, print_stderr, progress, waiting};
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-First the claims of the paper with their verdicts, how far each reaches, and what they assume;
-then three tables: the readings (what each other value changes), the findings (present, not
-triggered here, contradicted; with a number), and the variants side by side. --finding explains one
-on its smallest scene, or on SCENE where that is given. The whole takes 30 to 80 times as long as
-solve.
+First the conclusion: five answers, each with its number and the command that prints it. Then the
+claims of the paper with their verdicts, how far each reaches, and what they assume; then three
+tables: the readings (what each other value changes), the findings (present, not triggered here,
+contradicted; with a number), and the variants side by side. --finding explains one on its smallest
+scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
+threshold, value, and the verdict under each other reading. The whole takes 30 to 80 times as long
+as solve.
+
+A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
+status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
 --statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies
 and takes the cheaper. Of each rule that solve --status offers, wrong statuses are counted by depth
@@ -44,6 +51,7 @@ Examples:
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
   plane-contact audit fig1 --prices
+  plane-contact audit --claim P12
   plane-contact audit --statuses --scenes 1000 --json
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
                                                   a picture a finding and a variant")]
@@ -55,16 +63,19 @@ pub struct Args {
     /// Explain one finding.
     #[arg(long, value_name = "ID")]
     finding: Option<String>,
+    /// Explain and judge one claim of the paper.
+    #[arg(long, value_name = "ID", conflicts_with = "finding")]
+    claim: Option<String>,
     /// Judge the claims over the range of what the paper leaves open too (trade --only geometry
     /// says which); takes several times as long.
-    #[arg(long, conflicts_with_all = ["scene", "finding"])]
+    #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
     /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
-    #[arg(long, conflicts_with_all = ["scene", "finding", "range"])]
+    #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range"])]
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
     /// back, and show what each costs; takes a minute on strand.
-    #[arg(long, conflicts_with_all = ["finding", "range", "statuses"])]
+    #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses"])]
     prices: bool,
     /// Random scenes for each row of the tables of --statuses.
     #[arg(long, value_name = "N", default_value_t = 200, requires = "statuses")]
@@ -84,12 +95,16 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    match &args.finding {
-        Some(id) => explain(args, find(id)?),
-        None if args.statuses => statuses(args),
-        None if args.prices => prices(args),
-        None => whole(args),
+    if let Some(id) = &args.finding {
+        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id)?);
     }
+    if let Some(id) = &args.claim {
+        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id)?);
+    }
+    if args.statuses {
+        return statuses(args);
+    }
+    if args.prices { prices(args) } else { whole(args) }
 }
 
 fn statuses(args: &Args) -> Result<()> {
@@ -124,15 +139,36 @@ fn prices(args: &Args) -> Result<()> {
     args.tables.print("audit", price_report::report(&found, &scene))
 }
 
-fn find(id: &str) -> Result<&'static Finding, InputError> {
-    FINDINGS.iter().find(|finding| finding.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
-        let ids: Vec<&str> = FINDINGS.iter().map(|finding| finding.id).collect();
+/// Finds what a register lists under an id.
+fn listed<T>(
+    option: &str,
+    id: &str,
+    register: &'static [T],
+    id_of: fn(&T) -> &'static str,
+) -> Result<&'static T, InputError> {
+    register.iter().find(|entry| id_of(entry).eq_ignore_ascii_case(id)).ok_or_else(|| {
+        let ids: Vec<&str> = register.iter().map(id_of).collect();
+        let what = option.trim_start_matches('-');
         InputError::new(
-            "--finding",
-            format!("there is no finding {id:?}"),
-            format!("{}the findings are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
+            option,
+            format!("there is no {what} {id:?}"),
+            format!("{}the {what}s are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
         )
     })
+}
+
+/// Judges one claim on the scene.
+fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
+    let case = Case::within_memory(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
+    let (judged, by_reading) =
+        waiting("judging", || (claim.judge(&case, &Vec::new()), claim.by_reading(&case)));
+    let document = claims::Document { judged: &judged, by_reading: &by_reading };
+    let json = claims::claim_json(&document, &case.scene);
+    if let Some(out) = &args.out {
+        let files = [(format!("{}.json", claim.id), &json)];
+        files::write_all(out, &format!("audit --claim {}", claim.id), &files)?;
+    }
+    print_either(args.json, || json, || claims::explanation(&document, &case.scene))
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
@@ -165,8 +201,9 @@ fn whole(args: &Args) -> Result<()> {
     let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
     let found = audit(&case, &places, &|| bar.inc(1));
     bar.finish_and_clear();
-    let json = report::json(&found, &case.scene);
-    let report = report::report(&found, &case.scene);
+    let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
+    let json = report::json(&found, &conclusion, &case.scene);
+    let report = report::report(&found, &conclusion, &case.scene);
     if let Some(out) = &args.out {
         write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }

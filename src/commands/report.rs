@@ -10,6 +10,7 @@ use plane_contact::files::{self, Folder};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::report::{self as page, Report};
+use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::{Case, audit};
 use plane_contact::studies::calculix::{self, Comparison, Contact, Fields, Pair, Part};
 
@@ -18,7 +19,7 @@ use super::{report_written, waiting};
 /// The most bytes of a chart of `trade`; one has some 30,000.
 const CHART: u64 = 1 << 24;
 
-/// Write an audit report as a page: claims, readings, findings, fields.
+/// Write an audit report as a page: conclusion, claims, readings, findings, fields.
 #[derive(clap::Args)]
 #[command(after_help = "\
 The page is one file that opens offline. Fields are shown under the pointer and at probes, on the
@@ -65,7 +66,11 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 fn page_of(args: &Args, case: &Case, charts: Vec<(String, String)>) -> Result<String> {
-    let audited = (!args.no_audit).then(|| audit(case, &Vec::new(), &|| ()));
+    let audited = (!args.no_audit).then(|| {
+        let found = audit(case, &Vec::new(), &|| ());
+        let conclusion = Conclusion::new(case, &found);
+        (found, conclusion)
+    });
     let wanted = |variant: &&Variant| args.variant.is_empty() || args.variant.contains(variant);
     let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.certain(*v).ok());
     let others = match args.no_audit {
@@ -81,7 +86,7 @@ fn page_of(args: &Args, case: &Case, charts: Vec<(String, String)>) -> Result<St
     Ok(page::html(&Report {
         scene: &case.scene,
         what: what(args, &case.scene),
-        audit: audited.as_ref(),
+        audit: audited.as_ref().map(|(found, conclusion)| (found, conclusion)),
         runs: runs.map(assessed).collect(),
         calculix: beside.as_ref().map(|(comparison, heading)| (comparison, heading.clone())),
         charts,

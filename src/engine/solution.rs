@@ -8,7 +8,7 @@ use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::contact::{ContactNode, Pairing, Status};
+use super::contact::{ContactNode, Pairing, ROUNDING_OF_A_FORCE, Status};
 use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::request::Request;
@@ -408,6 +408,15 @@ impl Solution {
     /// Returns the force that contact passes on at the end ([`Step::target_force`]).
     pub fn target_force(&self) -> f64 {
         self.last().target_force.expect("the whole bodies are solved for in the last step")
+    }
+
+    /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has
+    /// contact and a load: an audit result under `printed`, which couples nothing (finding K1).
+    pub fn transmits_nothing(&self) -> bool {
+        let [fx, fy] = self.model.total_load();
+        let load = fx.hypot(fy);
+        let is_loaded = self.model.target().is_some() && load > 0.0;
+        is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
     }
 
     /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims;
+use super::conclusion::{self, Answer};
 use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
@@ -17,15 +18,17 @@ use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::claims::JudgedClaim;
+use studies::audit::conclusion::Conclusion;
 use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
 use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
 use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 
-/// Reports the claims, the readings, the findings, the variants side by side, and who sticks and
+/// Reports the conclusion, the claims, the readings, the findings, the variants side by side, and who sticks and
 /// slides under each coefficient of friction.
-pub fn report(audit: &Audit, scene: &Scene) -> Report {
+pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     Report::titled(format!("Audit of scene {} ({})", scene.name, scene.title))
+        .then(conclusion::report(&conclusion::answers(conclusion, scene)))
         .then(claims::report(&audit.claims, &audit.assumptions))
         .then(readings(&audit.readings))
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
@@ -56,6 +59,9 @@ fn readings(effects: &[Effect]) -> Report {
         .column("dy changed", |effect| effect.statuses)
         .column("MJS entries changed", |effect| effect.entries)
         .column("largest difference", |effect| effect.displacement)
+        .column("error in energy norm", |effect| {
+            effect.equilibrium_error.map(|error| Cell::percent(error, 2))
+        })
         .column("of what", remark);
     Report::default()
         .table(
@@ -135,6 +141,7 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
     if let End::Result {
         in_contact,
         target_share,
+        transmits_nothing,
         eq1_residual,
         cycle,
         bodies,
@@ -150,10 +157,11 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
             (_, Some(Cycle { length: 1, .. })) => "settled".into(),
             (_, Some(cycle)) => format!("cycle of {}", cycle.length),
         };
+        let nothing = if *transmits_nothing { ", nothing transmitted" } else { "" };
         let distance = distance.as_ref();
         cells.extend([
             in_contact.last().copied().into(),
-            state.into(),
+            (state + nothing).into(),
             Cell::percent(*target_share, 1),
             (*eq1_residual).into(),
             stresses(bodies).into(),
@@ -225,6 +233,10 @@ fn tenth(x: f64) -> String {
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
     scene: &'a str,
+    /// The conclusion in words.
+    answers: [Answer; 5],
+    /// What the answers are made of.
+    conclusion: &'a Conclusion,
     claims: &'a [JudgedClaim],
     assumptions: &'a [Assumption],
     readings: &'a [Effect],
@@ -271,9 +283,11 @@ impl FindingRow {
 
 impl<'a> Document<'a> {
     /// Collects the results of an audit of `scene`.
-    pub fn new(audit: &'a Audit, scene: &'a Scene) -> Self {
+    pub fn new(audit: &'a Audit, conclusion: &'a Conclusion, scene: &'a Scene) -> Self {
         Document {
             scene: &scene.name,
+            answers: conclusion::answers(conclusion, scene),
+            conclusion,
             claims: &audit.claims,
             assumptions: &audit.assumptions,
             readings: &audit.readings,
@@ -287,8 +301,8 @@ impl<'a> Document<'a> {
 }
 
 /// Returns the audit of a scene as JSON.
-pub fn json(audit: &Audit, scene: &Scene) -> String {
-    json::line(Some(scene), &Document::new(audit, scene))
+pub fn json(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> String {
+    json::line(Some(scene), &Document::new(audit, conclusion, scene))
 }
 
 /// Returns what a scene shows of one finding as JSON.

@@ -1,47 +1,117 @@
 //! The register of claims.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::json;
 use super::layout::listed;
 use super::model::{Report, Table};
-use super::numbers::{or_dash, short};
+use super::numbers::{or_dash, percent, short};
+use problem::scene::Scene;
 use studies::audit::Assumption;
-use studies::audit::claims::{Elsewhere, JudgedClaim};
+use studies::audit::claims::{Claim, Elsewhere, JudgedClaim, UnderReading};
 use studies::audit::range::Parameter;
 
-/// Reports the verdicts, what each value is and how to reproduce it, and the assumptions that they
-/// rest on.
+/// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
 pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
     let judged = Table::from_rows(claims)
         .column("id", |judged| judged.claim.id)
-        .column("line", |judged| judged.claim.line)
+        .column("where in the paper", |judged| judged.claim.place)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
         .column("certainty", |judged| judged.claim.basis.to_string())
         .column("value", |judged| judged.measured.number)
         .column("the paper says that", |judged| judged.claim.says);
-    let values = Table::from_rows(claims.iter().filter(|judged| !judged.claim.at.is_empty()))
-        .column("id", |judged| judged.claim.id)
-        .column("what the value is", |judged| judged.claim.number)
-        .column("printed by", |judged| format!("plane-contact {}", judged.claim.command.join(" ")))
-        .column("JSON pointer", |judged| judged.claim.at.join(" over "));
     let assumptions = Table::from_rows(assumptions)
         .column("what the paper leaves open", |assumption| assumption.what)
         .column("set to", |assumption| assumption.set_to.clone());
     let report = Report::default().table("Claims of the paper, and what they assume", judged);
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
         report.note(
-            "Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
+            "Evidence on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
              the stamp and units of c_tol.",
         )
     } else {
         report.note("Over the range of what the paper leaves open:").then(over_the_range(claims))
     };
-    report.table("Values of the claims", values).table("Assumptions", assumptions)
+    let entry = |report: Report, judged: &JudgedClaim| {
+        let Claim { id, says, .. } = judged.claim;
+        report.note(format!("{id}: {says}")).then(entry(judged))
+    };
+    claims
+        .iter()
+        .fold(report.heading("Each claim in full (`audit --claim P12` explains one)"), entry)
+        .table("Assumptions", assumptions)
+}
+
+/// One claim on a scene.
+#[derive(Serialize, JsonSchema)]
+pub struct Document<'a> {
+    #[serde(flatten)]
+    pub judged: &'a JudgedClaim,
+    /// The verdict under each other reading that may change a run; empty where it does not rest on runs.
+    pub by_reading: &'a [UnderReading],
+}
+
+/// Reports one claim on a scene.
+pub fn explanation(claim: &Document, scene: &Scene) -> Report {
+    let Claim { id, says, .. } = claim.judged.claim;
+    let report = Report::titled(format!("{id}: {says}"))
+        .line(format!("On scene {} ({})", scene.name, scene.title))
+        .then(entry(claim.judged));
+    if claim.by_reading.is_empty() {
+        return report;
+    }
+    let table = Table::from_rows(claim.by_reading)
+        .column("reading", |under| under.reading.clone())
+        .column("verdict", |under| under.measured.words())
+        .column("value", |under| under.measured.number)
+        .column("beside it", |under| under.measured.detail.clone());
+    report.table("Under other readings", table)
+}
+
+/// Returns one claim on a scene as JSON.
+pub fn claim_json(claim: &Document, scene: &Scene) -> String {
+    json::line(Some(scene), claim)
+}
+
+/// Reports a claim: its words, what is judged, and what came of it.
+fn entry(judged: &JudgedClaim) -> Report {
+    let Claim { place, quote, translation, condition, threshold, number, basis, .. } = judged.claim;
+    let value = judged.measured.number.map_or("-".into(), short);
+    Report::default()
+        .detail(format!("the paper, {place}: «{quote}»"))
+        .detail(format!("in English: \"{translation}\""))
+        .detail(format!("true where: {condition}"))
+        .detail(format!("threshold: {threshold}"))
+        .detail(format!("verdict: {}, {basis}; scope: {}", judged.measured.verdict, judged.scope))
+        .detail(format!("value: {value} = {number}"))
+        .detail(format!("beside it: {}", judged.measured.detail))
+        .details(judged.mesh_error.map(error_of_the_mesh))
+        .details(printed_by(judged))
+}
+
+/// Says what the mesh's own error leaves of a verdict that rests on runs.
+fn error_of_the_mesh(error: f64) -> String {
+    format!(
+        "error of the mesh itself: about {} in the energy norm. Both sides are computed on this mesh, so \
+         that their difference is the algorithm's; how far either is from the exact solution the verdict \
+         does not say",
+        percent(error, 1)
+    )
+}
+
+/// Names the command that prints the value; nothing where there is no value.
+fn printed_by(judged: &JudgedClaim) -> Option<String> {
+    let (command, at) = (judged.command.join(" "), judged.at.join(" over "));
+    (!at.is_empty()).then(|| format!("printed by: plane-contact {command}, at {at}"))
 }
 
 /// Returns the verdicts with their values.
 pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
     Table::from_rows(claims)
-        .column("line", |judged| format!("{}: {}", judged.claim.id, judged.claim.line))
+        .column("claim", |judged| judged.claim.id)
+        .column("where in the paper", |judged| judged.claim.place)
         .column("the paper says that", |judged| judged.claim.says)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())

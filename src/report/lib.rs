@@ -8,7 +8,8 @@
 //! |----------------------------------------------------|----------------------------------------|
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
 //! | `quantities`                                       | columns and arrays of quantities       |
-//! | `audit`, `comparison`, `extremes`, `plan`, `trace` | a study each                           |
+//! | `audit`, `claims`, `conclusion`                    | the audit                              |
+//! | `comparison`, `extremes`, `plan`, `trace`          | a study each                           |
 //! | `answers`                                          | the marks of answers to exercises      |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
@@ -27,6 +28,7 @@ pub mod audit;
 pub mod changes;
 pub mod claims;
 pub mod comparison;
+pub mod conclusion;
 mod csv;
 pub mod edited;
 pub mod evaluation;

@@ -68,6 +68,12 @@ impl Report {
         texts.into_iter().fold(self, Report::note)
     }
 
+    /// Adds details, or the one detail that an option has.
+    #[must_use]
+    pub fn details(self, texts: impl IntoIterator<Item = impl Into<String>>) -> Self {
+        texts.into_iter().fold(self, Report::detail)
+    }
+
     /// Returns the report with lines that are shown as they are.
     #[must_use]
     pub fn code(self, lines: impl Into<String>) -> Self {

@@ -77,6 +77,10 @@ pub struct ResultFile {
     pub load: [f64; 2],
     /// The numbers, in the mesh file, of the nodes that belong to no triangle and were dropped.
     pub dropped: Vec<NodeId>,
+    /// Whether contact passes no load on at the end, beyond rounding, though there is a load: an audit
+    /// result; absent where it is not so.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub transmits_nothing: bool,
     /// The results of each iteration, in order.
     pub iterations: Vec<IterationRow>,
     /// The largest values of each body.
@@ -172,6 +176,7 @@ impl ResultFile {
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
+            transmits_nothing: solution.transmits_nothing(),
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::failure::Failed;
 use super::json::{Document, Found};
 use super::{
-    ResultFile, answers, audit, comparison, evaluation, extremes, plan, prices, snapshot, trace,
+    ResultFile, answers, audit, claims, comparison, evaluation, extremes, plan, prices, snapshot, trace,
     worksheet,
 };
 use problem::scene::Description;
@@ -60,6 +60,12 @@ pub const SCHEMAS: &[Named] = &[
         of: "audit --finding",
         commands: &[],
         make: printed::<Document<audit::FindingRow>>,
+    },
+    Named {
+        name: "claim",
+        of: "audit --claim",
+        commands: &[],
+        make: printed::<Document<claims::Document>>,
     },
     Named {
         name: "prices",

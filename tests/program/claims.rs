@@ -1,6 +1,6 @@
 //! The register of claims: every number is the one that its command prints.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use serde_json::Value;
@@ -12,7 +12,7 @@ use plane_contact::Request;
 use plane_contact::Scene;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::{CLAIMS, JudgedClaim, Scope, Verdict, judge};
+use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
 use plane_contact::studies::audit::range::{Range, range};
 use plane_contact::studies::trade::{Section, geometry};
 
@@ -39,39 +39,76 @@ pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
     let folder = TempDir::new().expect("a temporary folder");
-    let mut printed: BTreeMap<&[&str], Value> = BTreeMap::new();
-    for claim in CLAIMS {
-        let json = printed.entry(claim.command).or_insert_with(|| {
-            let output = run(folder.path(), claim.command);
+    let mut printed: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
+    for judged in &*JUDGED {
+        let (id, number) = (judged.claim.id, judged.measured.number);
+        let command: Vec<&str> = judged.command.iter().map(String::as_str).collect();
+        let json = printed.entry(command).or_insert_with_key(|command| {
+            let output = run(folder.path(), command);
             serde_json::from_slice(&output.stdout).expect("the command prints JSON")
         });
-        let at = |pointer: &&str| {
+        let at = |pointer: &String| {
             let value = json.pointer(pointer).and_then(Value::as_f64);
-            value.unwrap_or_else(|| panic!("{}: no number at {pointer}", claim.id))
+            value.unwrap_or_else(|| panic!("{id}: no number at {pointer}"))
         };
-        let values: Vec<f64> = claim.at.iter().map(at).collect();
-        let expected = values.iter().copied().reduce(|over, under| over / under);
-        let judged =
-            JUDGED.iter().find(|judged| judged.claim.id == claim.id).expect("it is judged");
-        let number = judged.measured.number;
-        assert_eq!(number.is_some(), expected.is_some(), "{}", claim.id);
+        let expected = judged.at.iter().map(at).reduce(|over, under| over / under);
+        assert_eq!(number.is_some(), expected.is_some(), "{id}");
         if let Some((number, expected)) = number.zip(expected) {
-            assert_near(claim.id, number, expected, expected, &CLAIM);
+            assert_near(id, number, expected, expected, &CLAIM);
         }
         // What `audit` itself prints of the claim is that number too.
-        let own =
-            json["claims"].as_array().and_then(|all| all.iter().find(|c| c["id"] == claim.id));
+        let own = json["claims"].as_array().and_then(|all| all.iter().find(|c| c["id"] == id));
         if let Some((own, expected)) = own.and_then(|own| own["number"].as_f64()).zip(expected) {
-            assert_near(claim.id, own, expected, expected, &CLAIM);
+            assert_near(id, own, expected, expected, &CLAIM);
         }
     }
 }
 
+/// P10 beside what `trade` measures of the same two tolerances.
 #[test]
-fn claims_stand_in_the_order_of_the_text_each_once() {
-    let ids: BTreeSet<&str> = CLAIMS.iter().map(|claim| claim.id).collect();
-    assert_eq!(ids.len(), CLAIMS.len());
-    assert!(CLAIMS.windows(2).all(|pair| pair[0].line <= pair[1].line));
+fn the_change_by_c_tol_is_that_of_trade() {
+    let folder = TempDir::new().expect("a temporary folder");
+    let args = ["trade", "strand", "--only", "c_tll", "--runs", "1", "--json"];
+    let json: Value = serde_json::from_slice(&run(folder.path(), &args).stdout).expect("JSON");
+    let rows = json["sections"][0]["rows"].as_array().expect("rows");
+    let row = rows.iter().find(|row| row["variant"] == "stepped" && row["setting"] == "1e-6");
+    let change = row.expect("a row")["change"]["displacement"].as_f64().expect("a number");
+    let number = JUDGED.iter().find(|judged| judged.claim.id == "P10").expect("it is judged");
+    assert_near("P10", number.measured.number.expect("a number"), change, change, &CLAIM);
+}
+
+/// A verdict on runs has the error of the mesh beside it.
+#[test]
+fn verdicts_on_runs_name_the_error_of_the_mesh() {
+    for judged in &*JUDGED {
+        assert_eq!(judged.mesh_error.is_some(), judged.claim.basis == Basis::Runs);
+    }
+}
+
+/// Under `stepped` a node that is not in contact ends inside the target.
+#[test]
+fn penetration_is_that_of_the_contact_surface() {
+    let json = {
+        let folder = TempDir::new().expect("a temporary folder");
+        let output = run(folder.path(), &["solve", "strand", "--variant", "stepped", "--json"]);
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+    };
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let nodes = json["contact"].as_array().expect("nodes");
+    let gap = nodes.iter().map(|node| number(&node["gap"])).fold(0.0, f64::min);
+    let bodies = json["bodies"].as_array().expect("bodies").iter();
+    let block = bodies.clone().find(|body| body["name"] == "block").expect("a body");
+    let expected = -gap / number(&block["max_displacement"]);
+    let judged = JUDGED.iter().find(|judged| judged.claim.id == "P1").expect("it is judged");
+    assert_near("P1", judged.measured.number.expect("a number"), expected, expected, &CLAIM);
+    assert_eq!(judged.measured.verdict, Verdict::False);
+}
+
+#[test]
+fn claims_are_numbered_in_the_order_of_the_text() {
+    let ids = CLAIMS.iter().zip(1..).map(|(claim, n)| (claim.id.to_string(), format!("P{n}")));
+    assert!(ids.clone().all(|(id, expected)| id == expected));
+    assert!(CLAIMS.iter().all(|claim| ![claim.quote, claim.translation].contains(&"")));
 }
 
 /// A verdict is said to hold over the range only where every place was tried and has the same.

@@ -610,6 +610,7 @@ fn audit_shows_readings_findings_and_variants() {
         assert!(c4.contains(words), "{words:?}: {c4}");
     }
     fails(folder.path(), &["audit", "--finding", "Z9"], 2, &["no finding", "C1, C2"]);
+    fails(folder.path(), &["audit", "--claim", "P99"], 2, &["no claim", "P1, P2"]);
 }
 
 /// A scene without contact has an audit and a trace of Km; c_cnt is not called.

@@ -19,6 +19,7 @@ mod common {
 mod cases;
 mod claims;
 mod cli;
+mod conclusion;
 mod drawing;
 mod edited;
 mod examples;

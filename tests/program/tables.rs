@@ -186,7 +186,7 @@ fn claims() {
         |verdict: &Verdict| JUDGED.iter().filter(|j| j.measured.verdict == *verdict).count();
     let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title = format!(
-        "What the paper claims, {} sentences: {}. The line is that of its text.",
+        "What the paper claims, {} sentences: {}.",
         JUDGED.len(),
         counts.collect::<Vec<_>>().join(", ")
     );

@@ -93,6 +93,7 @@ fn solve() {
 fn audit() {
     SCENES.iter().for_each(|scene| assert_text(scene, "audit", &["audit", scene]));
     assert_text("findings/C4", "audit", &["audit", "--finding", "C4"]);
+    assert_text("fig1", "claim", &["audit", "fig1", "--claim", "P12"]);
 }
 
 #[test]

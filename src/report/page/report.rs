@@ -18,6 +18,7 @@ use engine::{Assessment, Detail, Solution, Step, Stiffness, TriangleState, Trian
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 use studies::audit::Audit;
+use studies::audit::conclusion::Conclusion;
 use studies::calculix::{Comparison, Fields};
 
 /// The shades of a field.
@@ -29,8 +30,8 @@ pub struct Report<'a> {
     pub scene: &'a Scene,
     /// What was asked, in words: what, and what it was set to.
     pub what: Vec<(&'a str, String)>,
-    /// The audit, where it was asked for.
-    pub audit: Option<&'a Audit>,
+    /// The audit and its conclusion, where it was asked for.
+    pub audit: Option<(&'a Audit, &'a Conclusion)>,
     /// The runs of the variants.
     pub runs: Vec<Run<'a>>,
     /// The run beside CalculiX, and how the two were run, in words.
@@ -57,7 +58,7 @@ pub fn html(report: &Report) -> String {
     let own = json!({
         "scene": { "name": scene.name, "title": scene.title },
         "what": report.what,
-        "audit": report.audit.map(|audit| audit::Document::new(audit, scene)),
+        "audit": report.audit.map(|(audit, conclusion)| audit::Document::new(audit, conclusion, scene)),
         "mesh": mesh(&scene.model),
         "runs": runs.into_iter().chain(calculix_fields).collect::<Vec<_>>(),
         "own": own_run(report),

@@ -21,6 +21,10 @@ use problem::model::Model;
 use problem::modelling::Variant;
 use problem::scene::Units;
 
+/// What is said of a run in which contact passes no load on.
+const NOTHING_TRANSMITTED: &str =
+    "Nothing transmitted: no load reaches the target, an audit result";
+
 /// Reports a run: its iterations, its bodies and its contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
     let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
@@ -94,7 +98,11 @@ fn contact_set(solution: &Solution) -> Report {
     let is_printed = solution.request.is_as_printed();
     let (reading, shape) = (&solution.request.reading, &solution.last().shape);
     let hidden = is_printed.then(|| direction(&solution.model, reading, shape)).flatten();
-    Report::default().line(format!("In contact at the end: {nodes}")).notes(hidden)
+    let transmitted = solution.transmits_nothing().then_some(NOTHING_TRANSMITTED);
+    Report::default()
+        .line(format!("In contact at the end: {nodes}"))
+        .notes(transmitted)
+        .notes(hidden)
 }
 
 /// Says that no node is in contact because of the direction of the target's edges.

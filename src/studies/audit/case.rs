@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use base::error::InputError;
 use base::memory;
 use engine::error::Error;
+use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
 use engine::{Request, Session, Solution};
 use paper::door::Call;
@@ -149,6 +150,14 @@ impl Case {
         self.equilibrium.get_or_init(run).as_ref()
     }
 
+    /// The estimated error of the mesh itself in the equilibrium, in the energy norm, relative; nothing
+    /// where there is no equilibrium, and where a body has too few triangles for an estimate.
+    pub fn mesh_error(&self) -> Option<f64> {
+        let equilibrium = self.equilibrium()?;
+        let estimate = Discretisation::new(&equilibrium.model, &equilibrium.elements).relative();
+        Some(estimate).filter(|error| error.is_finite())
+    }
+
     /// The scene's variant where it is one of the paper's, else the first of those.
     pub fn published_variant(&self) -> Variant {
         let own = Some(self.scene.variant).filter(|v| Variant::OF_THE_PAPER.contains(v));
@@ -165,6 +174,6 @@ impl Case {
 }
 
 /// Returns where the run of a variant stands.
-fn variant_index(variant: Variant) -> usize {
+pub(super) fn variant_index(variant: Variant) -> usize {
     Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant")
 }

@@ -3,6 +3,7 @@
 mod assumptions;
 mod case;
 pub mod claims;
+pub mod conclusion;
 pub mod findings;
 pub mod prices;
 pub mod range;

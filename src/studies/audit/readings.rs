@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::case::Case;
 use engine::error::Error;
-use engine::{Detail, Solution, max_displacement, solve};
+use engine::{Detail, Request, Solution, distance, max_displacement, solve};
 use mathcad::array::Table;
 use mathcad::{Failure, Settings};
 use paper::door::{self, Call};
@@ -31,6 +31,12 @@ pub struct Effect {
     /// The largest difference at the end of what `of` names: of a node's displacement, length, or of a
     /// triangle's von Mises strain; nothing where no solution is asked for.
     pub displacement: Option<f64>,
+    /// The distance in the energy norm, relative, of the run under this reading from the equilibrium;
+    /// nothing where there is no equilibrium, and where the reading has no run of its own.
+    pub equilibrium_error: Option<f64>,
+    /// The variant that was run under this reading; nothing where none was.
+    #[serde(skip)]
+    pub variant: Option<Variant>,
     /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,
     /// Why the reading cannot be run on this scene.
@@ -95,6 +101,12 @@ impl Effect {
             statuses: None,
             entries: None,
             displacement: None,
+            equilibrium_error: None,
+            variant: match row.trial {
+                Trial::OwnVariant => Some(own),
+                Trial::Printed => Some(Variant::Printed),
+                Trial::EveryShape | Trial::Worksheet | Trial::Strains => None,
+            },
             of: match row.trial {
                 Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
                 Trial::Printed => format!("displacement under {}", Variant::Printed),
@@ -118,7 +130,9 @@ impl Effect {
     /// The mirror under the reading, beside the mirror under the default one.
     fn mirror<'a>(&mut self, case: &'a Case, reading: &Reading, variant: Variant) -> Outcome<'a> {
         self.compare(&initial(case, &Reading::default())?, &initial(case, reading)?);
-        let other = solve(&case.request(variant).reading(*reading), &mut |_| ())?;
+        let request = case.request(variant).reading(*reading);
+        let other = solve(&request, &mut |_| ())?;
+        self.equilibrium_error = equilibrium_error(case, &request, &other);
         let own = case.run(variant).map_err(|why| format!("under the default reading: {why}"))?;
         self.displacement = Some(largest_difference(own, &other));
         Ok(())
@@ -193,6 +207,16 @@ impl Effect {
             || self.entries.is_some_and(|n| n > 0)
             || self.displacement.is_some_and(|d| d > 0.0)
     }
+}
+
+/// The distance of a run from the equilibrium under its own plane problem, which R6 may change.
+fn equilibrium_error(case: &Case, request: &Request, run: &Solution) -> Option<f64> {
+    let own = case.equilibrium()?;
+    if run.model.plane == own.model.plane {
+        return Some(distance(run, own).energy_relative);
+    }
+    let other = solve(&request.equilibrium(), &mut |_| ()).ok()?;
+    Some(distance(run, &other).energy_relative)
 }
 
 /// Largest |u| between two displacement fields, length.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::case::Case;
 use engine::contact::pulling;
 use engine::estimates::Certainty;
-use engine::{BodySummary, Cycle, Distance, Solution, distance, summaries};
+use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
@@ -36,6 +36,8 @@ pub enum End {
         /// The force that contact passes on at the end over the size of the whole load; 0 without a
         /// load.
         target_share: f64,
+        /// Whether contact passes no load on at the end, beyond rounding, though there is a load.
+        transmits_nothing: bool,
         /// Residual of eq. (1) at the end, total displacements, length.
         eq1_residual: f64,
         /// Where the last contact state came before.
@@ -49,12 +51,43 @@ pub enum End {
         friction_needed: Option<f64>,
         /// The nodes in contact that the target pulls.
         pulling: Vec<NodeId>,
+        /// The deepest contact node at the end; nothing where none faces the target.
+        penetration: Option<Penetration>,
     },
     /// It has none.
     Failure {
         /// Why the run ended without a result.
         failure: String,
     },
+}
+
+/// How deep the deepest contact node is inside the target at the end of a run.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Penetration {
+    pub node: NodeId,
+    pub in_contact: bool,
+    /// Length; 0 where none is inside by more than rounding.
+    pub depth: f64,
+    /// The depth over the largest displacement of the target.
+    #[schemars(with = "Option<f64>")]
+    pub relative: f64,
+}
+
+impl Penetration {
+    /// Depths over the largest displacement that are rounding.
+    const ROUNDING: f64 = 1e-9;
+
+    /// Finds the deepest contact node; nothing where none faces the target.
+    pub fn of(solution: &Solution) -> Option<Self> {
+        let deepest = solution.contact.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
+        let target = &solution.model.target()?.name;
+        let target = summaries(solution).into_iter().find(|body| body.name == *target)?;
+        let is_rounding = -deepest.gap <= Self::ROUNDING * max_displacement(&solution.u);
+        let depth = if is_rounding { 0.0 } else { -deepest.gap };
+        let relative = over(depth, target.max_displacement);
+        let (node, in_contact) = (deepest.node, deepest.in_contact);
+        Some(Penetration { node, in_contact, depth, relative })
+    }
 }
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
@@ -81,11 +114,13 @@ fn end(case: &Case, solution: &Solution) -> End {
         in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
         contact_set: last.contact_set(model),
         target_share: if load == 0.0 { 0.0 } else { solution.target_force() / load },
+        transmits_nothing: solution.transmits_nothing(),
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
         distance: case.equilibrium().map(|other| distance(solution, other)),
         friction_needed: needed.reduce(f64::max),
         pulling: pulling(&solution.contact, solution.model.load.amax()),
+        penetration: Penetration::of(solution),
     }
 }

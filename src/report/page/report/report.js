@@ -22,17 +22,23 @@ function showWhat() {
 
 function showAudit() {
   const { audit } = data;
-  if (!audit) return ["assumptions", "claims", "variants", "readings", "findings"].forEach((id) => fill(id));
+  if (!audit) return ["conclusion", "assumptions", "claims", "variants", "readings", "findings"].forEach((id) => fill(id));
+  fill("conclusion", ...audit.answers.flatMap((a) => [
+    make("h3", {}, a.question), make("p", {}, a.answer),
+    make("p", { class: "muted" }, `${a.at ? `${short(a.value)} = ${a.of}; ` : ""}printed by: plane-contact ${a.command}${a.at ? `, at ${a.at}` : ""}`),
+  ]));
   fill("assumptions", audit.assumptions.length > 0 && tableOf("Assumptions", [["what the paper leaves open", (a) => a.what, "text"], ["set to", (a) => a.set_to, "text wide"]], audit.assumptions));
   fill("claims", tableOf("Claims", [
-    ["id", (c) => c.id], ["line", (c) => c.line], ["the paper says that", (c) => c.says, "text wide"],
+    ["id", (c) => c.id], ["the paper says that", (c) => c.says, "text wide"],
     ["verdict", (c) => c.verdict, "text verdict"], ["scope", (c) => c.scope, "text"], ["certainty", (c) => c.basis, "text"],
-    ["value", (c) => c.number], ["what the value is", (c) => c.of, "text wide"],
-    ["command", commandOf, "text wide"], ["JSON pointer", (c) => c.at.join(" over "), "text"], ["detail", (c) => c.detail, "text wide"],
+    ["value", (c) => c.number], ["what the value is", (c) => c.of, "text wide"], ["beside it", (c) => c.detail, "text wide"],
+    ["error of the mesh itself", (c) => c.mesh_error], ["true where", (c) => c.condition, "text wide"], ["threshold", (c) => c.threshold, "text wide"],
+    ["where in the paper", (c) => c.place, "text wide"], ["the paper's words", (c) => c.quote, "text wide"], ["in English", (c) => c.translation, "text wide"],
+    ["command", commandOf, "text wide"], ["JSON pointer", (c) => c.at.join(" over "), "text"],
   ], audit.claims));
   fill("readings", tableOf("Readings", [
     ["id", (r) => r.id], ["reading", (r) => r.reading, "text"], ["lines", (r) => r.lines, "text"],
-    ["dy changed", (r) => r.statuses], ["MJS entries changed", (r) => r.entries], ["largest difference", (r) => r.displacement],
+    ["dy changed", (r) => r.statuses], ["MJS entries changed", (r) => r.entries], ["largest difference", (r) => r.displacement], ["error in energy norm", (r) => r.equilibrium_error],
     ["of what", (r) => r.of, "text"], ["fails", (r) => first(r.failure), "text wide"],
   ], audit.readings));
   fill("findings", tableOf("Findings", [
@@ -51,8 +57,9 @@ function showAudit() {
 
 function stateOf(row) {
   if (row.failure) return null;
-  if (row.variant === "unilateral") return "in equilibrium";
-  return !row.cycle ? "new in the last iteration" : row.cycle.length === 1 ? "settled" : `cycle of ${row.cycle.length}`;
+  const state = row.variant === "unilateral" ? "in equilibrium"
+    : !row.cycle ? "new in the last iteration" : row.cycle.length === 1 ? "settled" : `cycle of ${row.cycle.length}`;
+  return row.transmits_nothing ? `${state}, nothing transmitted` : state;
 }
 
 /** Who sticks and slides under each coefficient of friction. */

@@ -2,35 +2,55 @@
 
 use super::{Basis, Claim, Measure, Verdict, measures};
 
+/// Where the thresholds of this audit come from.
+const HUNDREDTH: &str = "1 %, a change that shows in a picture: this audit's; the paper gives none";
+const COUNT: &str = "none: a single one decides";
+
 /// All claims: P1 to P13.
 pub const CLAIMS: &[Claim] = &[
     Claim {
         id: "P1",
-        line: 17,
-        quote: "Перемещения по нормали к поверхности контакта совпадают из условия непроникновения",
+        place: "statement of the problem, the sentence before eq. (1)",
+        quote: "Перемещения по нормали к поверхности контакта совпадают из условия непроникновения одного \
+                из контактирующих тел (далее домена) в другое [5,9]",
+        translation: "Displacements along the normal to the contact surface coincide, by the condition that \
+                      neither of the bodies in contact (below: domains) penetrates the other [5,9]",
         says: "displacements along the normal are equal, so that nothing penetrates",
-        basis: Basis::Listing,
-        number: "nodes kept in contact under tension at the end of stepped, on the finding's scene",
-        command: &["audit", "--finding", "K9", "--json"],
-        at: &["/number"],
-        measure: Measure::Finding("K9", Verdict::TrueOnlyIf, "no node in contact pulls"),
+        condition: "at the end of the scene's variant of the paper no contact node is inside the target, in \
+                    contact or not, and no node in contact pulls",
+        threshold: "of penetration 1 % of the target's largest displacement: this audit's; the paper gives \
+                    none; of a pull, more than rounding",
+        basis: Basis::Runs,
+        number: "largest penetration of a contact node at the end of the scene's variant of the paper, over \
+                 the largest displacement of the target",
+        command: &["audit", "SCENE", "--json"],
+        at: &["/variants/VARIANT/penetration/relative"],
+        measure: Measure::Scene(measures::penetrates),
     },
     Claim {
         id: "P2",
-        line: 19,
-        quote: "по касательной … из условия равновесия действия сил трения",
+        place: "statement of the problem, the sentence before eq. (1)",
+        quote: "по касательной к поверхности зоны контакта – из условия равновесия действия сил трения между \
+                контактирующими поверхностями",
+        translation: "along the tangent to the surface of the contact zone – by the condition of equilibrium \
+                      of the friction forces between the surfaces in contact",
         says: "equal displacements along the tangent are the equilibrium of friction",
+        condition: "under unilateral no node in contact needs more friction than there is",
+        threshold: "none: the value is the least coefficient of friction; the paper gives no coefficient",
         basis: Basis::Runs,
         number: "largest shear over pressure of a node in contact at the end of unilateral",
-        command: &["audit", "strand", "--json"],
+        command: &["audit", "SCENE", "--json"],
         at: &["/variants/3/friction_needed"],
         measure: Measure::Scene(measures::friction_needed),
     },
     Claim {
         id: "P3",
-        line: 21,
-        quote: "u_cont = u_targ; v_cont = v_targ, (1)",
+        place: "eq. (1)",
+        quote: "тогда для контактирующих поверхностей: u_cont = u_targ; v_cont = v_targ, (1)",
+        translation: "then, for the surfaces in contact: u_cont = u_targ; v_cont = v_targ, (1)",
         says: "displacements of linked nodes are equal in the system that is solved",
+        condition: "the matrix MJS of Km has entries that join the two bodies",
+        threshold: "none: without any the bodies are not coupled",
         basis: Basis::Listing,
         number: "entries of MJS that join the two bodies, on the finding's scene",
         command: &["audit", "--finding", "K1", "--json"],
@@ -39,9 +59,14 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P4",
-        line: 25,
-        quote: "на основе текущих координат узлов обоих доменов",
+        place: "paragraph on fig. 1",
+        quote: "Первоначально, для каждого узла штампа на основе текущих координат узлов обоих доменов \
+                производится поиск элемента, с которым он, предположительно, может взаимодействовать.",
+        translation: "First, for each node of the stamp, an element with which it presumably can interact is \
+                      searched for, on the basis of the current coordinates of the nodes of both domains.",
         says: "pairs and their interpolation come from current coordinates",
+        condition: "the weights of a node in contact are in [0, 1], as those of its current place are",
+        threshold: "none: current coordinates give no excess",
         basis: Basis::Listing,
         number: "largest excess of a weight of a node in contact beyond [0, 1], on the finding's scene",
         command: &["audit", "--finding", "C6", "--json"],
@@ -50,9 +75,18 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P5",
-        line: 27,
-        quote: "алгоритм покажет в качестве результата отсутствие контактного взаимодействия",
+        place: "paragraph on fig. 1, of its node 2.4",
+        quote: "Одним из вариантов взаимного расположения узлов может быть ситуация, когда переместившись, \
+                узел контактной поверхности штампа попадает в пространство во внутреннее пространство \
+                основной конструкции на расстояние, превышающее c_tol, т.е. описанный выше алгоритм покажет \
+                в качестве результата отсутствие контактного взаимодействия (см. рис.1 узел 2.4).",
+        translation: "One of the possible mutual positions of nodes is that a node of the contact surface of \
+                      the stamp, having moved, is inside the main structure by a distance above c_tol, i.e. \
+                      the algorithm described above will show as its result that there is no contact (see \
+                      fig. 1, node 2.4).",
         says: "a node deeper inside than c_tol is treated as separated",
+        condition: "c_cnt finds such a node no target edge",
+        threshold: COUNT,
         basis: Basis::Listing,
         number: "nodes inside the target, deeper than c_tll, without a target edge, on the finding's scene",
         command: &["audit", "--finding", "C9", "--json"],
@@ -61,21 +95,30 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P6",
-        line: 30,
-        quote: "сравнение знаков Yi соседних узлов",
+        place: "the second of the two solutions, before fig. 2",
+        quote: "В этом случае существует два решения: … сравнение знаков Yi соседних узлов",
+        translation: "In this case there are two solutions: … comparing the signs of Yi of neighbouring nodes",
         says: "comparing signs of neighbours finds the nodes that jumped deeper than c_tol",
+        condition: "in random scenes, after a jump to twice c_tll, the rule misses no node in contact, the \
+                    target below the stamp or above",
+        threshold: HUNDREDTH,
         basis: Basis::Random,
         number: "share of the nodes in contact that the rule misses, the target below, after a jump to \
                  twice c_tll",
-        command: &["audit", "--statuses", "--scenes", "20", "--json"],
+        command: &["audit", "--statuses", "--scenes", "50", "--json"],
         at: &["/by_depth/2/rules/0/missed", "/by_depth/2/touching"],
         measure: Measure::Scene(measures::signs_go_wrong),
     },
     Claim {
         id: "P7",
-        line: 30,
-        quote: "назначается фиксированное значение Yi",
+        place: "the second of the two solutions, before fig. 2",
+        quote: "в этом случае всем узлам контактирующей поверхности штампа, находящимся на расстоянии от \
+                ответной поверхности не превышающим c_tol, назначается фиксированное значение Yi.",
+        translation: "in this case all nodes of the contact surface of the stamp whose distance from the \
+                      opposite surface is not above c_tol are given a fixed value of Yi.",
         says: "nodes within c_tol are given a fixed Y before signs are compared",
+        condition: "no node apart is in contact because of a neighbour that is itself within c_tll",
+        threshold: COUNT,
         basis: Basis::Listing,
         number: "nodes apart by c_tll or more, flagged beside nodes that only touch, on the \
                  finding's scene",
@@ -85,20 +128,31 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P8",
-        line: 32,
-        quote: "Второй вариант представляется более предпочтительным с точки зрения объемов вычислений",
+        place: "after the two solutions, before fig. 2",
+        quote: "Второй вариант представляется более предпочтительным с точки зрения объемов вычислений.",
+        translation: "The second option appears preferable from the point of view of the volume of \
+                      computation.",
         says: "comparing signs takes fewer operations than intersecting elements",
+        condition: "in random scenes the sign rule takes fewer operations on lengths than the intersection",
+        threshold: "none: the quotient is above 1",
         basis: Basis::Random,
         number: "operations of the intersection over those of the sign rule, on the largest surfaces tried",
-        command: &["audit", "--statuses", "--scenes", "20", "--json"],
+        command: &["audit", "--statuses", "--scenes", "50", "--json"],
         at: &["/by_size/5/rules/1/operations", "/by_size/5/rules/0/operations"],
         measure: Measure::Scene(measures::fewer_operations),
     },
     Claim {
         id: "P9",
-        line: 34,
-        quote: "каждый узел любой из рассматриваемых поверхностей связан с двумя узлами ответной",
+        place: "paragraph before fig. 2",
+        quote: "Было принято, что исходя из соразмерности размеров КЭ контактирующих поверхностей обоих \
+                доменов, каждый узел любой из рассматриваемых поверхностей связан с двумя узлами ответной",
+        translation: "It was assumed that, as the elements of the contact surfaces of both domains are of \
+                      comparable size, every node of either surface is linked with two nodes of the opposite \
+                      one",
         says: "every node of either surface is linked with two nodes of the other",
+        condition: "no target node has two or more contact nodes tied to it: its row of k_cnt has room for \
+                    one",
+        threshold: COUNT,
         basis: Basis::Listing,
         number: "target nodes to which two or more contact nodes are tied, on the finding's scene",
         command: &["audit", "--finding", "C7", "--json"],
@@ -107,47 +161,67 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P10",
-        line: 34,
-        quote: "c_tol = 0,001 мала для внесения в результат расчета ощутимой погрешности",
+        place: "paragraph before fig. 2",
+        quote: "а так же, что величина значения c_tol = 0,001 мала для внесения в результат расчета ощутимой \
+                погрешности.",
+        translation: "and also that the value c_tol = 0.001 is too small to bring a noticeable error into the \
+                      result of the analysis.",
         says: "c_tol = 0.001 is small enough to bring no noticeable error",
+        condition: "with a thousandth of c_tol no node's displacement is noticeably another one",
+        threshold: HUNDREDTH,
         basis: Basis::Runs,
         number: "largest difference of a node's displacement between c_tol and a thousandth of it, over \
                  the largest displacement at c_tol",
-        command: &["trade", "strand", "--only", "c_tll", "--runs", "1", "--json"],
-        at: &["/sections/0/rows/6/change/displacement"],
+        command: &["audit", "SCENE", "--claim", "P10", "--json"],
+        at: &["/number"],
         measure: Measure::Scene(measures::tolerance),
     },
     Claim {
         id: "P11",
-        line: 142,
-        quote: "Расчет выполняется итерационно, состоит из 20 итераций",
+        place: "data of the example, between fig. 4 and fig. 5",
+        quote: "Расчет выполняется итерационно, состоит из 20 итераций.",
+        translation: "The analysis is iterative and consists of 20 iterations.",
         says: "20 iterations are enough under the whole load (tied)",
+        condition: "under tied the contact state has settled in the last iteration; that 20 are enough, and \
+                    the whole load in each, are this audit's reading: the paper says neither",
+        threshold: "none: the period is 1",
         basis: Basis::Runs,
         number: "final period of the contact state under tied, iterations; 1 = settled, 0 = none yet",
-        command: &["audit", "strand", "--json"],
+        command: &["audit", "SCENE", "--json"],
         at: &["/variants/1/cycle/length"],
         measure: Measure::Scene(measures::settles),
     },
     Claim {
         id: "P12",
-        line: 144,
-        quote: "Данные результаты совпадают с аналогичным численным экспериментом",
+        place: "the sentence before fig. 5",
+        quote: "Данные результаты совпадают с аналогичным численным экспериментом, проведенном в программном \
+                комплексе Autodesk Simulation Mechanical 2013.",
+        translation: "These results coincide with those of a similar numerical experiment, carried out in \
+                      the software Autodesk Simulation Mechanical 2013.",
         says: "the results are those of the contact problem, within a hundredth",
+        condition: "a variant of the paper reaches the equilibrium under the scene's own friction on the \
+                    same mesh: what another code solves correctly, for that code itself is P13",
+        threshold: HUNDREDTH,
         basis: Basis::Runs,
         number: "distance of the nearest variant of the paper from the equilibrium under the scene's own \
                  friction, in the energy norm, over that of the equilibrium",
-        command: &["audit", "strand", "--json"],
-        at: &["/variants/0/distance/energy_relative"],
+        command: &["audit", "SCENE", "--json"],
+        at: &["/variants/VARIANT/distance/energy_relative"],
         measure: Measure::Scene(measures::error_of_the_reading),
     },
     Claim {
         id: "P13",
-        line: 144,
-        quote: "в программном комплексе Autodesk Simulation Mechanical 2013",
+        place: "the sentence before fig. 5",
+        quote: "Данные результаты совпадают с аналогичным численным экспериментом, проведенном в программном \
+                комплексе Autodesk Simulation Mechanical 2013.",
+        translation: "These results coincide with those of a similar numerical experiment, carried out in \
+                      the software Autodesk Simulation Mechanical 2013.",
         says: "the results are those of that program",
+        condition: "that program, with its contact settings, gives the same results",
+        threshold: "none: nothing to compare with",
         basis: Basis::Nothing,
         number: "none",
-        command: &["audit", "strand", "--json"],
+        command: &["audit", "SCENE", "--json"],
         at: &[],
         measure: Measure::Nothing(
             "neither the code, its version's contact settings, the mesh nor the radii are given",

@@ -1,0 +1,275 @@
+//! The conclusion of an audit in words: five answers, each with its number and the command that prints
+//! it.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::layout::{counted, listed};
+use super::model::Report;
+use super::numbers::{coordinates, percent, short, with_unit};
+use engine::BodySummary;
+use engine::estimates::BodyEstimates;
+use problem::scene::Scene;
+use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Price, Spread, Weight};
+
+/// A relative difference that shows in a picture: one part in a hundred.
+const NOTICEABLE: f64 = 0.01;
+
+/// An answer of the conclusion.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Answer {
+    pub question: &'static str,
+    pub answer: String,
+    /// The number that the answer turns on; nothing where there is none.
+    pub value: Option<f64>,
+    /// What the value is.
+    pub of: &'static str,
+    /// The command that prints it.
+    pub command: String,
+    /// Where it stands there: a JSON pointer; nothing where there is no value.
+    pub at: Option<String>,
+}
+
+/// Answers the five questions.
+pub fn answers(conclusion: &Conclusion, scene: &Scene) -> [Answer; 5] {
+    [
+        coupled(conclusion.coupled.as_ref(), scene),
+        nearest(conclusion, scene),
+        fields(conclusion.fields.as_ref(), scene),
+        prices(&conclusion.prices, scene),
+        open(conclusion, scene),
+    ]
+}
+
+/// Reports the answers.
+pub fn report(answers: &[Answer]) -> Report {
+    answers.iter().fold(Report::default().heading("Conclusion"), |report, answer| {
+        let Answer { value, of, command, at, .. } = answer;
+        let number = match (value, at) {
+            (Some(value), Some(at)) => {
+                format!("{} = {of}; printed by: plane-contact {command}, at {at}", short(*value))
+            }
+            _ => format!("printed by: plane-contact {command}"),
+        };
+        report.note(answer.question).detail(&answer.answer).detail(number)
+    })
+}
+
+fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
+    let answer = match coupled {
+        None => "The scene has no contact: there is nothing to couple.".into(),
+        Some(Coupled { joins, share, failure }) => {
+            let entries = match joins {
+                None => "Not decided here: no node comes in contact".to_string(),
+                Some(0) => "No: Km adds no entry that joins the two bodies (finding K1)".into(),
+                Some(n) => format!("Yes: {n} entries of MJS join the two bodies"),
+            };
+            match (share, failure) {
+                (Some(share), _) => {
+                    let share = percent(*share, 1);
+                    format!("{entries}, and under printed {share} of the load reaches the target.")
+                }
+                (None, Some(why)) => format!("{entries}; printed stops: {}.", first_line(why)),
+                (None, None) => format!("{entries}."),
+            }
+        }
+    };
+    let joins = coupled.and_then(|coupled| coupled.joins);
+    Answer {
+        question: "Does the printed algorithm couple the bodies?",
+        answer,
+        value: joins.map(|joins| joins as f64),
+        of: "entries of MJS that join the two bodies",
+        command: format!("audit {} --finding K1 --json", scene.name),
+        at: joins.map(|_| "/number".into()),
+    }
+}
+
+fn first_line(text: &str) -> &str {
+    text.lines().next().unwrap_or_default().trim_end_matches('.')
+}
+
+fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
+    let nearest = conclusion.nearest.as_ref();
+    let answer = match nearest {
+        None if conclusion.coupled.is_none() => "The scene has no contact to be read.".into(),
+        None => {
+            "Not decided here: there is no equilibrium to compare with, or no variant runs.".into()
+        }
+        Some(Nearest { variant, reading, energy, runs, failed, .. }) => {
+            let reading = match reading {
+                None => "the default reading".to_string(),
+                Some(reading) => format!("the reading {reading}"),
+            };
+            let word = if *energy < NOTICEABLE { "Yes, within 1 %" } else { "No" };
+            let stops = match failed {
+                0 => String::new(),
+                n => format!(", {n} of which stop"),
+            };
+            format!(
+                "{word}: of {} (variants, and other readings of R1 to R10 that have a run){stops}, the \
+                 nearest is {variant} under {reading}, {} from the equilibrium in the energy norm on the \
+                 same mesh.",
+                counted(*runs, "run", "runs"),
+                percent(*energy, 1),
+            )
+        }
+    };
+    Answer {
+        question: "Does any reading of it reach the equilibrium?",
+        answer,
+        value: nearest.map(|nearest| nearest.energy),
+        of: "distance from the equilibrium under the scene's own friction, in the energy norm, relative",
+        command: format!("audit {} --json", scene.name),
+        at: nearest.map(|nearest| nearest.at.clone()),
+    }
+}
+
+fn fields(fields: Option<&Fields>, scene: &Scene) -> Answer {
+    let answer = match fields {
+        None => "Not decided here: there is no contact, or no equilibrium to compare with.".into(),
+        Some(fields) => {
+            let own = in_its_place(fields, scene);
+            match (fields.variant, fields.difference) {
+                (Some(variant), Some(difference)) => {
+                    let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
+                    format!(
+                        "{word}: under {variant}, the nearest variant, the largest von Mises stress is {} \
+                         and the largest von Mises strain {}, up to {} from the equilibrium on the same \
+                         mesh. {own}",
+                        largest_stress(&fields.theirs, scene),
+                        listed(fields.theirs.iter().map(strain)),
+                        percent(difference, 1)
+                    )
+                }
+                _ => format!("No: no variant of the paper runs. {own}"),
+            }
+        }
+    };
+    let difference = fields.and_then(|fields| fields.difference);
+    Answer {
+        question: "May fields such as figure 5's, von Mises stress and strain, be trusted?",
+        answer,
+        value: difference,
+        of: "largest relative difference of a body's largest von Mises stress or strain between the \
+             nearest variant and the equilibrium",
+        command: format!("audit {} --json", scene.name),
+        at: difference.map(|_| "/conclusion/fields/difference".into()),
+    }
+}
+
+/// Says what this project's own figure 5 shows.
+fn in_its_place(fields: &Fields, scene: &Scene) -> String {
+    let errors = fields.own.iter().zip(&fields.errors.bodies);
+    let stresses = errors.map(|(body, error)| {
+        let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
+        let at = with_unit(&coordinates(body.centre, 2), &scene.units.length);
+        format!("{} {stress} at {at} ({})", body.name, error_of_mesh(error, scene))
+    });
+    format!(
+        "In its place, this project's own figure 5 is the equilibrium (solve {} --variant unilateral \
+         --coupling mortar): largest von Mises stress {}; largest von Mises strain {}.",
+        scene.name,
+        listed(stresses),
+        listed(fields.own.iter().map(strain))
+    )
+}
+
+fn error_of_mesh(error: &BodyEstimates, scene: &Scene) -> String {
+    match (&error.no_limit, error.mesh) {
+        (Some(point), _) if point.is_largest => {
+            format!("it diverges under refinement, at node {}", point.node)
+        }
+        (_, Some(mesh)) => {
+            format!("error of the mesh about {}", with_unit(&short(mesh), &scene.units.stress))
+        }
+        (_, None) => "error of the mesh unknown".into(),
+    }
+}
+
+fn largest_stress(bodies: &[BodySummary], scene: &Scene) -> String {
+    listed(bodies.iter().map(|body| {
+        let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
+        format!("{} {stress}", body.name)
+    }))
+}
+
+fn strain(body: &BodySummary) -> String {
+    format!("{} {}", body.name, short(body.max_von_mises_strain))
+}
+
+fn prices(prices: &[Price], scene: &Scene) -> Answer {
+    let of_weight = |weight: Weight| prices.iter().filter(move |price| price.weight == weight);
+    let ids = |weight: Weight| match of_weight(weight).count() {
+        0 => "none".to_string(),
+        _ => listed(of_weight(weight).map(|price| price.id)),
+    };
+    let shift = |price: &Price| {
+        let under = price.variant.map_or(String::new(), |variant| format!(" under {variant}"));
+        Some(format!("{} by {}{under}", price.id, percent(price.change?, 2)))
+    };
+    let shifts = match of_weight(Weight::Shifts).count() {
+        0 => "none".into(),
+        _ => listed(of_weight(Weight::Shifts).filter_map(shift)),
+    };
+    let largest = prices.iter().enumerate().filter(|(_, price)| price.weight == Weight::Shifts);
+    let largest = largest.filter_map(|(k, price)| Some((k, price.change?)));
+    let largest = largest.max_by(|a, b| a.1.total_cmp(&b.1));
+    Answer {
+        question: "Which findings matter here?",
+        answer: format!(
+            "Fatal (no load passes until Km is repaired of them): {}. Displacements change once the \
+             listing is repaired of it: {shifts}. Harmless here (not triggered, or no displacement \
+             changes): {}. Present, but measured by no repair of a listing: {}.",
+            ids(Weight::Fatal),
+            ids(Weight::Harmless),
+            ids(Weight::Unmeasured)
+        ),
+        value: largest.map(|(_, change)| change),
+        of: "largest difference of a displacement between a listing repaired of one finding and as \
+             printed, over the largest displacement as printed",
+        command: format!("audit {} --json", scene.name),
+        at: largest.map(|(k, _)| format!("/conclusion/prices/{k}/change")),
+    }
+}
+
+fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
+    let Conclusion { open, range, .. } = conclusion;
+    let given = match open.len() {
+        0 => "The scene has no contact that could stand for the paper's.".to_string(),
+        n => format!("{n} things: {}.", listed(open)),
+    };
+    let moved = match range {
+        None => {
+            "How far that could move the verdict was not tried here: audit --range tries it on the \
+                 paper's example."
+                .to_string()
+        }
+        Some(Spread { places, error: [least, most], changes }) => {
+            let verdicts = match changes.len() {
+                0 => "no verdict changes".to_string(),
+                _ => format!("the verdicts that change are those on {}", listed(changes)),
+            };
+            format!(
+                "At {places} places of the range the nearest variant is {} to {} from the equilibrium; \
+                 {verdicts}.",
+                percent(*least, 1),
+                percent(*most, 1)
+            )
+        }
+    };
+    let most = range.as_ref().map(|range| range.error[1]);
+    let command = match range {
+        None => format!("audit {} --json", scene.name),
+        Some(_) => "audit --range --json".into(),
+    };
+    Answer {
+        question: "What does the paper not give, and how far could that move the verdict?",
+        answer: format!("{given} {moved}"),
+        value: most,
+        of: "largest distance of the nearest variant from the equilibrium over the range, in the energy \
+             norm, relative",
+        command,
+        at: most.map(|_| "/conclusion/range/error/1".into()),
+    }
+}

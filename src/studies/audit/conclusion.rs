@@ -1,0 +1,282 @@
+//! The conclusion of an audit: five questions about the printed algorithm on a scene, and the facts
+//! that answer them. The sentences are made of these in the report.
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
+use super::findings::{Evidence, Finding, Repair, Verdict};
+use super::variants::{End, VariantRow};
+use super::{Assumption, Audit, Case};
+use base::choices;
+use engine::error::Result;
+use engine::estimates::{ErrorEstimates, Estimates};
+use engine::{BodySummary, distance, over, summaries};
+use numbers::solve::Solver;
+use paper::edited::Edited;
+use paper::listings::{self, Which};
+use paper::mirror::Reading;
+use problem::modelling::Variant;
+
+/// What an audit concludes; of a scene without contact nothing but the prices.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Conclusion {
+    /// Whether the printed algorithm couples the bodies.
+    pub coupled: Option<Coupled>,
+    /// The run of the paper's algorithm that comes nearest to the equilibrium; nothing where there is no
+    /// equilibrium, or no run ended.
+    pub nearest: Option<Nearest>,
+    /// The fields of figure 5; nothing where there is no equilibrium.
+    pub fields: Option<Fields>,
+    /// What each finding costs here, in the order of the register.
+    pub prices: Vec<Price>,
+    /// What the paper leaves open.
+    pub open: Vec<&'static str>,
+    /// How far that moves the verdicts; nothing where it was not tried.
+    pub range: Option<Spread>,
+}
+
+/// Whether Km joins the bodies, and what passes between them.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Coupled {
+    /// Entries of MJS that join two bodies; nothing where no node comes in contact.
+    pub joins: Option<usize>,
+    /// The force that contact passes on at the end of `printed` over the load; nothing where it stops.
+    pub share: Option<f64>,
+    /// Why `printed` stops.
+    pub failure: Option<String>,
+}
+
+/// A run under a reading, and its distance from the equilibrium.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Nearest {
+    pub variant: Variant,
+    /// The value of a reading that is not the default; nothing where all are.
+    pub reading: Option<String>,
+    /// Where the distance stands in the audit's JSON.
+    pub at: String,
+    /// The distance from the equilibrium in the energy norm, relative.
+    pub energy: f64,
+    /// The runs that were tried: every variant, and every other reading that has a run of its own.
+    pub runs: usize,
+    /// Of those, the ones that ended without a result.
+    pub failed: usize,
+}
+
+/// The largest von Mises stress and strain of each body, under the nearest variant and in equilibrium.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Fields {
+    /// The nearest of the paper's variants; nothing where none ran.
+    pub variant: Option<Variant>,
+    /// The largest relative difference of a body's largest von Mises stress or strain between the two.
+    pub difference: Option<f64>,
+    /// The bodies under that variant.
+    pub theirs: Vec<BodySummary>,
+    /// The bodies in equilibrium.
+    pub own: Vec<BodySummary>,
+    /// How far the numbers of the equilibrium may be from the truth.
+    pub errors: ErrorEstimates,
+}
+
+choices! {
+    /// What a finding does to the results on a scene.
+    Weight {
+        /// Nothing: it is not triggered, or its repair changes no displacement.
+        Harmless = "harmless",
+        /// Its repair changes displacements.
+        Shifts = "shifts",
+        /// As it stands no load passes; with its repair, load does.
+        Fatal = "fatal",
+        /// It is present, and no repair of a listing measures what it does.
+        Unmeasured = "unmeasured",
+    }
+}
+
+/// What a finding costs on a scene.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Price {
+    pub id: &'static str,
+    pub weight: Weight,
+    /// The variant that was run with the listing repaired: the scene's own one of the paper where that
+    /// is `c_cnt`, `printed` where that is `Km`.
+    pub variant: Option<Variant>,
+    /// The largest difference of a displacement between the listing repaired and as printed, over the
+    /// largest displacement as printed.
+    pub change: Option<f64>,
+    /// Why that is not known.
+    pub reason: Option<String>,
+}
+
+/// The error of the paper's algorithm over the range of what the paper leaves open.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Spread {
+    pub places: usize,
+    /// The least and the largest number of claim P12.
+    pub error: [f64; 2],
+    /// The claims whose verdict is another one somewhere in the range.
+    pub changes: Vec<&'static str>,
+}
+
+impl Conclusion {
+    /// Draws the conclusion of what was found on a case.
+    pub fn new(case: &Case, audit: &Audit) -> Self {
+        let nearest_row = nearest_variant(&audit.variants);
+        Conclusion {
+            coupled: case.model().target().map(|_| coupled(audit)),
+            nearest: nearest(audit),
+            fields: fields(
+                case,
+                nearest_row.and_then(|(variant, _)| bodies(&audit.variants, variant)),
+            ),
+            prices: audit.findings.par_iter().map(|(f, m)| price(case, f, m)).collect(),
+            open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
+            range: spread(&audit.claims),
+        }
+    }
+}
+
+fn coupled(audit: &Audit) -> Coupled {
+    let k1 = audit.findings.iter().find(|(finding, _)| finding.id == "K1");
+    let joins = k1.filter(|(_, measured)| measured.verdict != Verdict::NotTriggered);
+    let printed = audit.variants.iter().find(|row| row.variant == Variant::Printed);
+    let (share, failure) = match printed.map(|row| &row.end) {
+        Some(End::Result { target_share, .. }) => (Some(*target_share), None),
+        Some(End::Failure { failure }) => (None, Some(failure.clone())),
+        None => (None, None),
+    };
+    Coupled { joins: joins.map(|(_, measured)| measured.number as usize), share, failure }
+}
+
+/// Returns the variant of the paper that is nearest to the equilibrium, and its distance.
+fn nearest_variant(rows: &[VariantRow]) -> Option<(Variant, f64)> {
+    let errors = rows.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant));
+    let errors = errors.filter_map(|row| match &row.end {
+        End::Result { distance, .. } => Some((row.variant, distance.as_ref()?.energy_relative)),
+        End::Failure { .. } => None,
+    });
+    errors.filter(|(_, error)| error.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+fn bodies(rows: &[VariantRow], variant: Variant) -> Option<(Variant, &[BodySummary])> {
+    let row = rows.iter().find(|row| row.variant == variant)?;
+    match &row.end {
+        End::Result { bodies, .. } => Some((variant, bodies)),
+        End::Failure { .. } => None,
+    }
+}
+
+/// Finds the nearest of all variants and readings.
+fn nearest(audit: &Audit) -> Option<Nearest> {
+    let (variant, energy) = nearest_variant(&audit.variants)?;
+    let place = audit.variants.iter().position(|row| row.variant == variant)?;
+    let variants = audit.variants.iter().filter(|r| Variant::OF_THE_PAPER.contains(&r.variant));
+    let failed_variants =
+        variants.clone().filter(|row| matches!(row.end, End::Failure { .. })).count();
+    let readings = audit.readings.iter().enumerate().filter(|(_, e)| e.variant.is_some());
+    let failed = failed_variants + readings.clone().filter(|(_, e)| e.failure.is_some()).count();
+    let runs = variants.count() + readings.clone().count();
+    let default = Nearest {
+        variant,
+        reading: None,
+        at: format!("/variants/{place}/distance/energy_relative"),
+        energy,
+        runs,
+        failed,
+    };
+    let others = readings.filter_map(|(k, effect)| {
+        Some(Nearest {
+            variant: effect.variant?,
+            reading: Some(effect.reading.clone()),
+            at: format!("/readings/{k}/equilibrium_error"),
+            energy: effect.equilibrium_error?,
+            runs,
+            failed,
+        })
+    });
+    // Of those that are equally near the default reading.
+    Some(others.fold(default, |best, other| if other.energy < best.energy { other } else { best }))
+}
+
+fn fields(case: &Case, nearest: Option<(Variant, &[BodySummary])>) -> Option<Fields> {
+    let equilibrium = case.equilibrium()?;
+    let own = summaries(equilibrium);
+    let theirs = nearest.map_or(&[][..], |(_, bodies)| bodies);
+    let differences = theirs.iter().zip(&own).flat_map(|(theirs, own)| {
+        [
+            over(theirs.max_von_mises_stress - own.max_von_mises_stress, own.max_von_mises_stress),
+            over(theirs.max_von_mises_strain - own.max_von_mises_strain, own.max_von_mises_strain),
+        ]
+    });
+    Some(Fields {
+        variant: nearest.map(|(variant, _)| variant),
+        difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
+        theirs: theirs.to_vec(),
+        errors: Estimates::new(equilibrium, case.session()).errors,
+        own,
+    })
+}
+
+/// Runs the listing with the repair of a finding that is present.
+fn price(case: &Case, finding: &Finding, measured: &Evidence) -> Price {
+    let id = finding.id;
+    match (measured.verdict, finding.edit) {
+        (Verdict::NotTriggered | Verdict::Contradicted, _) => {
+            Price { id, weight: Weight::Harmless, variant: None, change: None, reason: None }
+        }
+        (Verdict::Present, Repair::None { reason }) => unmeasured(id, reason.into()),
+        (Verdict::Present, Repair::Edit { text }) => {
+            repaired(case, id, text).unwrap_or_else(|why| unmeasured(id, why.to_string()))
+        }
+    }
+}
+
+fn unmeasured(id: &'static str, reason: String) -> Price {
+    let weight = Weight::Unmeasured;
+    Price { id, weight, variant: None, change: None, reason: Some(reason) }
+}
+
+fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Price> {
+    let which = Which::of(edit).expect("an edit names its listing");
+    let variant = match which {
+        Which::CCnt => case.published_variant(),
+        Which::Km => Variant::Printed,
+    };
+    let mut request = case.request(variant);
+    let listing = listings::edited(&which.under(&Reading::default()), edit);
+    request.edited.push(Edited::new(id, &listing.to_string())?);
+    if which == Which::Km {
+        // Its matrix need not be symmetric.
+        request.arithmetic.solver.get_or_insert(Solver::SparseLu);
+    }
+    let other = case.session().solve(&request, &mut |_| ())?;
+    let printed = match case.run(variant) {
+        Ok(printed) => printed,
+        Err(why) => return Ok(unmeasured(id, format!("as printed: {why}"))),
+    };
+    let change = distance(&other, printed).displacement_relative;
+    let passes = printed.target_force() == 0.0 && other.target_force() != 0.0;
+    let weight = match change {
+        _ if passes => Weight::Fatal,
+        0.0 => Weight::Harmless,
+        _ => Weight::Shifts,
+    };
+    Ok(Price { id, weight, variant: Some(variant), change: Some(change), reason: None })
+}
+
+/// Returns how far the range moves the verdicts; nothing where it was not tried.
+fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
+    let tried = || claims.iter().filter(|judged| !judged.elsewhere.is_empty());
+    let p12 = tried().find(|judged| judged.claim.id == "P12")?;
+    let numbers = || p12.elsewhere.iter().filter_map(|other| other.measured.number);
+    let verdicts = |judged: &&JudgedClaim| {
+        let verdicts = judged.elsewhere.iter().map(|other| other.measured.verdict);
+        let first: Option<ClaimVerdict> = verdicts.clone().next();
+        verdicts.into_iter().any(|verdict| Some(verdict) != first)
+    };
+    Some(Spread {
+        places: p12.elsewhere.len(),
+        error: [numbers().reduce(f64::min)?, numbers().reduce(f64::max)?],
+        changes: tried().filter(verdicts).map(|judged| judged.claim.id).collect(),
+    })
+}
