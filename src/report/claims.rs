@@ -28,7 +28,7 @@ pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
     let report = Report::default().table("Claims of the paper, and what they assume", judged);
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
         report.note(
-            "Evidence on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
+            "Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
              the stamp and units of c_tol.",
         )
     } else {
@@ -84,7 +84,7 @@ fn entry(judged: &JudgedClaim) -> Report {
         .detail(format!("in English: \"{translation}\""))
         .detail(format!("true where: {condition}"))
         .detail(format!("threshold: {threshold}"))
-        .detail(format!("verdict: {}, {basis}; scope: {}", judged.measured.verdict, judged.scope))
+        .detail(format!("verdict: {}, {basis}; scope: {}", judged.measured.words(), judged.scope))
         .detail(format!("value: {value} = {number}"))
         .detail(format!("beside it: {}", judged.measured.detail))
         .details(judged.mesh_error.map(error_of_the_mesh))
@@ -94,9 +94,9 @@ fn entry(judged: &JudgedClaim) -> Report {
 /// Says what the mesh's own error leaves of a verdict that rests on runs.
 fn error_of_the_mesh(error: f64) -> String {
     format!(
-        "error of the mesh itself: about {} in the energy norm. Both sides are computed on this mesh, so \
-         that their difference is the algorithm's; how far either is from the exact solution the verdict \
-         does not say",
+        "error of the mesh itself: about {} in the energy norm. The verdict holds all the same, since all \
+         runs are on this mesh and share that error; it does not say how far they are from the exact \
+         solution",
         percent(error, 1)
     )
 }

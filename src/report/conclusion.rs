@@ -164,7 +164,7 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     let stresses = errors.map(|(body, error)| {
         let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
         let at = with_unit(&coordinates(body.centre, 2), &scene.units.length);
-        format!("{} {stress} at {at} ({})", body.name, error_of_mesh(error, scene))
+        format!("{stress} in body {} at {at} ({})", body.name, error_of_mesh(error, scene))
     });
     format!(
         "In its place, this project's own figure 5 is the equilibrium (solve {} --variant unilateral \
@@ -190,12 +190,12 @@ fn error_of_mesh(error: &BodyEstimates, scene: &Scene) -> String {
 fn largest_stress(bodies: &[BodySummary], scene: &Scene) -> String {
     listed(bodies.iter().map(|body| {
         let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
-        format!("{} {stress}", body.name)
+        format!("{stress} in body {}", body.name)
     }))
 }
 
 fn strain(body: &BodySummary) -> String {
-    format!("{} {}", body.name, short(body.max_von_mises_strain))
+    format!("{} in body {}", short(body.max_von_mises_strain), body.name)
 }
 
 fn prices(prices: &[Price], scene: &Scene) -> Answer {

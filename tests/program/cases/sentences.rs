@@ -158,7 +158,7 @@ const CASES: &[Case] = &[
         input: "",
         command: "COLUMNS=40 plane-contact audit fig1",
         status: 0,
-        contains: &["/rows/6/change/\n"],
-        lacks: &["/sections/0/rows/6/change/displacement"],
+        contains: &["/variants/0/penetration/relative\n"],
+        lacks: &["panicked"],
     },
 ];

@@ -91,6 +91,7 @@ async function tables(browser) {
   for (const [title, list] of [["Claims", audit.claims], ["Readings", audit.readings], ["Findings", audit.findings], ["Variants", audit.variants]]) {
     assert.equal(await rows(page, title), list.length, title);
   }
+  assert.deepEqual(await page.locator("#conclusion h3").allTextContents(), audit.answers.map(({ question }) => question));
   await page.click('button[aria-label="copy as CSV: Findings"]');
   const csv = await page.evaluate(() => navigator.clipboard.readText());
   const lines = csv.trimEnd().split("\r\n");
