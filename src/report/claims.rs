@@ -47,6 +47,7 @@ pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
 /// One claim on a scene.
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
+    /// The claim and its verdict.
     #[serde(flatten)]
     pub judged: &'a JudgedClaim,
     /// The verdict under each other reading that may change a run; empty where it does not rest on runs.

@@ -10,7 +10,7 @@ use super::numbers::{coordinates, percent, short, with_unit};
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
 use problem::scene::Scene;
-use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Price, Spread, Weight};
+use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Repaired, Spread, Weight};
 
 /// A relative difference that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -18,7 +18,9 @@ const NOTICEABLE: f64 = 0.01;
 /// An answer of the conclusion.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Answer {
+    /// One of the five questions.
     pub question: &'static str,
+    /// The answer, in sentences.
     pub answer: String,
     /// The number that the answer turns on; nothing where there is none.
     pub value: Option<f64>,
@@ -36,7 +38,7 @@ pub fn answers(conclusion: &Conclusion, scene: &Scene) -> [Answer; 5] {
         coupled(conclusion.coupled.as_ref(), scene),
         nearest(conclusion, scene),
         fields(conclusion.fields.as_ref(), scene),
-        prices(&conclusion.prices, scene),
+        repairs(&conclusion.repairs, scene),
         open(conclusion, scene),
     ]
 }
@@ -198,38 +200,42 @@ fn strain(body: &BodySummary) -> String {
     format!("{} in body {}", short(body.max_von_mises_strain), body.name)
 }
 
-fn prices(prices: &[Price], scene: &Scene) -> Answer {
-    let of_weight = |weight: Weight| prices.iter().filter(move |price| price.weight == weight);
+fn repairs(repairs: &[Repaired], scene: &Scene) -> Answer {
+    let of_weight =
+        |weight: Weight| repairs.iter().filter(move |repaired| repaired.weight == weight);
     let ids = |weight: Weight| match of_weight(weight).count() {
         0 => "none".to_string(),
-        _ => listed(of_weight(weight).map(|price| price.id)),
+        _ => listed(of_weight(weight).map(|repaired| repaired.id)),
     };
-    let shift = |price: &Price| {
-        let under = price.variant.map_or(String::new(), |variant| format!(" under {variant}"));
-        Some(format!("{} by {}{under}", price.id, percent(price.change?, 2)))
+    let shift = |repaired: &Repaired| {
+        let under = repaired.variant.map_or(String::new(), |variant| format!(" under {variant}"));
+        Some(format!("{} by {}{under}", repaired.id, percent(repaired.change?, 2)))
     };
     let shifts = match of_weight(Weight::Shifts).count() {
         0 => "none".into(),
         _ => listed(of_weight(Weight::Shifts).filter_map(shift)),
     };
-    let largest = prices.iter().enumerate().filter(|(_, price)| price.weight == Weight::Shifts);
-    let largest = largest.filter_map(|(k, price)| Some((k, price.change?)));
+    let largest =
+        repairs.iter().enumerate().filter(|(_, repaired)| repaired.weight == Weight::Shifts);
+    let largest = largest.filter_map(|(k, repaired)| Some((k, repaired.change?)));
     let largest = largest.max_by(|a, b| a.1.total_cmp(&b.1));
     Answer {
         question: "Which findings matter here?",
         answer: format!(
             "Fatal (no load passes until Km is repaired of them): {}. Displacements change once the \
              listing is repaired of it: {shifts}. Harmless here (not triggered, or no displacement \
-             changes): {}. Present, but measured by no repair of a listing: {}.",
+             changes): {}. Present, but measured by no repair of a listing: {}. \
+             audit {} --prices puts each fault back into the corrected algorithm.",
             ids(Weight::Fatal),
             ids(Weight::Harmless),
-            ids(Weight::Unmeasured)
+            ids(Weight::Unmeasured),
+            scene.name
         ),
         value: largest.map(|(_, change)| change),
         of: "largest difference of a displacement between a listing repaired of one finding and as \
              printed, over the largest displacement as printed",
         command: format!("audit {} --json", scene.name),
-        at: largest.map(|(k, _)| format!("/conclusion/prices/{k}/change")),
+        at: largest.map(|(k, _)| format!("/conclusion/repairs/{k}/change")),
     }
 }
 

@@ -8,8 +8,8 @@ use serde_json::{Map, Value, json};
 use super::failure::Failed;
 use super::json::{Document, Found};
 use super::{
-    ResultFile, answers, audit, claims, comparison, evaluation, extremes, plan, prices, snapshot, trace,
-    worksheet,
+    ResultFile, answers, audit, claims, comparison, evaluation, extremes, plan, prices, snapshot,
+    trace, worksheet,
 };
 use problem::scene::Description;
 use studies::audit::statuses::Measurement;

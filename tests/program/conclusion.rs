@@ -34,13 +34,13 @@ fn an_answers_number_is_the_one_that_its_command_prints() {
     }
 }
 
-/// The price of C4 is what `solve` says of the listing repaired by hand.
+/// What the repair of C4 changes is what `solve` says of the listing repaired by hand.
 #[test]
-fn the_price_of_a_finding_is_that_of_its_repaired_listing() {
+fn what_a_repair_changes_is_what_solve_says_of_the_repaired_listing() {
     let folder = TempDir::new().expect("a temporary folder");
     let audit = json_of(&folder, &["audit", "fig1", "--json"]);
-    let prices = audit["conclusion"]["prices"].as_array().expect("prices");
-    let price = prices.iter().find(|price| price["id"] == "C4").expect("a price");
+    let repairs = audit["conclusion"]["repairs"].as_array().expect("repairs");
+    let repair = repairs.iter().find(|repair| repair["id"] == "C4").expect("a repair");
     let printed = include_str!("../../listings/c_cnt.txt");
     let text = printed
         .replace("yt[i1] < 0 ∧ yt[i1+1] > 0", "yt[i1] > 0 ∧ yt[i1+1] < 0")
@@ -61,5 +61,5 @@ fn the_price_of_a_finding_is_that_of_its_repaired_listing() {
         .zip(repaired)
         .map(|(a, b)| length(number(&a[0]) - number(&b[0]), number(&a[1]) - number(&b[1])));
     let change = change.fold(0.0, f64::max) / largest;
-    assert_near("C4", number(&price["change"]), change, change, &CLAIM);
+    assert_near("C4", number(&repair["change"]), change, change, &CLAIM);
 }

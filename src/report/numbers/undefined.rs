@@ -14,7 +14,7 @@ const REASONS: &[(&str, &str)] = &[
     ("reading", "the default of every reading"),
     ("variant", "no run measures it"),
     ("reason", "it is measured, or there is nothing to measure"),
-    ("number", "the verdict rests on no number"),
+    ("number", "the verdict rests on no number, or the target does not move"),
     ("penetration", "no contact node faces the target"),
     ("energy_relative", "the solution compared with has no energy"),
     ("displacement", "nothing moves in what is compared with, or nothing could be compared"),

@@ -19,7 +19,7 @@ use paper::listings::{self, Which};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
-/// What an audit concludes; of a scene without contact nothing but the prices.
+/// What an audit concludes; of a scene without contact nothing but the repairs.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Conclusion {
     /// Whether the printed algorithm couples the bodies.
@@ -29,8 +29,8 @@ pub struct Conclusion {
     pub nearest: Option<Nearest>,
     /// The fields of figure 5; nothing where there is no equilibrium.
     pub fields: Option<Fields>,
-    /// What each finding costs here, in the order of the register.
-    pub prices: Vec<Price>,
+    /// What the repair of each finding changes here, in the order of the register.
+    pub repairs: Vec<Repaired>,
     /// What the paper leaves open.
     pub open: Vec<&'static str>,
     /// How far that moves the verdicts; nothing where it was not tried.
@@ -51,6 +51,7 @@ pub struct Coupled {
 /// A run under a reading, and its distance from the equilibrium.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Nearest {
+    /// The variant that was run.
     pub variant: Variant,
     /// The value of a reading that is not the default; nothing where all are.
     pub reading: Option<String>,
@@ -93,10 +94,12 @@ choices! {
     }
 }
 
-/// What a finding costs on a scene.
+/// What the repair of a finding changes on a scene.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Price {
+pub struct Repaired {
+    /// The finding.
     pub id: &'static str,
+    /// What it does here.
     pub weight: Weight,
     /// The variant that was run with the listing repaired: the scene's own one of the paper where that
     /// is `c_cnt`, `printed` where that is `Km`.
@@ -111,6 +114,7 @@ pub struct Price {
 /// The error of the paper's algorithm over the range of what the paper leaves open.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Spread {
+    /// The places of the range.
     pub places: usize,
     /// The least and the largest number of claim P12.
     pub error: [f64; 2],
@@ -129,7 +133,7 @@ impl Conclusion {
                 case,
                 nearest_row.and_then(|(variant, _)| bodies(&audit.variants, variant)),
             ),
-            prices: audit.findings.par_iter().map(|(f, m)| price(case, f, m)).collect(),
+            repairs: audit.findings.par_iter().map(|(f, m)| repair(case, f, m)).collect(),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),
         }
@@ -218,11 +222,11 @@ fn fields(case: &Case, nearest: Option<(Variant, &[BodySummary])>) -> Option<Fie
 }
 
 /// Runs the listing with the repair of a finding that is present.
-fn price(case: &Case, finding: &Finding, measured: &Evidence) -> Price {
+fn repair(case: &Case, finding: &Finding, measured: &Evidence) -> Repaired {
     let id = finding.id;
     match (measured.verdict, finding.edit) {
         (Verdict::NotTriggered | Verdict::Contradicted, _) => {
-            Price { id, weight: Weight::Harmless, variant: None, change: None, reason: None }
+            Repaired { id, weight: Weight::Harmless, variant: None, change: None, reason: None }
         }
         (Verdict::Present, Repair::None { reason }) => unmeasured(id, reason.into()),
         (Verdict::Present, Repair::Edit { text }) => {
@@ -231,13 +235,13 @@ fn price(case: &Case, finding: &Finding, measured: &Evidence) -> Price {
     }
 }
 
-fn unmeasured(id: &'static str, reason: String) -> Price {
+fn unmeasured(id: &'static str, reason: String) -> Repaired {
     let weight = Weight::Unmeasured;
-    Price { id, weight, variant: None, change: None, reason: Some(reason) }
+    Repaired { id, weight, variant: None, change: None, reason: Some(reason) }
 }
 
-fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Price> {
-    let which = Which::of(edit).expect("an edit names its listing");
+fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Repaired> {
+    let which = Which::from_text(edit).expect("an edit names its listing");
     let variant = match which {
         Which::CCnt => case.published_variant(),
         Which::Km => Variant::Printed,
@@ -261,7 +265,7 @@ fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Price> {
         0.0 => Weight::Harmless,
         _ => Weight::Shifts,
     };
-    Ok(Price { id, weight, variant: Some(variant), change: Some(change), reason: None })
+    Ok(Repaired { id, weight, variant: Some(variant), change: Some(change), reason: None })
 }
 
 /// Returns how far the range moves the verdicts; nothing where it was not tried.

@@ -64,7 +64,9 @@ pub enum End {
 /// How deep the deepest contact node is inside the target at the end of a run.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Penetration {
+    /// The node.
     pub node: NodeId,
+    /// Whether it is in contact.
     pub in_contact: bool,
     /// Length; 0 where none is inside by more than rounding.
     pub depth: f64,

@@ -183,6 +183,7 @@ pub struct Elsewhere {
 pub struct UnderReading {
     /// The value of the reading that is not the default, such as `R8 = m`.
     pub reading: String,
+    /// What the scene says under it.
     #[serde(flatten)]
     pub measured: Evidence,
 }
