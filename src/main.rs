@@ -28,9 +28,9 @@ use plane_contact::report::failure::failure;
 {before-help}Options:
 {options}{after-help}",
     after_help = "\
-Exit status: 0 done, also where a run ends with nothing transmitted (an audit result, which the output
-names); 1 what was compared differs; 2 the input is at fault; 3 the published algorithm fails as
-printed (an audit result); 4 no equilibrium was found, or more than one.
+Exit status: 0 done, also where a run ends with nothing transmitted (an audit result that the
+output names); 1 what was compared differs; 2 the input is at fault; 3 the published algorithm
+fails as printed (an audit result); 4 no equilibrium was found, or more than one.
 
 Examples:
   plane-contact solve                        the paper's example

@@ -27,8 +27,7 @@ use super::{
 #[command(after_help = format!("\
 Prints iterations, bodies, contact nodes, error estimates, and the distance from the reference
 solution. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
-{}. A run that passes no load on, as printed does, says 'nothing transmitted': an audit result with
-exit status 0.
+{}.
 
 Examples:
   plane-contact solve

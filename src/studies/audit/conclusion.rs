@@ -6,13 +6,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
-use super::findings::{Evidence, Finding, Repair, Verdict};
+use super::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
 use super::variants::{End, VariantRow};
 use super::{Assumption, Audit, Case};
 use base::choices;
 use engine::error::Result;
 use engine::estimates::{ErrorEstimates, Estimates};
-use engine::{BodySummary, distance, over, summaries};
+use engine::{BodySummary, Solution, distance, over, summaries};
 use numbers::solve::Solver;
 use paper::edited::Edited;
 use paper::listings::{self, Which};
@@ -87,7 +87,7 @@ choices! {
         Harmless = "harmless",
         /// Its repair changes displacements.
         Shifts = "shifts",
-        /// As it stands no load passes; with its repair, load does.
+        /// No load passes as printed, and its repair is the one that couples the bodies.
         Fatal = "fatal",
         /// It is present, and no repair of a listing measures what it does.
         Unmeasured = "unmeasured",
@@ -229,10 +229,25 @@ fn repair(case: &Case, finding: &Finding, measured: &Evidence) -> Repaired {
             Repaired { id, weight: Weight::Harmless, variant: None, change: None, reason: None }
         }
         (Verdict::Present, Repair::None { reason }) => unmeasured(id, reason.into()),
+        (Verdict::Present, Repair::Edit { text }) if couples(text) && passes_nothing(case) => {
+            let variant = Some(Variant::Printed);
+            Repaired { id, weight: Weight::Fatal, variant, change: None, reason: None }
+        }
         (Verdict::Present, Repair::Edit { text }) => {
             repaired(case, id, text).unwrap_or_else(|why| unmeasured(id, why.to_string()))
         }
     }
+}
+
+/// Whether an edit is the repair of K1, which couples the bodies.
+fn couples(edit: &str) -> bool {
+    let k1 = FINDINGS.iter().find(|finding| finding.id == "K1").expect("an id of the register");
+    matches!(k1.edit, Repair::Edit { text } if text == edit)
+}
+
+/// Whether `printed` runs to its end and no load passes.
+fn passes_nothing(case: &Case) -> bool {
+    case.run(Variant::Printed).is_ok_and(Solution::transmits_nothing)
 }
 
 fn unmeasured(id: &'static str, reason: String) -> Repaired {
@@ -259,12 +274,7 @@ fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Repaired> {
         Err(why) => return Ok(unmeasured(id, format!("as printed: {why}"))),
     };
     let change = distance(&other, printed).displacement_relative;
-    let passes = printed.target_force() == 0.0 && other.target_force() != 0.0;
-    let weight = match change {
-        _ if passes => Weight::Fatal,
-        0.0 => Weight::Harmless,
-        _ => Weight::Shifts,
-    };
+    let weight = if change == 0.0 { Weight::Harmless } else { Weight::Shifts };
     Ok(Repaired { id, weight, variant: Some(variant), change: Some(change), reason: None })
 }
 
