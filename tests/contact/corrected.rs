@@ -33,10 +33,10 @@ fn reference(scene: &Scene) -> Request {
 /// Random scenes on smooth targets, whose bodies are held against turning.
 fn smooth() -> impl Iterator<Item = (String, Scene)> {
     let is_smooth = |drawn: &Drawn| match drawn.kind {
-        Kind::Flat | Kind::Bent | Kind::Wavy | Kind::Groove => drawn.support != Support::Hinged,
-        Kind::Roof | Kind::Narrow | Kind::Plate | Kind::Held => false,
+        Kind::Flat | Kind::Bent | Kind::Wavy => drawn.support != Support::Hinged,
+        Kind::Groove | Kind::Roof | Kind::Narrow | Kind::Plate | Kind::Held => false,
     };
-    let drawn = scenes(45, 4 * SCENES).enumerate().filter(move |(_, drawn)| is_smooth(drawn));
+    let drawn = scenes(45, 5 * SCENES).enumerate().filter(move |(_, drawn)| is_smooth(drawn));
     drawn.take(SCENES).map(|(number, drawn)| {
         let scene = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
         (format!("scene {number}, {:?}, {:?}", drawn.kind, drawn.support), scene.build().unwrap())
