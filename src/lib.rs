@@ -55,6 +55,7 @@ pub mod guide {
     #[doc = include_str!("../golden/tables/claims.md")]
     #[doc = include_str!("../golden/tables/calculix.md")]
     #[doc = include_str!("../golden/tables/range.md")]
+    #[doc = include_str!("../golden/tables/prices.md")]
     pub mod auditing {}
 
     #[doc = include_str!("guide/snapshots.md")]

@@ -26,6 +26,7 @@ pub struct VariantRow {
 /// What came of the run of a variant.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[expect(clippy::large_enum_variant, reason = "there is one for each of four variants")]
 pub enum End {
     /// It has a result.
     Result {
