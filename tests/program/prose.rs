@@ -36,7 +36,7 @@ const GIVEN: &[(&str, &str)] = &[
     ("Mathcad 14 or 15", "versions"),
     ("The exit status is 1 where", "exit statuses are tested by tests/program/cli.rs"),
     ("the exit status is 4", "as above"),
-    ("| 0 | done |", "as above"),
+    ("| 0 | done;", "as above"),
     ("| 1 | what was compared differs |", "as above"),
     ("| 2 | the input is at fault", "as above"),
     ("| 3 | the published algorithm fails", "as above"),

@@ -23,8 +23,7 @@ pub const FINDINGS: &[Finding] = &[
         repair: "order the two coordinates first: min − c_tll .. max + c_tll",
         edit: edit!("repairs/C1.edit"),
         before: Preparation::Model("each target edge reversed", turn_target),
-        number: "contact nodes that get or lose a target edge or dy = 1 once every target edge is turned \
-                 round",
+        number: "contact nodes that get or lose a target edge or dy = 1 once every target edge is reversed",
         measure: search::turned_edges,
     },
     Finding {
