@@ -1,10 +1,12 @@
 //! The corrected algorithm: the programs of `listings/corrected/`, executed by the interpreter.
 
+use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::door;
 use super::listings::{edited, elasticity, tables};
 use base::choices;
+use base::error::InputError;
 use mathcad::array::{Column, Table};
 use mathcad::value::Array;
 use mathcad::{Edit, Failure, Limits, Listing, Settings, Sheet, Value};
@@ -82,7 +84,11 @@ impl Fault {
     /// Says what the fault is, in a sentence.
     pub fn words(&self) -> String {
         let reason = Edit::parse(self.edit).expect("the edits in listings are sound").reason;
-        let (_, words) = reason.trim_end().split_once(": ").expect("it begins with its finding");
+        let (_, words) = reason
+            .trim_end()
+            .trim_end_matches('.')
+            .split_once(": ")
+            .expect("it begins with its finding");
         words.into()
     }
 }
@@ -109,6 +115,26 @@ pub struct Ending {
     /// Whether the last iteration asked for the contact pairs that it was given, with displacements
     /// below the size of the model: rounding turns a body that is free to turn by more.
     pub is_settled: bool,
+}
+
+/// Checks that the programs can be asked for a model.
+///
+/// # Errors
+/// It has no contact surfaces, or a contact node is listed twice.
+pub fn check(model: &Model) -> Result<(), InputError> {
+    let nodes = &model.contact.nodes;
+    if nodes.is_empty() {
+        let fix = "name a scene with contact";
+        return Err(InputError::new("contact", "the scene has no contact surfaces", fix));
+    }
+    let mut listed = HashSet::new();
+    match nodes.iter().find(|node| !listed.insert(**node)) {
+        Some(node) => {
+            let what = format!("the corrected algorithm takes each node once, {node} stands twice");
+            Err(InputError::new("contact.cnt", what, "list the node once"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model.

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
+use super::numbers::percent;
 use problem::scene::Scene;
 use studies::audit::prices::{Outcome, Price};
 
@@ -51,10 +52,6 @@ pub fn report(prices: &[Price], scene: &Scene) -> Report {
         .filter(|price| energy(&price.outcome).is_some_and(|error| error.abs() <= NOTHING))
         .filter_map(|price| price.finding)
         .collect();
-    let nothing = match free.is_empty() {
-        true => "Every fault costs something on this scene.".to_string(),
-        false => format!("Without effect on this scene: {}.", listed(&free)),
-    };
     Report::titled(format!("What the printed faults cost on {}", scene.name))
         .line(
             "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
@@ -63,7 +60,29 @@ pub fn report(prices: &[Price], scene: &Scene) -> Report {
         )
         .table("Prices", table)
         .notes(failures)
-        .line(nothing)
+        .line(summary(&prices[0].outcome, &free))
+}
+
+/// Says whether the corrected algorithm holds on the scene, and which faults cost nothing.
+fn summary(corrected: &Outcome, free: &[&str]) -> String {
+    let where_not = "listings/corrected/README.md says where it does not hold";
+    match corrected {
+        Outcome::Failure { .. } => {
+            format!("The corrected algorithm itself stops on this scene ({where_not}).")
+        }
+        Outcome::Result { is_settled: false, .. } => {
+            format!("The corrected algorithm itself does not settle on this scene ({where_not}).")
+        }
+        Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => format!(
+            "The corrected algorithm itself is {} from the solution on this scene ({where_not}): no \
+             row is the cost of a fault alone.",
+            percent(*energy_relative, 1)
+        ),
+        Outcome::Result { .. } if free.is_empty() => {
+            "Every fault costs something on this scene.".into()
+        }
+        Outcome::Result { .. } => format!("Without effect on this scene: {}.", listed(free)),
+    }
 }
 
 /// Says how a run ended.

@@ -13,7 +13,9 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::benchmark::Hertz;
+use plane_contact::report;
+use plane_contact::studies::audit::prices;
+use plane_contact::studies::benchmark::{Cook, Hertz};
 
 /// The iterations of the paper.
 const STEPS: usize = 20;
@@ -136,4 +138,20 @@ fn a_hinge_is_not_answered_silently() {
         }
     }
     assert!(unanswered > 0);
+}
+
+/// On a target with a corner the reference has rules of its own: the report of prices says so. A scene
+/// without contact is refused.
+#[test]
+fn where_it_does_not_hold_the_prices_say_so() {
+    let roof = scenes(10, 340).nth(339).expect("a scene");
+    assert_eq!(roof.kind, Kind::Roof);
+    let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
+    let roof = roof.build().unwrap();
+    let prices = prices::prices(&roof, &|| ()).unwrap();
+    let report = report::prices::report(&prices, &roof).text(usize::MAX);
+    assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
+    let cook = Cook::default().generate().unwrap().build().unwrap();
+    let refused = prices::prices(&cook, &|| ()).unwrap_err().to_string();
+    assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }

@@ -6,7 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Request};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::paper::corrected::{Bound, iterate};
+use plane_contact::paper::corrected::{Bound, check, iterate};
 use plane_contact::paper::door;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;
@@ -110,6 +110,7 @@ fn corrected(args: &Args, write: impl Fn(&CorrectedExport) -> String) -> Result<
     let scene = Scene::open(&args.scene)?;
     let model = &*scene.model;
     check_size(&scene, model)?;
+    check(model)?;
     let bound = Bound::Normal;
     let ending = waiting("executing", || iterate(model, bound, &[], STEPS));
     let ending = ending.map_err(|failure| {

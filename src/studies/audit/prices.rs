@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use engine::error::Error;
 use engine::{Request, Solution, Stiffness, over, solve};
-use paper::corrected::{Bound, Ending, FAULTS, iterate};
+use paper::corrected::{self, Bound, Ending, FAULTS, iterate};
 use problem::model::{Model, TriangleId};
 use problem::modelling::{Coupling, Friction, Geometry, Variant};
 use problem::scene::Scene;
@@ -66,21 +66,22 @@ pub fn steps() -> usize {
 /// components bound, as eq. (1) says. `watch` is called after each run.
 ///
 /// # Errors
-/// There is no solution without friction in the initial geometry with which they are compared.
+/// The scene has no contact or lists a contact node twice, or there is no solution without friction in the initial geometry with which they are compared.
 pub fn prices(scene: &Scene, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, Error> {
+    corrected::check(&scene.model)?;
     let mut request = Request::new(scene).variant(Variant::Unilateral);
     request.contact.friction = Friction::NONE;
     request.contact.coupling = Coupling::Nts;
     request.contact.geometry = Geometry::Initial;
     let exact = solve(&request, &mut |_| ())?;
-    let corrected = (None, "none".to_string(), Bound::Normal, &[][..]);
+    let none = (None, "none".to_string(), Bound::Normal, &[][..]);
     let faults: Vec<_> = FAULTS.iter().map(|fault| (fault, [fault.edit])).collect();
     let faulty = faults
         .iter()
         .map(|(fault, edits)| (Some(fault.finding), fault.words(), Bound::Normal, &edits[..]));
     let tied = "eq. (1) binds both components: no node in contact slides";
     let both = (Some("K9"), tied.to_string(), Bound::Both, &[][..]);
-    let runs: Vec<_> = [corrected].into_iter().chain(faulty).chain([both]).collect();
+    let runs: Vec<_> = [none].into_iter().chain(faulty).chain([both]).collect();
     let price = |(finding, fault, bound, edits): (Option<&'static str>, String, Bound, &[&str])| {
         let outcome = match iterate(&exact.model, bound, edits, ITERATIONS) {
             Ok(ending) => result(&exact, &ending),
