@@ -12,6 +12,9 @@ use mathcad::value::Array;
 use mathcad::{Edit, Failure, Limits, Listing, Settings, Sheet, Value};
 use problem::model::{Model, NodeId};
 
+/// The most iterations, as many as the paper's.
+pub const STEPS: usize = 20;
+
 choices! {
     /// The programs of the corrected algorithm.
     Program {

@@ -27,8 +27,9 @@ pub fn json(prices: &[Price], scene: &Scene) -> String {
 
 /// Reports the prices: a row for the corrected algorithm and one for each fault.
 pub fn report(prices: &[Price], scene: &Scene) -> Report {
-    let share = |price: &Price, of: fn(&Outcome) -> Option<f64>| {
-        of(&price.outcome).map_or(Cell::from("-"), |x| Cell::decimals(100.0 * rounded(x), 2))
+    let share = |price: &Price, k: usize| {
+        let shares = shares(&price.outcome);
+        shares.map_or(Cell::from("-"), |shares| Cell::decimals(100.0 * rounded(shares[k]), 2))
     };
     let table = Table::from_rows(prices.iter())
         .column("finding", |price| price.finding.unwrap_or("-"))
@@ -38,9 +39,9 @@ pub fn report(prices: &[Price], scene: &Scene) -> Report {
             Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
             Outcome::Failure { .. } => Cell::from("-"),
         })
-        .column("transmitted load, %", |price| share(price, transmitted))
-        .column("error in energy, %", |price| share(price, energy))
-        .column("error of largest von Mises stress, %", |price| share(price, von_mises));
+        .column("transmitted load, %", |price| share(price, 0))
+        .column("error in energy, %", |price| share(price, 1))
+        .column("error of largest von Mises stress, %", |price| share(price, 2));
     let failures = prices.iter().filter_map(|price| match &price.outcome {
         Outcome::Failure { failure } => {
             Some(format!("{}: {failure}", price.finding.unwrap_or("corrected")))
@@ -49,7 +50,7 @@ pub fn report(prices: &[Price], scene: &Scene) -> Report {
     });
     let free: Vec<&str> = prices
         .iter()
-        .filter(|price| energy(&price.outcome).is_some_and(|error| error.abs() <= NOTHING))
+        .filter(|price| shares(&price.outcome).is_some_and(|[_, error, _]| error.abs() <= NOTHING))
         .filter_map(|price| price.finding)
         .collect();
     Report::titled(format!("What the printed faults cost on {}", scene.name))
@@ -96,23 +97,12 @@ fn ends(outcome: &Outcome) -> String {
     }
 }
 
-fn transmitted(outcome: &Outcome) -> Option<f64> {
+/// Returns the transmitted load, the error in energy and that of the von Mises stress, relative.
+fn shares(outcome: &Outcome) -> Option<[f64; 3]> {
     match outcome {
-        Outcome::Result { transmitted, .. } => Some(*transmitted),
-        Outcome::Failure { .. } => None,
-    }
-}
-
-fn energy(outcome: &Outcome) -> Option<f64> {
-    match outcome {
-        Outcome::Result { energy_relative, .. } => Some(*energy_relative),
-        Outcome::Failure { .. } => None,
-    }
-}
-
-fn von_mises(outcome: &Outcome) -> Option<f64> {
-    match outcome {
-        Outcome::Result { von_mises_relative, .. } => Some(*von_mises_relative),
+        Outcome::Result { transmitted, energy_relative, von_mises_relative, .. } => {
+            Some([*transmitted, *energy_relative, *von_mises_relative])
+        }
         Outcome::Failure { .. } => None,
     }
 }

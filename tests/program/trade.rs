@@ -137,19 +137,22 @@ fn meshes_with_true_arcs_have_a_limit() {
 #[test]
 fn a_scene_that_the_generator_makes_is_recognised() {
     let own = open("strand");
-    assert_eq!(Strand::of(&own), Some(Strand::default()));
+    assert_eq!(Strand::from_scene(&own), Some(Strand::default()));
     let strand = Strand { duct: 9.0, strand: 5.0, size: 0.4, top: 1.5 };
     let mut made = strand.generate().expect("in range");
     made.description.materials.0[0].1.e = 1.0;
     let scene = made.build().expect("a sound scene");
-    assert_eq!(Strand::of(&scene), Some(Strand { size: Strand::default().size, ..strand.clone() }));
+    assert_eq!(
+        Strand::from_scene(&scene),
+        Some(Strand { size: Strand::default().size, ..strand.clone() })
+    );
     let finer = Strand { size: 0.2, ..strand }.remesh(&scene).expect("in range");
     assert_eq!(finer.source().map(|(own, _)| own), scene.source().map(|(own, _)| own));
     let refined = own.refined().expect("it is sound").expect("it has a mesh").scene;
     let held = Strand::default().generate().expect("in range").restrain("bottom", &[Axis::X]);
     let held = held.build().expect("a sound scene");
     for other in [refined, half(&own).expect("it is symmetric").scene, held, open("fig1")] {
-        assert_eq!(Strand::of(&other), None, "{}", other.name);
+        assert_eq!(Strand::from_scene(&other), None, "{}", other.name);
     }
     let section = &measured(&open("fig1"), &[Varied::Mesh]).sections[0];
     assert!(section.limit.is_none() && section.ladder.is_some());

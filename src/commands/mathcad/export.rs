@@ -6,7 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Request};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::paper::corrected::{Bound, check, iterate};
+use plane_contact::paper::corrected::{Bound, STEPS, check, iterate};
 use plane_contact::paper::door;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;
@@ -136,9 +136,6 @@ fn check_size(scene: &Scene, model: &Model) -> Result<(), InputError> {
         format!("the scene has {} nodes, at most {MOST_NODES} are written", model.nodes.len());
     Err(InputError::new(&scene.name, what, "make a coarser mesh"))
 }
-
-/// The iterations of the corrected algorithm, as many as the paper's.
-const STEPS: usize = 20;
 
 /// The most nodes of a scene that Mathcad is given: its matrix has twice as many rows.
 const MOST_NODES: usize = 300;

@@ -125,14 +125,11 @@ pub struct Spread {
 impl Conclusion {
     /// Draws the conclusion of what was found on a case.
     pub fn new(case: &Case, audit: &Audit) -> Self {
-        let nearest_row = nearest_variant(&audit.variants);
+        let variant = NearestVariant::find(&audit.variants);
         Conclusion {
             coupled: case.model().target().map(|_| coupled(audit)),
-            nearest: nearest(audit),
-            fields: fields(
-                case,
-                nearest_row.and_then(|(variant, _)| bodies(&audit.variants, variant)),
-            ),
+            nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
+            fields: fields(case, variant.as_ref()),
             repairs: audit.findings.par_iter().map(|(f, m)| repair(case, f, m)).collect(),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),
@@ -152,28 +149,34 @@ fn coupled(audit: &Audit) -> Coupled {
     Coupled { joins: joins.map(|(_, measured)| measured.number as usize), share, failure }
 }
 
-/// Returns the variant of the paper that is nearest to the equilibrium, and its distance.
-fn nearest_variant(rows: &[VariantRow]) -> Option<(Variant, f64)> {
-    let errors = rows.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant));
-    let errors = errors.filter_map(|row| match &row.end {
-        End::Result { distance, .. } => Some((row.variant, distance.as_ref()?.energy_relative)),
-        End::Failure { .. } => None,
-    });
-    errors.filter(|(_, error)| error.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+/// The variant of the paper that is nearest to the equilibrium.
+struct NearestVariant<'a> {
+    variant: Variant,
+    /// The index of its row.
+    row: usize,
+    energy: f64,
+    bodies: &'a [BodySummary],
 }
 
-fn bodies(rows: &[VariantRow], variant: Variant) -> Option<(Variant, &[BodySummary])> {
-    let row = rows.iter().find(|row| row.variant == variant)?;
-    match &row.end {
-        End::Result { bodies, .. } => Some((variant, bodies)),
-        End::Failure { .. } => None,
+impl<'a> NearestVariant<'a> {
+    fn find(rows: &'a [VariantRow]) -> Option<Self> {
+        let of_paper =
+            |(_, row): &(usize, &VariantRow)| Variant::OF_THE_PAPER.contains(&row.variant);
+        let ended = rows.iter().enumerate().filter(of_paper).filter_map(
+            |(row, VariantRow { variant, end, .. })| match end {
+                End::Result { distance, bodies, .. } => {
+                    let energy = distance.as_ref()?.energy_relative;
+                    Some(NearestVariant { variant: *variant, row, energy, bodies })
+                }
+                End::Failure { .. } => None,
+            },
+        );
+        ended.filter(|one| one.energy.is_finite()).min_by(|a, b| a.energy.total_cmp(&b.energy))
     }
 }
 
 /// Finds the nearest of all variants and readings.
-fn nearest(audit: &Audit) -> Option<Nearest> {
-    let (variant, energy) = nearest_variant(&audit.variants)?;
-    let place = audit.variants.iter().position(|row| row.variant == variant)?;
+fn nearest(audit: &Audit, nearest: &NearestVariant) -> Nearest {
     let variants = audit.variants.iter().filter(|r| Variant::OF_THE_PAPER.contains(&r.variant));
     let failed_variants =
         variants.clone().filter(|row| matches!(row.end, End::Failure { .. })).count();
@@ -181,10 +184,10 @@ fn nearest(audit: &Audit) -> Option<Nearest> {
     let failed = failed_variants + readings.clone().filter(|(_, e)| e.failure.is_some()).count();
     let runs = variants.count() + readings.clone().count();
     let default = Nearest {
-        variant,
+        variant: nearest.variant,
         reading: None,
-        at: format!("/variants/{place}/distance/energy_relative"),
-        energy,
+        at: format!("/variants/{}/distance/energy_relative", nearest.row),
+        energy: nearest.energy,
         runs,
         failed,
     };
@@ -199,13 +202,13 @@ fn nearest(audit: &Audit) -> Option<Nearest> {
         })
     });
     // Of those that are equally near the default reading.
-    Some(others.fold(default, |best, other| if other.energy < best.energy { other } else { best }))
+    others.fold(default, |best, other| if other.energy < best.energy { other } else { best })
 }
 
-fn fields(case: &Case, nearest: Option<(Variant, &[BodySummary])>) -> Option<Fields> {
+fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
     let equilibrium = case.equilibrium()?;
     let own = summaries(equilibrium);
-    let theirs = nearest.map_or(&[][..], |(_, bodies)| bodies);
+    let theirs = nearest.map_or(&[][..], |nearest| nearest.bodies);
     let differences = theirs.iter().zip(&own).flat_map(|(theirs, own)| {
         [
             over(theirs.max_von_mises_stress - own.max_von_mises_stress, own.max_von_mises_stress),
@@ -213,7 +216,7 @@ fn fields(case: &Case, nearest: Option<(Variant, &[BodySummary])>) -> Option<Fie
         ]
     });
     Some(Fields {
-        variant: nearest.map(|(variant, _)| variant),
+        variant: nearest.map(|nearest| nearest.variant),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
         theirs: theirs.to_vec(),
         errors: Estimates::new(equilibrium, case.session()).errors,

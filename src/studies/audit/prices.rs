@@ -8,13 +8,10 @@ use serde::Serialize;
 
 use engine::error::Error;
 use engine::{Request, Solution, Stiffness, over, solve};
-use paper::corrected::{self, Bound, Ending, FAULTS, iterate};
+use paper::corrected::{self, Bound, Ending, FAULTS, STEPS, iterate};
 use problem::model::{Model, TriangleId};
-use problem::modelling::{Coupling, Friction, Geometry, Variant};
+use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Scene;
-
-/// The iterations of the paper.
-const ITERATIONS: usize = 20;
 
 /// A run of the corrected algorithm.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -66,14 +63,14 @@ pub fn steps() -> usize {
 /// components bound, as eq. (1) says. `watch` is called after each run.
 ///
 /// # Errors
-/// The scene has no contact or lists a contact node twice, or there is no solution without friction in the initial geometry with which they are compared.
+/// The scene has no contact or lists a contact node twice, or there is no solution without friction in
+/// the initial geometry with which they are compared.
 pub fn prices(scene: &Scene, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, Error> {
     corrected::check(&scene.model)?;
-    let mut request = Request::new(scene).variant(Variant::Unilateral);
-    request.contact.friction = Friction::NONE;
-    request.contact.coupling = Coupling::Nts;
-    request.contact.geometry = Geometry::Initial;
-    let exact = solve(&request, &mut |_| ())?;
+    let reference = Request::new(scene).reference();
+    let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
+    let exact = solve(&reference.contact(contact), &mut |_| ())?;
+    let stiffness = Stiffness::new(&exact.model, |x| x);
     let none = (None, "none".to_string(), Bound::Normal, &[][..]);
     let faults: Vec<_> = FAULTS.iter().map(|fault| (fault, [fault.edit])).collect();
     let faulty = faults
@@ -83,8 +80,8 @@ pub fn prices(scene: &Scene, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, Er
     let both = (Some("K9"), tied.to_string(), Bound::Both, &[][..]);
     let runs: Vec<_> = [none].into_iter().chain(faulty).chain([both]).collect();
     let price = |(finding, fault, bound, edits): (Option<&'static str>, String, Bound, &[&str])| {
-        let outcome = match iterate(&exact.model, bound, edits, ITERATIONS) {
-            Ok(ending) => result(&exact, &ending),
+        let outcome = match iterate(&exact.model, bound, edits, STEPS) {
+            Ok(ending) => result(&exact, &stiffness, &ending),
             Err(failure) => Outcome::Failure { failure: failure.to_string() },
         };
         watch();
@@ -93,10 +90,9 @@ pub fn prices(scene: &Scene, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, Er
     Ok(runs.into_par_iter().map(price).collect())
 }
 
-fn result(exact: &Solution, ending: &Ending) -> Outcome {
+fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {
     let model = &*exact.model;
     let u = DVector::from_column_slice(&ending.u);
-    let stiffness = Stiffness::new(model, |x| x);
     let [error, scale] = [&(&u - &exact.u), &exact.u].map(|u| stiffness.energy_norm(u));
     let states = stiffness.states(&u);
     let change = |triangles: &[TriangleId]| {

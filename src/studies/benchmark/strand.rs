@@ -139,7 +139,7 @@ impl Strand {
     /// the circles of a strand in a duct, its block's sides where the generator has them, and its groups,
     /// restraints and loads are the generator's. Moduli, Poisson's ratios, pressure and thickness may
     /// differ, and the mesh. Returns the radii, the top, and the default size.
-    pub fn of(scene: &Scene) -> Option<Self> {
+    pub fn from_scene(scene: &Scene) -> Option<Self> {
         /// Farther from a circle or a side, mm, lies what the generator does not make.
         const ROUNDING: f64 = 1e-9;
         let rounded = |length: f64| (length * 1e9).round() / 1e9;
@@ -165,7 +165,7 @@ impl Strand {
         is_ours.then_some(own)
     }
 
-    /// Meshes a scene anew that [`Strand::of`] recognised: all but the mesh is the scene's own.
+    /// Meshes a scene anew that [`Strand::from_scene`] recognised: all but the mesh is the scene's own.
     ///
     /// # Errors
     /// Those of [`Strand::check`].
@@ -176,7 +176,7 @@ impl Strand {
         made.build()
     }
 
-    /// The disc and the hole of a scene that [`Strand::of`] recognised; None where it does not press.
+    /// The disc and the hole of a scene that [`Strand::from_scene`] recognised; None where it does not press.
     pub fn conforming(&self, model: &Model) -> Option<Conforming> {
         let compliance = |body: &Body| {
             let Material { e, nu } = model.triangle(body.triangles[0]).material;

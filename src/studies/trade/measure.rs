@@ -179,7 +179,7 @@ impl Bench<'_> {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
-        let arcs = if parameter == Varied::Mesh { Strand::of(self.scene) } else { None };
+        let arcs = if parameter == Varied::Mesh { Strand::from_scene(self.scene) } else { None };
         let limit = arcs.as_ref().and_then(|strand| self.limit(strand));
         let is_nested = parameter == Varied::Mesh && arcs.is_none();
         let (orders, ladder) = if is_nested { self.ladder() } else { Default::default() };

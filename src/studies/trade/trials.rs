@@ -111,7 +111,7 @@ impl Trial {
                 request = request.reference();
             }
             Setting::Size(size) => {
-                let strand = Strand::of(&request.scene).expect("its trials have sizes");
+                let strand = Strand::from_scene(&request.scene).expect("its trials have sizes");
                 request.scene = Strand { size, ..strand }.remesh(&request.scene)?;
                 request = request.reference();
             }
@@ -146,7 +146,7 @@ pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
     match parameter {
         Varied::Arithmetic => arithmetic(request),
         Varied::Solver => solvers(request),
-        Varied::Mesh => match Strand::of(&request.scene) {
+        Varied::Mesh => match Strand::from_scene(&request.scene) {
             Some(strand) => true_arcs(&strand, &request.scene.units.length, finest),
             None => meshes(&request.scene),
         },

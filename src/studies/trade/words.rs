@@ -37,7 +37,7 @@ pub fn answers(scene: &Scene, section: &Section) -> Vec<String> {
         _ if rows.is_empty() => vec!["The scene has no contact: there is nothing to vary.".into()],
         Varied::Arithmetic => arithmetic(rows, *exact_seconds),
         Varied::Solver => solver(rows),
-        Varied::Mesh if Strand::of(scene).is_some() => true_arcs(section.limit.as_ref()),
+        Varied::Mesh if Strand::from_scene(scene).is_some() => true_arcs(section.limit.as_ref()),
         Varied::Mesh => mesh(scene, section),
         Varied::Tolerance => by_variant(scene, rows, tolerance),
         Varied::Iterations => by_variant(scene, rows, iterations),
