@@ -8,14 +8,13 @@ use plane_contact::engine::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::memory;
-use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
 use plane_contact::report::{
     audit as report, claims, folder, pressure, prices as price_report, statuses as status_report,
 };
-use plane_contact::studies::audit::claims::{CLAIMS, Claim};
+use plane_contact::studies::audit::claims::{CLAIMS, Claim, by_reading};
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::prices;
@@ -24,7 +23,7 @@ use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
-use super::{TablesArgs, print, print_either, print_stderr, progress, waiting};
+use super::{ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -34,7 +33,8 @@ claims of the paper with their verdicts, how far each reaches, and what they ass
 tables: the readings (what each other value changes), the findings (present, not triggered here,
 contradicted; with a number), and the variants side by side. --finding explains one on its smallest
 scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
-threshold, value, and the verdict under each other reading. The whole takes 30 to 80 times as long
+threshold, value, and the verdict under each other reading. --reading audits under another reading
+than the default, to see whether it rescues a claim. The whole takes 30 to 80 times as long
 as solve.
 
 A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
@@ -52,6 +52,7 @@ Examples:
   plane-contact audit strand --finding K1
   plane-contact audit fig1 --prices
   plane-contact audit --claim P12
+  plane-contact audit --reading R1=inside,R5=node_n
   plane-contact audit --statuses --scenes 1000 --json
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
                                                   a picture a finding and a variant")]
@@ -71,12 +72,14 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
     /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
-    #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range"])]
+    #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range", "reading"])]
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
     /// back, and show what each costs; takes a minute on strand.
-    #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses"])]
+    #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses", "reading"])]
     prices: bool,
+    #[command(flatten)]
+    reading: ReadingArg,
     /// Random scenes for each row of the tables of --statuses.
     #[arg(long, value_name = "N", default_value_t = 200, requires = "statuses")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -159,16 +162,19 @@ fn listed<T>(
 
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
-    let case = Case::within_memory(Scene::open(args.scene.as_deref().unwrap_or("strand"))?)?;
-    let (judged, by_reading) =
-        waiting("judging", || (claim.judge(&case, &Vec::new()), claim.by_reading(&case)));
+    let reading = args.reading.reading;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    let case = Case::within_memory(&scene, reading)?;
+    let (judged, by_reading) = waiting("judging", || {
+        (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
+    });
     let document = claims::Document { judged: &judged, by_reading: &by_reading };
     let json = claims::claim_json(&document, &case.scene);
     if let Some(out) = &args.out {
         let files = [(format!("{}.json", claim.id), &json)];
         files::write_all(out, &format!("audit --claim {}", claim.id), &files)?;
     }
-    print_either(args.json, || json, || claims::explanation(&document, &case.scene))
+    print_either(args.json, || json, || claims::explanation(&document, &case.scene, &reading))
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
@@ -176,7 +182,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
     };
-    let case = Case::within_memory(scene)?;
+    let reading = args.reading.reading;
+    let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
@@ -184,7 +191,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
     }
     let json = || report::finding_json(finding, &measured, &case.scene);
-    print_either(args.json, json, || report::explanation(finding, &measured, &case.scene))
+    print_either(args.json, json, || report::explanation(finding, &measured, &case.scene, &reading))
 }
 
 fn whole(args: &Args) -> Result<()> {
@@ -193,8 +200,9 @@ fn whole(args: &Args) -> Result<()> {
         files::check_folder(out, "audit", &["audit.txt", "audit.json"])?;
     }
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
-    let case = Case::within_memory(scene)?;
-    let places = if args.range { range(Reading::default())? } else { Vec::new() };
+    let reading = args.reading.reading;
+    let case = Case::within_memory(&scene, reading)?;
+    let places = if args.range { range(reading)? } else { Vec::new() };
     if !std::io::stderr().is_terminal() {
         print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }

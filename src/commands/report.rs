@@ -7,6 +7,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{Assessment, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files::{self, Folder};
+use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::report::{self as page, Report};
@@ -57,7 +58,11 @@ pub fn run(args: &Args) -> Result<()> {
     files::check_file(&args.out)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
-    let case = if args.no_audit { Case::new(scene) } else { Case::within_memory(scene)? };
+    let case = if args.no_audit {
+        Case::new(scene)
+    } else {
+        Case::within_memory(&scene, Reading::default())?
+    };
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
     let html = waiting("auditing", || page_of(args, &case, charts))?;
     files::write(&args.out, &html)?;

@@ -14,10 +14,11 @@ use super::numbers::{or_dash, short};
 use super::tables::certainty;
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
+use paper::mirror::Reading;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::audit::claims::JudgedClaim;
+use studies::audit::claims::{JudgedClaim, UnderReading};
 use studies::audit::conclusion::Conclusion;
 use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
 use studies::audit::readings::Effect;
@@ -27,9 +28,10 @@ use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 /// Reports the conclusion, the claims, the readings, the findings, the variants side by side, and who sticks and
 /// slides under each coefficient of friction.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
-    Report::titled(format!("Audit of scene {} ({})", scene.name, scene.title))
+    let under = claims::under(&conclusion.reading);
+    Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
         .then(conclusion::report(&conclusion::answers(conclusion, scene)))
-        .then(claims::report(&audit.claims, &audit.assumptions))
+        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
         .then(readings(&audit.readings))
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
         .then(variants(audit))
@@ -238,6 +240,8 @@ pub struct Document<'a> {
     /// What the answers are made of.
     conclusion: &'a Conclusion,
     claims: &'a [JudgedClaim],
+    /// The claims where the paper is read otherwise.
+    by_reading: &'a [UnderReading],
     assumptions: &'a [Assumption],
     readings: &'a [Effect],
     findings: Vec<FindingRow>,
@@ -289,6 +293,7 @@ impl<'a> Document<'a> {
             answers: conclusion::answers(conclusion, scene),
             conclusion,
             claims: &audit.claims,
+            by_reading: &audit.by_reading,
             assumptions: &audit.assumptions,
             readings: &audit.readings,
             findings: audit.findings.iter().map(|(f, m)| FindingRow::new(f, m)).collect(),
@@ -311,14 +316,20 @@ pub fn finding_json(finding: &Finding, measured: &Evidence, scene: &Scene) -> St
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.
-pub fn explanation(finding: &Finding, measured: &Evidence, scene: &Scene) -> Report {
+pub fn explanation(
+    finding: &Finding,
+    measured: &Evidence,
+    scene: &Scene,
+    reading: &Reading,
+) -> Report {
     let value = short(measured.number);
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")
         .then(quotation(finding))
         .heading(format!(
-            "On scene {}: {} ({value} {})",
+            "On scene {}{}: {} ({value} {})",
             scene.name,
+            claims::under(reading),
             measured.verdict.name(),
             finding.number
         ))

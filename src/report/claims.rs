@@ -7,13 +7,18 @@ use super::json;
 use super::layout::listed;
 use super::model::{Report, Table};
 use super::numbers::{or_dash, percent, short};
+use paper::mirror::Reading;
 use problem::scene::Scene;
 use studies::audit::Assumption;
-use studies::audit::claims::{Claim, Elsewhere, JudgedClaim, UnderReading};
+use studies::audit::claims::{Claim, Elsewhere, Evidence, JudgedClaim, UnderReading};
 use studies::audit::range::Parameter;
 
 /// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
-pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
+pub fn report(
+    claims: &[JudgedClaim],
+    by_reading: &[UnderReading],
+    assumptions: &[Assumption],
+) -> Report {
     let judged = Table::from_rows(claims)
         .column("id", |judged| judged.claim.id)
         .column("where in the paper", |judged| judged.claim.place)
@@ -38,6 +43,7 @@ pub fn report(claims: &[JudgedClaim], assumptions: &[Assumption]) -> Report {
         let Claim { id, says, .. } = judged.claim;
         report.note(format!("{id}: {says}")).then(entry(judged))
     };
+    let report = report.then(other_readings(claims, by_reading));
     claims
         .iter()
         .fold(report.heading("Each claim in full (`audit --claim P12` explains one)"), entry)
@@ -50,25 +56,64 @@ pub struct Document<'a> {
     /// The claim and its verdict.
     #[serde(flatten)]
     pub judged: &'a JudgedClaim,
-    /// The verdict under each other reading that may change a run; empty where it does not rest on runs.
+    /// The verdict where the paper is read otherwise; no claim in it where reading has no part in the verdict.
     pub by_reading: &'a [UnderReading],
 }
 
 /// Reports one claim on a scene.
-pub fn explanation(claim: &Document, scene: &Scene) -> Report {
+pub fn explanation(claim: &Document, scene: &Scene, reading: &Reading) -> Report {
     let Claim { id, says, .. } = claim.judged.claim;
     let report = Report::titled(format!("{id}: {says}"))
-        .line(format!("On scene {} ({})", scene.name, scene.title))
+        .line(format!("On scene {} ({}){}", scene.name, scene.title, under(reading)))
         .then(entry(claim.judged));
-    if claim.by_reading.is_empty() {
+    let verdicts = claim
+        .by_reading
+        .iter()
+        .flat_map(|under| under.claims.iter().map(|verdict| (&under.reading, &verdict.measured)));
+    let verdicts: Vec<_> = verdicts.collect();
+    if verdicts.is_empty() {
         return report;
     }
-    let table = Table::from_rows(claim.by_reading)
-        .column("reading", |under| under.reading.clone())
-        .column("verdict", |under| under.measured.words())
-        .column("value", |under| under.measured.number)
-        .column("beside it", |under| under.measured.detail.clone());
+    let table = Table::from_rows(verdicts)
+        .column("reading", |(reading, _)| reading.as_str())
+        .column("verdict", |(_, measured)| measured.words())
+        .column("value", |(_, measured)| measured.number)
+        .column("beside it", |(_, measured)| measured.detail.clone());
     report.table("Under other readings", table)
+}
+
+/// Reports for each claim the readings under which its verdict is another one, each with its value; one
+/// that makes the verdict true would rescue the claim.
+fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
+    let verdicts = |judged: &JudgedClaim| -> Vec<(&str, &Evidence)> {
+        let found = by_reading.iter().filter_map(|UnderReading { reading, claims }| {
+            let own = claims.iter().find(|verdict| verdict.id == judged.claim.id)?;
+            Some((reading.as_str(), &own.measured))
+        });
+        found.collect()
+    };
+    let table = Table::from_rows(claims)
+        .column("claim", |judged| judged.claim.id)
+        .column("verdict", |judged| judged.measured.words())
+        .column("readings tried", |judged| verdicts(judged).len())
+        .column("another verdict under", |judged| {
+            let others = verdicts(judged).into_iter();
+            let others = others.filter(|(_, other)| other.verdict != judged.measured.verdict);
+            let words = others.map(|(reading, other)| {
+                format!("{reading}: {} ({})", other.verdict, or_dash(other.number, rounded))
+            });
+            words.collect::<Vec<_>>().join("; ")
+        });
+    Report::default().table("Claims by reading", table).note(
+        "R1 to R8 by their other values, and the other variants of the paper as the scene's own; R9 (the \
+         worksheet around the listings) and R10 (the formula of the von Mises strain) have no run of their \
+         own, see table 1. A blank cell: no reading changes the verdict.",
+    )
+}
+
+/// Names a reading that is not the default.
+pub(super) fn under(reading: &Reading) -> String {
+    if *reading == Reading::default() { String::new() } else { format!(", under {reading}") }
 }
 
 /// Returns one claim on a scene as JSON.

@@ -9,6 +9,7 @@ use super::model::Report;
 use super::numbers::{coordinates, percent, short, with_unit};
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
+use paper::mirror::Reading;
 use problem::scene::Scene;
 use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Repaired, Spread, Weight};
 
@@ -34,13 +35,20 @@ pub struct Answer {
 
 /// Answers the five questions.
 pub fn answers(conclusion: &Conclusion, scene: &Scene) -> [Answer; 5] {
-    [
+    let answers = [
         coupled(conclusion.coupled.as_ref(), scene),
         nearest(conclusion, scene),
         fields(conclusion.fields.as_ref(), scene),
         repairs(&conclusion.repairs, scene),
         open(conclusion, scene),
-    ]
+    ];
+    if conclusion.reading == Reading::default() {
+        return answers;
+    }
+    answers.map(|answer| Answer {
+        command: format!("{} --reading {}", answer.command, conclusion.reading),
+        ..answer
+    })
 }
 
 /// Reports the answers.

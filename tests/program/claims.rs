@@ -8,7 +8,6 @@ use tempfile::TempDir;
 
 use crate::common::program::run;
 use crate::common::tolerances::{CLAIM, assert_near};
-use plane_contact::Request;
 use plane_contact::Scene;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::studies::audit::Case;
@@ -32,8 +31,7 @@ pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
 pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
     // Its runs are made once, by one test: see `Case::prepare`.
     LazyLock::force(&JUDGED);
-    let strand = Scene::open("strand").expect("an embedded scene");
-    geometry(&Request::new(&strand), &RANGE, &|_| ())
+    geometry(&open("strand"), &RANGE, &|_| ())
 });
 
 #[test]

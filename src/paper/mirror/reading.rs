@@ -407,21 +407,25 @@ impl Ambiguity {
         }
     }
 
-    /// Returns the values but the default, which for R6 is the scene's and for R7 the variant's.
-    pub fn others(&self, plane: Plane, schedule: Schedule) -> impl Iterator<Item = &'static Value> {
+    /// Returns the values but the one of `base`, which for R6 is by default the scene's and for R7 the
+    /// variant's; each with `base` changed to it, where `--reading` offers it.
+    pub fn others(
+        &self,
+        base: Reading,
+        plane: Plane,
+        schedule: Schedule,
+    ) -> impl Iterator<Item = (&'static Value, Reading)> {
         let default = match self.default {
             DefaultFrom::First => self.values[0].name,
             DefaultFrom::Scene => plane.name(),
             DefaultFrom::Variant => schedule.name(),
         };
-        self.values.iter().filter(move |value| value.name != default)
-    }
-
-    /// Returns the default reading with this value of the ambiguity, where `--reading` offers it.
-    pub fn reading(&self, value: &Value) -> Reading {
-        let mut reading = Reading::default();
-        self.set(&mut reading, value);
-        reading
+        let own = self.field.as_ref().and_then(|field| (field.get)(&base)).unwrap_or(default);
+        self.values.iter().filter(move |value| value.name != own).map(move |value| {
+            let mut reading = base;
+            self.set(&mut reading, value);
+            (value, reading)
+        })
     }
 
     /// Sets this ambiguity in a reading to one of its values, where `--reading` offers it.

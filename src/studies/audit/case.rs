@@ -1,6 +1,6 @@
 //! What an audit looks at: a scene, and a run of each variant.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
 use engine::{Request, Session, Solution};
-use paper::door::Call;
+use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
 use problem::model::Model;
 use problem::modelling::Variant;
@@ -21,6 +21,8 @@ pub struct Case {
     /// The scene.
     pub scene: Scene,
     base: Request,
+    /// The scene's model under the reading.
+    model: Arc<Model>,
     /// In which all runs are made.
     session: Session,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
@@ -33,22 +35,27 @@ pub struct Case {
 impl Case {
     /// The case of a scene under the default reading, of which nothing has run yet.
     pub fn new(scene: Scene) -> Self {
-        Case::from_request(Request::new(&scene))
+        Case::from_request(Request::new(&scene)).expect("the default reading changes no model")
     }
 
-    /// The same, where the `Km` that an audit builds fits in memory once for each of two cores.
+    /// The case of a scene under a reading, where the `Km` that an audit builds fits in memory once for
+    /// each of two cores.
     ///
     /// # Errors
-    /// It does not: says how much it needs.
-    pub fn within_memory(scene: Scene) -> Result<Self, InputError> {
+    /// It does not: says how much it needs. The reading does not allow the model.
+    pub fn within_memory(scene: &Scene, reading: Reading) -> Result<Self, InputError> {
         memory::check(scene.model.nodes.len(), 2, memory::free())?;
-        Ok(Case::new(scene))
+        Case::from_request(Request::new(scene).reading(reading))
     }
 
-    /// The case of a request's scene, its variant aside.
-    pub fn from_request(base: Request) -> Self {
-        Case {
+    /// The case of a request's scene under its reading, its variant aside.
+    ///
+    /// # Errors
+    /// The plane problem of R6 does not allow a Poisson's ratio.
+    pub fn from_request(base: Request) -> Result<Self, InputError> {
+        Ok(Case {
             scene: base.scene.clone(),
+            model: door::under(Arc::clone(&base.scene.model), &base.reading)?,
             base,
             session: Session::default(),
             runs: Default::default(),
@@ -56,12 +63,32 @@ impl Case {
             finer: OnceLock::new(),
             reference: OnceLock::new(),
             equilibrium: OnceLock::new(),
-        }
+        })
     }
 
-    /// The model, as it is under the default reading.
+    /// The model, as it is under the reading.
     pub fn model(&self) -> &Model {
-        &self.scene.model
+        &self.model
+    }
+
+    /// The reading under which the scene is audited.
+    pub fn reading(&self) -> &Reading {
+        &self.base.reading
+    }
+
+    /// The case of the same request under another reading.
+    ///
+    /// # Errors
+    /// The plane problem of R6 does not allow a Poisson's ratio.
+    pub fn under(&self, reading: Reading) -> Result<Self, InputError> {
+        Case::from_request(self.base.clone().reading(reading))
+    }
+
+    /// The case of the same request with another variant as the scene's own.
+    pub fn with_variant(&self, variant: Variant) -> Self {
+        let mut base = self.base.clone();
+        base.scene.variant = variant;
+        Case::from_request(base).expect("the reading allows the model")
     }
 
     /// What is asked for.
@@ -164,12 +191,12 @@ impl Case {
         own.unwrap_or(Variant::OF_THE_PAPER[0])
     }
 
-    /// What `c_cnt` finds at the initial shape under the default reading.
+    /// What `c_cnt` finds at the initial shape.
     ///
     /// # Errors
     /// `c_cnt` fails: says in which line.
     pub fn initial(&self) -> Result<Call, Failure> {
-        Call::c_cnt(self.model(), &Reading::default(), &self.model().nodes)
+        Call::c_cnt(self.model(), self.reading(), &self.model().nodes)
     }
 }
 

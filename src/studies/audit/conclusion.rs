@@ -22,6 +22,8 @@ use problem::modelling::Variant;
 /// What an audit concludes; of a scene without contact nothing but the repairs.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Conclusion {
+    /// The reading under which the scene was audited.
+    pub reading: Reading,
     /// Whether the printed algorithm couples the bodies.
     pub coupled: Option<Coupled>,
     /// The run of the paper's algorithm that comes nearest to the equilibrium; nothing where there is no
@@ -127,6 +129,7 @@ impl Conclusion {
     pub fn new(case: &Case, audit: &Audit) -> Self {
         let variant = NearestVariant::find(&audit.variants);
         Conclusion {
+            reading: *case.reading(),
             coupled: case.model().target().map(|_| coupled(audit)),
             nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
             fields: fields(case, variant.as_ref()),
@@ -265,7 +268,7 @@ fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Repaired> {
         Which::Km => Variant::Printed,
     };
     let mut request = case.request(variant);
-    let listing = listings::edited(&which.under(&Reading::default()), edit);
+    let listing = listings::edited(&which.under(case.reading()), edit);
     request.edited.push(Edited::new(id, &listing.to_string())?);
     if which == Which::Km {
         // Its matrix need not be symmetric.

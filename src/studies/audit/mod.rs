@@ -19,11 +19,11 @@ use serde::Serialize;
 pub use assumptions::{Assumption, assumptions};
 pub use case::Case;
 
-use claims::{CLAIMS, JudgedClaim};
+use claims::{CLAIMS, JudgedClaim, UnderReading};
 use engine::contact::ContactNode;
-use engine::{BodySummary, Request, Solution, solve, summaries};
+use engine::{BodySummary, Solution, solve, summaries};
 use findings::{Evidence, FINDINGS, Finding};
-use problem::modelling::{ContactModel, Friction};
+use problem::modelling::{ContactModel, Friction, Variant};
 use range::Range;
 use readings::Effect;
 use variants::VariantRow;
@@ -32,6 +32,8 @@ use variants::VariantRow;
 pub struct Audit {
     /// What the paper says, each with its verdict, in the order of its text.
     pub claims: Vec<JudgedClaim>,
+    /// The claims where the paper is read otherwise.
+    pub by_reading: Vec<UnderReading>,
     /// What the paper leaves open, and what the scene has in its place.
     pub assumptions: Vec<Assumption>,
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
@@ -75,11 +77,11 @@ pub struct Compared {
 
 /// The number of times that [`audit`] calls its `watch`.
 pub fn steps() -> usize {
-    FINDINGS.len() + 4
+    FINDINGS.len() + 5
 }
 
 /// Audits a scene: claims, readings, findings and variants, each against the default; claims also
-/// at the `places` of the range of what the paper leaves open. `watch` is called after each step.
+/// at the `places` of the range of what the paper leaves open, and under each other reading. `watch` is called after each step.
 pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
@@ -92,14 +94,16 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     let readings = || watched(readings::effects(case), watch);
     let variants = || watched(variants::side_by_side(case), watch);
     let claims = || watched(claims::judge(CLAIMS, case, places), watch);
+    let by_reading = || watched(claims::by_reading(CLAIMS, case), watch);
     let friction = || case.model().target().map_or(Vec::new(), |_| friction(case));
     // All at once: each alone would end with one long run on one core.
-    let ((readings, claims), (findings, (variants, friction))) = rayon::join(
-        || rayon::join(readings, claims),
+    let ((readings, (claims, by_reading)), (findings, (variants, friction))) = rayon::join(
+        || rayon::join(readings, || rayon::join(claims, by_reading)),
         || rayon::join(findings, || rayon::join(variants, friction)),
     );
     Audit {
         claims,
+        by_reading,
         assumptions: assumptions(&case.scene),
         readings,
         findings,
@@ -128,7 +132,7 @@ fn compared(solution: &Solution) -> Compared {
 fn friction(case: &Case) -> Vec<FrictionContact> {
     let rubbing = |mu: &f64| {
         let friction = Friction::new(*mu).expect("the coefficients are not negative");
-        let request = Request::new(&case.scene).equilibrium();
+        let request = case.request(Variant::Unilateral).equilibrium();
         let contact = ContactModel { friction, ..request.contact };
         let solution = solve(&request.contact(contact), &mut |_| ());
         let nodes = solution.map(|solution| solution.in_contact().cloned().collect());

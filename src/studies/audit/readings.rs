@@ -49,13 +49,19 @@ type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
     let own = case.published_variant();
-    let (plane, schedule) = (case.model().plane, case.request(own).schedule());
-    let others: Vec<(&Ambiguity, &Value)> = READINGS
-        .iter()
-        .flat_map(|row| row.others(plane, schedule).map(move |value| (row, value)))
-        .collect();
     let blank = executed(case, &Settings::default());
-    others.into_par_iter().map(|(row, value)| Effect::new(row, value, case, own, &blank)).collect()
+    let effect = |(row, other)| Effect::new(row, other, case, own, &blank);
+    others(case).into_par_iter().map(effect).collect()
+}
+
+/// The values of the ambiguities that differ from what a case is read by, each with the reading that it
+/// makes of that.
+pub(super) fn others(case: &Case) -> Vec<(&'static Ambiguity, (&'static Value, Reading))> {
+    let (plane, own) = (case.model().plane, case.request(case.published_variant()));
+    let (base, schedule) = (*case.reading(), own.schedule());
+    let of_row =
+        |row: &'static Ambiguity| row.others(base, plane, schedule).map(move |other| (row, other));
+    READINGS.iter().flat_map(of_row).collect()
 }
 
 /// What `c_cnt` and `Km` compute at the initial shape.
@@ -73,7 +79,7 @@ fn initial(case: &Case, reading: &Reading) -> Result<Initial, Error> {
 
 /// The two listings, executed at the initial shape.
 fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
-    let (sheet, reading) = (&door::worksheet(case.model(), |x| x), Reading::default());
+    let (sheet, reading) = (&door::worksheet(case.model(), |x| x), *case.reading());
     let pairs = if case.model().has_contact() {
         let listing = Which::CCnt.under(&reading);
         listings::c_cnt(&listing, settings, sheet, &sheet.node, &mut ())?.0
@@ -89,7 +95,7 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
 impl Effect {
     fn new(
         row: &Ambiguity,
-        value: &Value,
+        (value, reading): (&Value, Reading),
         case: &Case,
         own: Variant,
         blank: &Result<Initial, Box<Failure>>,
@@ -115,7 +121,6 @@ impl Effect {
             },
             failure: None,
         };
-        let reading = row.reading(value);
         let outcome = match row.trial {
             Trial::OwnVariant => effect.mirror(case, &reading, own),
             Trial::Printed => effect.mirror(case, &reading, Variant::Printed),
@@ -129,11 +134,11 @@ impl Effect {
 
     /// The mirror under the reading, beside the mirror under the default one.
     fn mirror<'a>(&mut self, case: &'a Case, reading: &Reading, variant: Variant) -> Outcome<'a> {
-        self.compare(&initial(case, &Reading::default())?, &initial(case, reading)?);
+        self.compare(&initial(case, case.reading())?, &initial(case, reading)?);
         let request = case.request(variant).reading(*reading);
         let other = solve(&request, &mut |_| ())?;
         self.equilibrium_error = equilibrium_error(case, &request, &other);
-        let own = case.run(variant).map_err(|why| format!("under the default reading: {why}"))?;
+        let own = case.run(variant).map_err(|why| format!("as it is read: {why}"))?;
         self.displacement = Some(largest_difference(own, &other));
         Ok(())
     }

@@ -36,10 +36,10 @@ const TOLERANCES: [(f64, &str); 3] =
 pub fn switches(scene: &Scene) -> Vec<Switch> {
     let (plane, schedule) = (scene.model.plane, Request::new(scene).schedule());
     let readings = READINGS.iter().filter(|row| row.lines != "-").flat_map(|row| {
-        row.others(plane, schedule).map(move |value| Switch {
+        row.others(Reading::default(), plane, schedule).map(move |(value, reading)| Switch {
             name: row.label(value),
             about: format!("{}: {}", row.lines, value.words),
-            reading: row.reading(value),
+            reading,
             worksheet: if row.is_option() { Change::None } else { value.change },
             ..Switch::as_printed()
         })

@@ -25,9 +25,9 @@ pub fn places(request: &Request) -> Result<Range> {
     if is_example(&request.scene) { range(request.reading) } else { Ok(Vec::new()) }
 }
 
-/// Measures every variant that carries load across, and judges every claim that rests on runs, at
-/// each of `places`; `watch` is called after each.
-pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync)) -> Section {
+/// Measures every variant that carries load across, and judges every claim that rests on runs, on a
+/// case and at each of `places`; `watch` is called after each.
+pub fn geometry(case: &Case, places: &Range, watch: &(impl Fn(&str) + Sync)) -> Section {
     let on_runs = |claim: &&Claim| claim.basis == Basis::Runs && !places.is_empty();
     let on_runs: Vec<Claim> = CLAIMS.iter().filter(on_runs).cloned().collect();
     let of_place = |(place, case): &(ParameterValue, Arc<Case>)| {
@@ -38,7 +38,7 @@ pub fn geometry(request: &Request, places: &Range, watch: &(impl Fn(&str) + Sync
         rows
     };
     let rows: Vec<Row> = places.par_iter().flat_map_iter(of_place).collect();
-    let claims = judge(&on_runs, &Case::from_request(request.clone()), places);
+    let claims = judge(&on_runs, case, places);
     let answers = match rows.is_empty() {
         true => vec![
             "Geometry is a parameter of the embedded scene strand only: of another scene nothing says \

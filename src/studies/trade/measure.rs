@@ -11,6 +11,7 @@ use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{EXACT, ErrorReference, Setting, Trial, exact_seconds, trials};
 use super::{Varied, words};
+use crate::audit::Case;
 use crate::benchmark::Strand;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
@@ -46,6 +47,7 @@ pub fn measure(
     let model = &request.scene.model;
     let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
     let is_asked = |parameter: &Varied| options.only.contains(parameter);
+    let case = Case::from_request(request.clone())?;
     let places = is_asked(&Varied::Geometry).then(|| places(request)).transpose()?;
     let (mut sections, mut all) = (Vec::new(), Vec::new());
     for parameter in Varied::ALL.iter().copied().filter(is_asked).filter(|k| *k != Varied::Geometry)
@@ -68,7 +70,7 @@ pub fn measure(
     // Nothing more is timed: what is left is computed side by side, in other processes too.
     let (peaks, geometry): (Vec<Option<u64>>, _) = rayon::join(
         || all.par_iter().map(peak_of).collect(),
-        || places.map(|places| geometry(request, &places, &watch)),
+        || places.map(|places| geometry(&case, &places, &watch)),
     );
     let rows = sections.iter_mut().flat_map(|section: &mut Section| &mut section.rows);
     rows.zip(peaks)

@@ -19,9 +19,10 @@ pub use register::CLAIMS;
 use super::case::{Case, variant_index};
 use super::findings::{self, FINDINGS};
 use super::range::{ParameterValue, Range};
+use super::readings::others;
 use base::choices;
-use engine::Request;
-use paper::mirror::{Ambiguity, READINGS, Trial, Value};
+use base::error::InputError;
+use paper::mirror::Reading;
 use problem::modelling::Variant;
 
 /// Something that the paper says.
@@ -82,6 +83,16 @@ choices! {
         Runs = "measured on runs",
         /// Nothing: neither the paper nor a run can tell.
         Nothing = "not enough information",
+    }
+}
+
+impl Basis {
+    /// Whether a verdict may be another one where the paper is read otherwise.
+    fn is_of_reading(self) -> bool {
+        match self {
+            Basis::Listing | Basis::Runs => true,
+            Basis::Random | Basis::Nothing => false,
+        }
     }
 }
 
@@ -178,14 +189,44 @@ pub struct Elsewhere {
     pub measured: Evidence,
 }
 
-/// A verdict under another reading of the print.
+/// The verdicts where the paper is read otherwise.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct UnderReading {
-    /// The value of the reading that is not the default, such as `R8 = m`.
+    /// The value of the reading, such as `R8 = m`, or the scene's own variant, such as `variant printed`.
     pub reading: String,
-    /// What the scene says under it.
+    /// The claims whose verdict may depend on it.
+    pub claims: Vec<ClaimVerdict>,
+}
+
+/// A claim, and what a scene says of it.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ClaimVerdict {
+    /// The claim's name.
+    pub id: &'static str,
+    /// What the scene says of it.
     #[serde(flatten)]
     pub measured: Evidence,
+}
+
+/// Judges claims under each other value of a reading that `--reading` offers, and with each other variant
+/// of the paper as the scene's own.
+pub fn by_reading(claims: &[Claim], case: &Case) -> Vec<UnderReading> {
+    let readings = others(case).into_iter().filter(|(row, _)| row.is_option());
+    let readings = readings.map(|(row, (value, reading))| (row.label(value), case.under(reading)));
+    let variants = Variant::OF_THE_PAPER.iter().filter(|v| **v != case.published_variant());
+    let variants = variants.map(|v| (format!("variant {v}"), Ok(case.with_variant(*v))));
+    let cases: Vec<(String, Result<Case, InputError>)> = readings.chain(variants).collect();
+    let claims: Vec<&Claim> = claims.iter().filter(|claim| claim.basis.is_of_reading()).collect();
+    // A case a job: see `Case::prepare`.
+    let under = |(reading, case): (String, Result<Case, InputError>)| {
+        let measure = |claim: &&Claim| match &case {
+            Ok(case) => claim.measure(case),
+            Err(why) => Evidence::new(Verdict::NotCheckable, None, why.to_string()),
+        };
+        let verdict = |claim: &&Claim| ClaimVerdict { id: claim.id, measured: measure(claim) };
+        UnderReading { reading, claims: claims.iter().map(verdict).collect() }
+    };
+    cases.into_par_iter().map(under).collect()
 }
 
 /// Judges claims on a scene and at places of the range.
@@ -199,8 +240,10 @@ impl Claim {
     pub fn measure(&self, case: &Case) -> Evidence {
         let not_checkable = |why: &str| Evidence::new(Verdict::NotCheckable, None, why);
         match self.measure {
-            Measure::Refuted(id) => by_finding(id, Verdict::False, None),
-            Measure::Finding(id, verdict, words) => by_finding(id, verdict, Some(words)),
+            Measure::Refuted(id) => by_finding(id, Verdict::False, None, *case.reading()),
+            Measure::Finding(id, verdict, words) => {
+                by_finding(id, verdict, Some(words), *case.reading())
+            }
             Measure::Scene(measure) => measure(case).unwrap_or_else(|why| {
                 not_checkable(why.to_string().lines().next().unwrap_or_default())
             }),
@@ -228,11 +271,7 @@ impl Claim {
         let is_on_runs = self.basis == Basis::Runs;
         JudgedClaim {
             claim: self.clone(),
-            command: self
-                .command
-                .iter()
-                .map(|word| word.replace("SCENE", &case.scene.name))
-                .collect(),
+            command: self.command(case),
             at: self.pointers(&measured),
             measured,
             scope,
@@ -241,22 +280,13 @@ impl Claim {
         }
     }
 
-    /// Judges the claim under each other reading that may change a run; of a verdict that does not rest
-    /// on runs there is nothing to judge.
-    pub fn by_reading(&self, case: &Case) -> Vec<UnderReading> {
-        let (plane, own) = (case.model().plane, case.request(case.published_variant()));
-        let schedule = own.schedule();
-        let rows = READINGS.iter().filter(|row| {
-            self.basis == Basis::Runs && matches!(row.trial, Trial::OwnVariant | Trial::Printed)
-        });
-        let others: Vec<_> = rows
-            .flat_map(|row| row.others(plane, schedule).map(move |value| (row, value)))
-            .collect();
-        let under = |(row, value): (&Ambiguity, &Value)| {
-            let other = Case::from_request(Request::new(&case.scene).reading(row.reading(value)));
-            UnderReading { reading: row.label(value), measured: self.measure(&other) }
-        };
-        others.into_par_iter().map(under).collect()
+    /// The arguments of a command that prints the number of the claim on a case.
+    fn command(&self, case: &Case) -> Vec<String> {
+        let words = self.command.iter().map(|word| word.replace("SCENE", &case.scene.name));
+        let reading = case.reading().to_string();
+        let reading = (!reading.is_empty() && self.basis.is_of_reading()).then_some(reading);
+        let option = reading.into_iter().flat_map(|reading| ["--reading".to_string(), reading]);
+        words.chain(option).collect()
     }
 
     fn pointers(&self, measured: &Evidence) -> Vec<String> {
@@ -265,14 +295,22 @@ impl Claim {
     }
 }
 
-/// Judges a claim by a finding on the finding's own scene; without words the finding's title is the
-/// detail.
-fn by_finding(id: &str, verdict: Verdict, words: Option<&str>) -> Evidence {
+/// Judges a claim by a finding on the finding's own scene under a reading; without words the finding's
+/// title is the detail.
+fn by_finding(id: &str, verdict: Verdict, words: Option<&str>, reading: Reading) -> Evidence {
     let finding = FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register");
-    let found = finding.measure(&Case::new(finding.scene()));
-    let verdict = match found.verdict {
-        findings::Verdict::Present => verdict,
-        findings::Verdict::NotTriggered | findings::Verdict::Contradicted => Verdict::NotCheckable,
+    let case = match Case::new(finding.scene()).under(reading) {
+        Ok(case) => case,
+        Err(why) => return Evidence::new(Verdict::NotCheckable, None, why.to_string()),
     };
-    Evidence::new(verdict, Some(found.number), words.unwrap_or(finding.title))
+    let found = finding.measure(&case);
+    match found.verdict {
+        findings::Verdict::Present => {
+            Evidence::new(verdict, Some(found.number), words.unwrap_or(finding.title))
+        }
+        findings::Verdict::NotTriggered | findings::Verdict::Contradicted => {
+            let detail = format!("{id} does not show on its scene: {}", found.detail);
+            Evidence::new(Verdict::NotCheckable, Some(found.number), detail)
+        }
+    }
 }

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use super::{Evidence, Outcome};
 use crate::audit::Case;
 use paper::door::{self, Call};
-use paper::mirror::{Failure, Reading};
+use paper::mirror::Failure;
 use problem::element::area;
 use problem::model::{EdgeId, Model, NodeId, TriangleId};
 use problem::modelling::Variant;
@@ -58,7 +58,7 @@ pub(super) fn at_shapes(
 
 /// The same on what `c_cnt` finds in each shape.
 pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Evidence) -> Outcome<'_> {
-    at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case.model(), shape)?)))
+    at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case, case.model(), shape)?)))
 }
 
 fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
@@ -75,18 +75,18 @@ fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
 /// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
 pub(super) fn first_in_contact(case: &Case) -> Result<Call, &'static str> {
     let shapes = shapes(case).into_iter();
-    let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case.model(), &shape).ok());
+    let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case, case.model(), &shape).ok());
     calls.find(|call| call.statuses.iter().any(|status| status.in_contact)).ok_or("no contact")
 }
 
-/// `c_cnt` under the default reading.
-pub(super) fn c_cnt(model: &Model, shape: &Shape) -> Result<Call, Failure> {
-    Call::c_cnt(model, &Reading::default(), shape)
+/// `c_cnt` on a model, the case's own or one that differs from it, under the reading of the case.
+pub(super) fn c_cnt(case: &Case, model: &Model, shape: &Shape) -> Result<Call, Failure> {
+    Call::c_cnt(model, case.reading(), shape)
 }
 
-/// `Km` of the pairs found in a shape, under the default reading.
-pub(super) fn mjs(model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
-    Ok(door::holding_dropped(model, c_cnt(model, shape)?.km(&Reading::default())?))
+/// `Km` of the pairs found in a shape.
+pub(super) fn mjs(case: &Case, model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
+    Ok(door::holding_dropped(model, c_cnt(case, model, shape)?.km(case.reading())?))
 }
 
 /// 1 where an entry is in contact, else 0: the listing's `dy`.

@@ -1,8 +1,8 @@
 //! The register of findings: what the listings do that the text does not say.
 //!
 //! A finding is one entry of the register: data (where it stands, why it matters, its repair), a
-//! measure, and the smallest scene that shows it (`golden/findings/<id>/`). A measure is an experiment with the listings as
-//! printed, under the default reading, that runs on any scene. C: `c_cnt`; K: `Km` and the
+//! measure, and the smallest scene that shows it (`golden/findings/<id>/`). A measure is an experiment
+//! with the listings as printed, under the case's reading, that runs on any scene. C: `c_cnt`; K: `Km` and the
 //! iterations.
 
 mod experiment;

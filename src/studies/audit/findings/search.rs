@@ -30,7 +30,7 @@ fn compared<'a>(
     differ: impl Fn(&ContactStatus, &ContactStatus) -> bool,
 ) -> Outcome<'a> {
     at_shapes(case, |shape| {
-        let calls = [c_cnt(case.model(), shape)?, c_cnt(other, shape)?];
+        let calls = [c_cnt(case, case.model(), shape)?, c_cnt(case, other, shape)?];
         Ok(count_nodes(case.model(), |i| {
             let [own, other] = calls.each_ref().map(|call| &call.statuses[i]);
             let of = |status: &ContactStatus| {
@@ -45,7 +45,7 @@ fn compared<'a>(
 /// C3: contact nodes nearer than c_tll to the line of their edge, but not vertically; a vertical
 /// edge stops the listing.
 pub(super) fn vertical_distance(case: &Case) -> Outcome<'_> {
-    at_shapes(case, |shape| match c_cnt(case.model(), shape) {
+    at_shapes(case, |shape| match c_cnt(case, case.model(), shape) {
         Ok(call) => Ok(near_a_slope(case.model(), shape, &call)),
         Err(failure) if failure.line == 10 => {
             Ok(Evidence::present_if(true, 0.0, failure.to_string()))

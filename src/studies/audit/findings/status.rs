@@ -16,8 +16,8 @@ fn with_y(shape: &Shape, f: impl Fn(NodeId, f64) -> f64) -> Vec<[f64; 2]> {
 /// C4: the scene upside down. Only nodes that keep their target edge count: C1 is kept out.
 pub(super) fn upside_down(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
-        let as_is = c_cnt(case.model(), shape)?;
-        let mirrored = c_cnt(case.model(), &with_y(shape, |_, y| -y))?;
+        let as_is = c_cnt(case, case.model(), shape)?;
+        let mirrored = c_cnt(case, case.model(), &with_y(shape, |_, y| -y))?;
         Ok(count_nodes(case.model(), |i| {
             let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
             let words = || {
@@ -53,7 +53,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
     let mut model = case.model().clone();
     model.contact.tolerance = 0.0;
     at_shapes(case, |shape| {
-        let call = c_cnt(&model, shape)?;
+        let call = c_cnt(case, &model, shape)?;
         let touches =
             |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance == 0.0;
         let flagged = |i: usize| call.statuses[i].in_contact;
@@ -70,7 +70,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
 
 /// C10: `∧` evaluated from left to right, at the initial shape.
 pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
-    let reading = Reading { r4: Conjunction::LeftToRight, ..Reading::default() };
+    let reading = Reading { r4: Conjunction::LeftToRight, ..*case.reading() };
     let call = case.initial().map_err(|_| "c_cnt fails before line 18")?;
     let first = call.statuses.first().ok_or("no contact node")?.distance;
     Ok(match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
@@ -89,7 +89,7 @@ pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
 pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
     let model = case.model();
     at_shapes(case, |shape| {
-        let call = c_cnt(model, shape)?;
+        let call = c_cnt(case, model, shape)?;
         let noise = noise(shape);
         let on_edge =
             |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance.abs() <= noise;
@@ -98,8 +98,8 @@ pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
             entries.any(|(i, other)| *other == node && on_edge(i))
         };
         let moved = |by: f64| with_y(shape, |node, y| if touching(node) { y + by } else { y });
-        let up = c_cnt(model, &moved(2.0 * noise))?;
-        let down = c_cnt(model, &moved(-2.0 * noise))?;
+        let up = c_cnt(case, model, &moved(2.0 * noise))?;
+        let down = c_cnt(case, model, &moved(-2.0 * noise))?;
         Ok(count_nodes(model, |i| {
             let (yt, up, down) = (call.statuses[i].distance, dy(&up, i), dy(&down, i));
             let words =

@@ -10,13 +10,13 @@ use crate::audit::Case;
 use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
 use numbers::solve::DenseLu;
 use paper::door::{self, Call};
-use paper::mirror::{Failure, Reading};
+use paper::mirror::Failure;
 use problem::model::{Body, Model, NodeId, TriangleId};
 use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
 pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
-    let mjs = first_in_contact(case)?.km(&Reading::default())?;
+    let mjs = first_in_contact(case)?.km(case.reading())?;
     let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
     Ok(Evidence::must_be_present(joins == 0, joins as f64, target_moves(case)))
 }
@@ -78,7 +78,7 @@ pub(super) fn switched_off(case: &Case) -> Outcome<'_> {
 /// K3: the 1 of a restrained equation outside the range of the other diagonal entries.
 pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
-        let diagonal = mjs(case.model(), shape)?.diagonal();
+        let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let range = |restrained: bool| {
             let entries = diagonal.iter().zip(&case.model().restrained);
             let of = entries.filter(|(_, is)| **is == restrained);
@@ -94,7 +94,7 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
 /// K8: the smallest diagonal entry of MJS.
 pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
-        let diagonal = mjs(case.model(), shape)?.diagonal();
+        let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
         let detail = format!("node {}, direction {}", at / 2 + 1, ["x", "y"][at % 2]);
         Ok(Evidence::present_if(smallest < 0.0, smallest, detail))
@@ -107,7 +107,7 @@ pub(super) fn orphan(case: &Case) -> Outcome<'_> {
         let mut model = case.model().clone();
         model.nodes.extend(vec![[0.0; 2]; orphans]);
         model.restrained.extend(vec![restrained; 2 * orphans]);
-        let mjs = Call::without_contact(&model).km(&Reading::default())?;
+        let mjs = Call::without_contact(&model).km(case.reading())?;
         Ok(mjs.row_iter().filter(|row| row.iter().all(|x| *x == 0.0)).count())
     };
     let (own, free, restrained) = (zero_rows(0, false)?, zero_rows(1, false)?, zero_rows(1, true)?);
@@ -137,7 +137,7 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
 pub(super) fn pulls(case: &Case) -> Outcome<'_> {
     let model = case.model();
     let solution = case.run(Variant::Stepped)?;
-    let k = door::free_stiffness(&door::worksheet(model, |x| x), &Reading::default())?;
+    let k = door::free_stiffness(&door::worksheet(model, |x| x), case.reading())?;
     // What eq. (1) adds at each equation; at a restrained one the support's reaction is part of it.
     let force = k.as_matrix() * &solution.u - &model.load;
     let rounding = ROUNDING * force.amax();
@@ -165,7 +165,7 @@ fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
 pub(super) fn hinge(case: &Case) -> Outcome<'_> {
     let call = first_in_contact(case)?;
-    let k = door::free_stiffness(&call.sheet, &Reading::default())?;
+    let k = door::free_stiffness(&call.sheet, case.reading())?;
     let linked = door::linked(&call.sheet, &call.pairs);
     let restrained = released(case.model(), case.model().contact.nodes[0]);
     // Nothing where the scene has not so many nodes in contact.

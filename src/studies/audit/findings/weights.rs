@@ -84,8 +84,8 @@ pub(super) fn reversed_contact(case: &Case) -> Outcome<'_> {
     let mut reversed = case.model().clone();
     reversed.contact.nodes.reverse();
     at_shapes(case, |shape| {
-        let as_is = mjs(case.model(), shape)?;
-        let change = mjs(&reversed, shape)? - &as_is;
+        let as_is = mjs(case, case.model(), shape)?;
+        let change = mjs(case, &reversed, shape)? - &as_is;
         let rounding = ROUNDING * as_is.amax();
         let changed = change.iter().filter(|x| x.abs() > rounding).count();
         let detail = format!("the largest change is {:.3e} of {:.3e}", change.amax(), as_is.amax());
