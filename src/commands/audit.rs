@@ -34,7 +34,7 @@ tables: the readings (what each other value changes), the findings (present, not
 contradicted; with a number), and the variants side by side. --finding explains one on its smallest
 scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
 threshold, value, and the verdict under each other reading. --reading audits under another reading
-than the default, to see whether it rescues a claim. The whole takes 30 to 80 times as long
+than the default, to see whether it rescues a claim. The whole takes 60 to 120 times as long
 as solve.
 
 A variant that runs to its end and passes no load on, as printed does, is an audit result with exit

@@ -24,7 +24,7 @@ const CHART: u64 = 1 << 24;
 #[derive(clap::Args)]
 #[command(after_help = "\
 The page is one file that opens offline. Fields are shown under the pointer and at probes, on the
-undeformed shape or with displacements magnified; every table copies as CSV. It takes 30 to 80 times
+undeformed shape or with displacements magnified; every table copies as CSV. It takes 60 to 120 times
 as long as solve, and 3 times with --no-audit.
 
 Examples:

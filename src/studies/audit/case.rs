@@ -123,7 +123,8 @@ impl Case {
     pub fn finer(&self) -> Result<&(Solution, Certainty), &Error> {
         let run = || {
             let mut request = self.request(self.published_variant());
-            request.tolerance = Some(self.model().contact.tolerance / 1000.0);
+            // R8 multiplies what is asked for.
+            request.tolerance = Some(self.scene.model.contact.tolerance / 1000.0);
             self.session.solve(&request, &mut |_| ()).map(|run| certain(run, &self.session))
         };
         self.finer.get_or_init(run).as_ref()
