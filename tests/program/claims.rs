@@ -102,6 +102,33 @@ fn penetration_is_that_of_the_contact_surface() {
     assert_eq!(judged.measured.verdict, Verdict::False);
 }
 
+/// What the table of verdicts by reading says of a reading is what an audit under it prints.
+#[test]
+fn a_verdict_by_reading_is_that_of_an_audit_under_it() {
+    let folder = TempDir::new().expect("a temporary folder");
+    let json = |arguments: &[&str]| {
+        serde_json::from_slice::<Value>(&run(folder.path(), arguments).stdout).expect("JSON")
+    };
+    let as_printed = json(&["audit", "fig1", "--json"]);
+    let node_n = json(&["audit", "fig1", "--reading", "R5=node_n", "--json"]);
+    let rows = as_printed["by_reading"].as_array().expect("rows");
+    let row = rows.iter().find(|row| row["reading"] == "R5 = node_n").expect("R5 is tried");
+    for verdict in row["claims"].as_array().expect("claims") {
+        let claims = node_n["claims"].as_array().expect("claims").iter();
+        let claim =
+            claims.clone().find(|claim| claim["id"] == verdict["id"]).expect("it is judged");
+        for key in ["verdict", "number", "detail"] {
+            assert_eq!(claim[key], verdict[key], "{}", verdict["id"]);
+        }
+    }
+    let verdict = |json: &Value, id: &str| {
+        let claims = json["claims"].as_array().expect("claims");
+        claims.iter().find(|claim| claim["id"] == id).expect("a claim")["verdict"].clone()
+    };
+    // Weights from current coordinates, and the only refutation of P4 is gone.
+    assert_eq!([verdict(&as_printed, "P4"), verdict(&node_n, "P4")], ["false", "not checkable"]);
+}
+
 #[test]
 fn claims_are_numbered_in_the_order_of_the_text() {
     let ids = CLAIMS.iter().zip(1..).map(|(claim, n)| (claim.id.to_string(), format!("P{n}")));
