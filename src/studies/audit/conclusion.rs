@@ -9,6 +9,7 @@ use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
 use super::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
 use super::variants::{End, VariantRow};
 use super::{Assumption, Audit, Case};
+use crate::trade::{FINEST, Limit};
 use base::choices;
 use engine::error::Result;
 use engine::estimates::{ErrorEstimates, Estimates};
@@ -31,6 +32,8 @@ pub struct Conclusion {
     pub nearest: Option<Nearest>,
     /// The fields of figure 5; nothing where there is no equilibrium.
     pub fields: Option<Fields>,
+    /// What meshes with true arcs tend to, without friction; nothing where no generator makes the scene.
+    pub limit: Option<Limit>,
     /// What the repair of each finding changes here, in the order of the register.
     pub repairs: Vec<Repaired>,
     /// What the paper leaves open.
@@ -133,6 +136,7 @@ impl Conclusion {
             coupled: case.model().target().map(|_| coupled(audit)),
             nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
             fields: fields(case, variant.as_ref()),
+            limit: Limit::solved(&case.request(Variant::Unilateral), FINEST),
             repairs: audit.findings.par_iter().map(|(f, m)| repair(case, f, m)).collect(),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),

@@ -1,12 +1,15 @@
 //! The limit of a scene that a generator makes: its arcs are true on every mesh, no corner of a polygon
 //! presses, and stresses converge.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::Varied;
 use super::order::limit;
+use super::trials::{Setting, Trial, trials};
 use crate::benchmark::{ClosedForm, Strand};
-use engine::{Solution, over, summaries};
+use engine::{Request, Solution, over, solve, summaries};
 use problem::scene::Units;
 
 /// What meshes with true arcs tend to, and what the scene's own mesh misses of it.
@@ -55,6 +58,18 @@ impl Approach {
 }
 
 impl Limit {
+    /// Solves the scene of `request` without friction, and on meshes with true arcs down to edges of
+    /// `finest`, length; nothing where no generator makes the scene, and where a mesh does not run.
+    pub fn solved(request: &Request, finest: f64) -> Option<Self> {
+        let strand = Strand::from_scene(&request.scene)?;
+        let trials = trials(request, Varied::Mesh, finest);
+        let run = |trial: &Trial| solve(&trial.request(request).ok()?, &mut |_| ()).ok();
+        let solutions = trials.par_iter().map(run).collect::<Option<Vec<Solution>>>()?;
+        let solutions: Vec<&Solution> = solutions.iter().collect();
+        let (own, finer) = solutions.split_first()?;
+        Some(Limit::new(&strand, &request.scene.units, sizes(&trials), own, finer))
+    }
+
     /// From the solutions on the scene's own mesh and on those of `sizes`, at least one.
     pub(super) fn new(
         strand: &Strand,
@@ -85,6 +100,21 @@ impl Limit {
             units: units.clone(),
         }
     }
+}
+
+/// The edges of the meshes with true arcs among trials, length.
+pub(super) fn sizes(trials: &[Trial]) -> Vec<f64> {
+    let size = |trial: &Trial| match trial.setting {
+        Setting::Size(size) => Some(size),
+        Setting::Own
+        | Setting::Tolerance(_)
+        | Setting::Iterations(_)
+        | Setting::Status(_)
+        | Setting::Coupling(_)
+        | Setting::Refined(_)
+        | Setting::Half => None,
+    };
+    trials.iter().filter_map(size).collect()
 }
 
 /// Peak and half width of the pressure, the largest pressure of a node, and the largest von Mises stress of

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
-use super::limit::Limit;
+use super::limit::{Limit, sizes};
 use super::order::{Order, departure};
 use super::rows::{Ladder, Row, Section, Trade};
 use super::trials::{EXACT, ErrorReference, Setting, Trial, exact_seconds, trials};
@@ -263,13 +263,9 @@ impl Bench<'_> {
     fn limit(&self, strand: &Strand) -> Option<Limit> {
         let solutions: Result<Vec<&Solution>, _> =
             self.runs.iter().map(|run| run.solution.as_ref()).collect();
-        let sizes = self.trials.iter().filter_map(|trial| {
-            let Setting::Size(size) = trial.setting else { return None };
-            Some(size)
-        });
         let solutions = solutions.ok()?;
         let (own, finer) = solutions.split_first().filter(|(_, finer)| !finer.is_empty())?;
-        Some(Limit::new(strand, &self.scene.units, sizes.collect(), own, finer))
+        Some(Limit::new(strand, &self.scene.units, sizes(self.trials), own, finer))
     }
 
     /// Orders of convergence, from meshes each of half the element size of the one before, and what
