@@ -123,6 +123,10 @@ tolerances! {
     /// largest.
     CCX_FRICTION = 0.01, "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2";
 
+    /// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to
+    /// the largest.
+    CORRECTED_CCX = 0.01, "its contact yields by a penalty: 0.6 % measured, normal and both";
+
     /// How far a sticking node moves on a foundation of a modulus a million times as large.
     DISSIPATION = 1e-5, "the foundation yields by its modulus over the strip's";
 

@@ -8,9 +8,12 @@ use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::program;
-use crate::common::tolerances::{CCX_FRICTION, CCX_PRINTS, PENALTY, PENALTY_STRESS, assert_near};
+use crate::common::tolerances::{
+    CCX_FRICTION, CCX_PRINTS, CORRECTED_CCX, PENALTY, PENALTY_STRESS, assert_near,
+};
 use crate::unilateral::models;
 use plane_contact::engine::{self, Request, Solution};
+use plane_contact::paper::corrected::{Bound, STEPS, iterate};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{
@@ -271,6 +274,27 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
             eprintln!("  {}: {} here, {} by ccx", body.name, body.ours, body.calculix);
             assert_near(&body.name, body.calculix, body.ours, body.ours, &PENALTY_STRESS);
         }
+    }
+}
+
+/// The corrected algorithm beside ccx's own contact under the same friction: along the normal without any,
+/// with both components where nothing slides.
+#[test]
+fn ccx_finds_what_the_corrected_algorithm_finds() {
+    if !ccx_is_there() {
+        return;
+    }
+    let scene = Scene::open("strand").unwrap();
+    for (bound, friction) in [(Bound::Normal, Friction::NONE), (Bound::Both, Friction::STICK)] {
+        let own = iterate(&scene.model, bound, &[], STEPS).unwrap().u;
+        let pair = Contact::Pair(Pair::new(&scene.model, None, friction));
+        let part = Part { contact: pair, share: 1.0 };
+        let ran = run("ccx", &scene, &scene.model, &[part]).unwrap();
+        let theirs = ran.fields.u.as_flattened();
+        let difference = own.iter().zip(theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let largest = theirs.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        eprintln!("{bound}: {:.3} %", 100.0 * difference / largest);
+        assert_near(bound.name(), difference, 0.0, largest, &CORRECTED_CCX);
     }
 }
 
