@@ -13,7 +13,7 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::exports::{CorrectedExport, Export, Run, mathcad, octave};
 
-use crate::commands::{ReadingArg, waiting, write_or_print};
+use crate::commands::{ReadingArg, print_stderr, waiting, write_or_print};
 
 plane_contact::choices! {
     /// What executes the listings.
@@ -117,6 +117,13 @@ fn corrected(args: &Args, write: impl Fn(&CorrectedExport) -> String) -> Result<
         let fix = "restrain the bodies; contact alone leaves one free to move";
         InputError::new(&scene.name, failure.to_string(), fix)
     })?;
+    if !ending.is_settled {
+        print_stderr(&format!(
+            "warning: on {} the contact pairs do not come back within {STEPS} iterations: u is that of the \
+             last one, no solution\n",
+            scene.name
+        ));
+    }
     Ok(write(&CorrectedExport {
         title: &scene.title,
         sheet: &door::worksheet(model, |x| x),
