@@ -22,7 +22,7 @@
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
 //! | `arithmetic`, `matrices`, `x87`, `function` | operations on values, and the functions a listing may call |
-//! | `unsupported` | Mathcad's functions and units that are not here |
+//! | [`unsupported`] | Mathcad's functions and units that are not here |
 //! | [`json`] | values as JSON |
 //! | [`sheet`] | what a worksheet defines above a program |
 //! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
@@ -58,7 +58,7 @@ mod matrices;
 mod parser;
 mod state;
 pub mod syntax;
-mod unsupported;
+pub mod unsupported;
 mod words;
 mod x87;
 

@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use base::choices;
+use serde::Serialize;
 
 choices! {
     /// R4, c_cnt 17 and 18: the evaluation of `a ∧ b ∧ ...`. Not known for Mathcad 14.
@@ -19,7 +20,7 @@ choices! {
 
 /// The settings of a worksheet. The defaults are those of a blank Mathcad 14 worksheet, but for
 /// `origin`, which the paper's listings need to be 1.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Settings {
     /// `ORIGIN`, the subscript of an array's first entry.
     pub origin: i32,

@@ -1,8 +1,8 @@
 //! Mathcad's own names that the interpreter does not have, so that they are called its lack and not
 //! a fault of the worksheet.
 
-/// Functions of Mathcad 13 to 15.
-const FUNCTIONS: &str = "
+/// Functions of Mathcad 13 to 15, with white space between them.
+pub const FUNCTIONS: &str = "
     acot acoth acsc acsch Adams AdamsBDF Ai angle APPENDPRN arg asec asech atan2 BDF Bi bspline
     bulstoer Bvalfit bvalfit Ceil ceiling CFFT cfft cholesky combin concat cond1 cond2 conde condi
     corr correl correlogram coth CreateMesh CreateSpace csch csgn csort cspline cvar cwt cyl2xyz
@@ -29,7 +29,7 @@ const FUNCTIONS: &str = "
 
 /// Units of Mathcad 13 to 15, as the worksheet names them: `m`, `kN`. Those of the angles are
 /// numbers here.
-const UNITS: &str = "
+pub const UNITS: &str = "
     m meter dm cm mm km μm µm nm pm in ft yd mi mil inch foot yard mile nmi angstrom Å furlong rod fathom ly au
     kg gm mg μg µg tonne lb lbm oz slug ton longton shortton quintal stone carat grain amu
     s sec ms μs µs ns ps min hr day yr year

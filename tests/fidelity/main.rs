@@ -15,6 +15,7 @@ mod common {
     pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
+    pub mod tools;
 }
 
 mod architecture;
@@ -26,5 +27,6 @@ mod golden;
 mod listing_quotes;
 mod mathcad;
 mod octave;
+mod page_interpreter;
 mod reading_page;
 mod variants;

@@ -16,6 +16,17 @@ use base::xml::escape;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
+/// The interpreter of the listings' notation that a page executes, which has the bits of `mathcad`: its
+/// files, each using those above it.
+pub const INTERPRETER: [&str; 6] = [
+    include_str!("interpreter/values.js"),
+    include_str!("interpreter/lexer.js"),
+    include_str!("interpreter/parser.js"),
+    include_str!("interpreter/arithmetic.js"),
+    include_str!("interpreter/evaluator.js"),
+    include_str!("interpreter/programs.js"),
+];
+
 /// A page's own parts.
 struct Page<'a> {
     title: &'a str,

@@ -1,0 +1,420 @@
+//! The interpreter of the pages (JavaScript, run by node) has the bits of `mathcad`: on random scenes under
+//! readings, repairs and settings, on the corrected programs, and on listings with one character changed, each
+//! statement reads, decides and writes the same, and what fails does so at the same place in the same words.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+use std::rc::Rc;
+
+use fastrand::Rng;
+use plane_contact::mathcad::array::Table;
+use plane_contact::mathcad::observe::{Executed, Named};
+use plane_contact::mathcad::{
+    Array, Cause, Conjunction, Failure, Limits, Listing, ParseError, Recorder, Settings, Sheet,
+    Value, unsupported,
+};
+use plane_contact::paper::corrected::{Bound, FAULTS, Program};
+use plane_contact::paper::listings::{self, Which, edited, elasticity, settings, tables};
+use plane_contact::paper::mirror::{Reading, Worksheet};
+use plane_contact::report::page::INTERPRETER;
+use plane_contact::studies::audit::findings::{FINDINGS, Repair};
+use proptest::strategy::{Strategy, ValueTree};
+use serde_json::{Value as Json, json};
+use tempfile::TempDir;
+
+use super::bitwise::{draw, initial, reading, worksheet};
+use crate::common::draws::one_of;
+use crate::common::random::fixed;
+use crate::common::tools::is_there;
+
+const SCENES: usize = 1_000;
+const EDITED: usize = 800;
+
+/// An execution of a listing.
+struct Case {
+    listing: Listing,
+    around: Around,
+    settings: Settings,
+    arguments: Vec<Value>,
+}
+
+/// What is defined around a listing.
+#[derive(Clone)]
+enum Around {
+    /// The tables of a scene and `D`: the listing is one of the paper's two.
+    Scene(Rc<Worksheet<f64>>),
+    /// These values, and the programs of the sheet, which has the values too.
+    Sheet(Vec<(&'static str, Value)>, Rc<Sheet>),
+}
+
+/// What a case ends with: its value, and what `trace` wrote.
+type End = Result<(Value, Vec<String>), Box<Failure>>;
+
+impl Case {
+    /// Executes the listing and hands over each statement.
+    fn execute(&self, each: impl FnMut(&Executed)) -> End {
+        let mut recorder = Recorder::new(each);
+        let Case { listing, around, settings, arguments } = self;
+        match around {
+            Around::Sheet(_, sheet) => listing
+                .runner_in(
+                    sheet,
+                    settings,
+                    &Limits { steps: 1 << 22, entries: 1 << 20, ..Limits::default() },
+                )
+                .call_observed(arguments, &mut recorder)
+                .map(|outcome| (outcome.value, outcome.trace_output)),
+            Around::Scene(sheet) => {
+                let argument = (&arguments[0]).try_into().expect("a table");
+                match listing.name().parse().expect("one of the two") {
+                    Which::CCnt => {
+                        listings::c_cnt(listing, settings, sheet, &argument, &mut recorder)
+                            .map(|(pairs, output)| (Value::from(&pairs.k_cnt), output))
+                    }
+                    Which::Km => listings::km(listing, settings, sheet, &argument, &mut recorder)
+                        .map(|(matrix, output)| (Value::from(&matrix), output)),
+                }
+            }
+        }
+    }
+
+    /// Writes the case and what it ends with, each statement by its digest.
+    fn json(&self) -> Json {
+        let mut steps = vec![];
+        let end = self.execute(|done| steps.push(Digest::default().executed(done).0));
+        let (values, programs, plane) = match &self.around {
+            Around::Scene(sheet) => (tables(sheet), vec![], Some(sheet.plane)),
+            Around::Sheet(values, sheet) => {
+                let names = Program::ALL.iter().map(|program| program.name()).chain(["D"]);
+                let programs = names.filter_map(|name| Some((name, lines(sheet.program(name)?))));
+                (values.clone(), programs.collect(), None)
+            }
+        };
+        let is_limit =
+            end.as_ref().is_err_and(|failure| matches!(failure.cause, Cause::Limit { .. }));
+        json!({
+            "name": self.listing.name(),
+            "lines": lines(&self.listing),
+            "tables": values.iter().map(|(name, value)| json!([name, spelled(value)])).collect::<Json>(),
+            "programs": programs,
+            "plane": plane,
+            "settings": self.settings,
+            "arguments": self.arguments.iter().map(spelled).collect::<Vec<_>>(),
+            "steps": steps,
+            "is_limit": is_limit,
+            "failure": end.as_ref().err().map(ToString::to_string),
+            "value": end.as_ref().ok().map(|(value, _)| Digest::default().value(value).0),
+            "output": end.as_ref().ok().map(|(_, output)| output),
+        })
+    }
+}
+
+/// A digest of words of 32 bits: two that differ in one word differ.
+#[derive(Default)]
+struct Digest(u32);
+
+impl Digest {
+    fn word(self, word: u32) -> Self {
+        Digest((self.0 ^ word).wrapping_mul(0x0100_0193))
+    }
+
+    fn text(self, text: &str) -> Self {
+        let units = text.encode_utf16();
+        units.fold(self.word(text.encode_utf16().count() as u32), |digest, unit| {
+            digest.word(unit.into())
+        })
+    }
+
+    fn value(self, value: &Value) -> Self {
+        match value {
+            Value::Number(x) => {
+                let bits = if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+                self.word((bits >> 32) as u32).word(bits as u32)
+            }
+            Value::Text(text) => self.text(text),
+            array => {
+                let (rows, cols) = array.size();
+                let entries = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j)));
+                let entries = entries.filter_map(|(i, j)| array.entry(i, j));
+                entries.fold(self.word(rows as u32).word(cols as u32), |digest, entry| {
+                    digest.value(&entry)
+                })
+            }
+        }
+    }
+
+    fn named(self, list: &[Named]) -> Self {
+        list.iter().fold(
+            self.word(list.len() as u32),
+            |digest, Named { name, subscripts, value }| {
+                let name = digest.text(name).word(subscripts.len() as u32);
+                subscripts.iter().fold(name, |digest, k| digest.word(*k as u32)).value(value)
+            },
+        )
+    }
+
+    fn executed(self, done: &Executed) -> Self {
+        let truth = |held: Option<bool>| held.map_or(2, u32::from);
+        let head = self.word(done.line as u32).word(done.in_file as u32).word(truth(done.held));
+        let operands = done.operands.iter();
+        let decided =
+            operands.fold(head, |digest, (text, held)| digest.text(text).word(truth(*held)));
+        decided.named(&done.reads).named(&done.writes)
+    }
+}
+
+fn lines(listing: &Listing) -> Json {
+    let lines = listing.lines().iter();
+    lines.map(|line| json!([line.printed, line.in_file, line.level, line.text])).collect()
+}
+
+/// A value as a number, a list of rows, or, where JSON has no such number, its name.
+fn spelled(value: &Value) -> Json {
+    match value {
+        Value::Number(x) if x.is_finite() => json!(x),
+        Value::Number(x) => json!(x.to_string()),
+        array => {
+            let (rows, cols) = array.size();
+            let entry = |i, j| spelled(&array.entry(i, j).expect("an entry"));
+            (0..rows).map(|i| (0..cols).map(|j| entry(i, j)).collect::<Json>()).collect()
+        }
+    }
+}
+
+/// Both listings on a random scene: under a reading, or under the repair of a finding, and under the
+/// reading's settings or others.
+fn drawn(runner: &mut proptest::test_runner::TestRunner, rng: &mut Rng) -> [Case; 2] {
+    let (draw, reading) = (draw(), reading()).new_tree(runner).expect("a scene").current();
+    let (sheet, node_n) = worksheet(&draw);
+    let sheet = Rc::new(sheet);
+    let repair = rng.bool().then(|| one_of(rng, &repairs()));
+    let text = |which: Which| match repair {
+        Some(edit) if Which::from_text(edit) == Some(which) => {
+            edited(&which.under(&Reading::default()), edit)
+        }
+        _ => which.under(&reading),
+    };
+    let settings = if rng.u8(..4) == 0 { any_settings(rng) } else { settings(&reading) };
+    let case = |which: Which, argument: Value| Case {
+        listing: text(which),
+        around: Around::Scene(sheet.clone()),
+        settings: settings.clone(),
+        arguments: vec![argument],
+    };
+    let c_cnt = case(Which::CCnt, Value::from(&node_n));
+    let none = || Value::from(&Table::filled(sheet.R(), 4, 0.0));
+    let pairs = c_cnt.execute(|_| ()).map_or_else(|_| none(), |(k_cnt, _)| k_cnt);
+    [c_cnt, case(Which::Km, pairs)]
+}
+
+fn any_settings(rng: &mut Rng) -> Settings {
+    Settings {
+        origin: one_of(rng, &[1, 1, 0]),
+        zero_over_zero_is_zero: rng.bool(),
+        exact_boolean: rng.bool(),
+        tiny_is_zero: rng.bool(),
+        conjunction: one_of(rng, Conjunction::ALL),
+        descending_is_empty: rng.bool(),
+        last_if_is_zero: rng.bool(),
+    }
+}
+
+/// A sheet of Mathcad's own constants and these values, and all of them.
+fn defined(
+    values: impl IntoIterator<Item = (&'static str, Value)>,
+) -> (Vec<(&'static str, Value)>, Sheet) {
+    let mut sheet = Sheet::default();
+    let constants =
+        ["π", "e", "deg", "rad"].map(|name| (name, sheet.value(name).expect("a constant")));
+    let values: Vec<_> = values.into_iter().chain(constants).collect();
+    for (name, value) in &values {
+        sheet.define(name, value.clone());
+    }
+    (values, sheet)
+}
+
+/// What stands in quotation marks in the tests of Mathcad's semantics, as programs of x: each of its rules, and
+/// words that are no program.
+fn rules() -> Vec<String> {
+    let tests =
+        [include_str!("mathcad/semantics.rs"), include_str!("mathcad/notation.rs")].concat();
+    let quoted = tests.split('"').skip(1).step_by(2).map(|text| text.replace("\\n", "\n"));
+    let own = "y ← 1 if x = 5\ny ← 2 if x = 4\ny ← 3 otherwise\ny";
+    quoted
+        .chain([own.into()])
+        .map(|text| format!("f(x) :=\n  {}", text.replace('\n', "\n  ")))
+        .collect()
+}
+
+/// The repairs of findings that are edits of a listing.
+fn repairs() -> Vec<&'static str> {
+    let edit = |repair: &Repair| match repair {
+        Repair::Edit { text } => Some(*text),
+        Repair::None { .. } => None,
+    };
+    FINDINGS.iter().filter_map(|finding| edit(&finding.edit)).collect()
+}
+
+/// The corrected programs on a scene, as they are and with each fault: the iterations, and each program
+/// that they call.
+fn corrected(scene: &str) -> Vec<Case> {
+    let sheet = initial(scene);
+    let mut cases = vec![];
+    for edit in [None].into_iter().chain(FAULTS.iter().map(|fault| Some(fault.edit))) {
+        let text = |program: Program| match edit.filter(|edit| concerns(edit, program)) {
+            Some(edit) => edited(&program.listing(), edit),
+            None => program.listing(),
+        };
+        let load = (0..2 * sheet.R()).map(|k| k as f64 - 3.5).collect();
+        let own = [("F", Array::column(load).into()), ("both", Bound::Normal.both().into())];
+        let (values, mut programs) = defined(tables(&sheet).into_iter().chain(own));
+        let others = Program::ALL.iter().map(|program| text(*program));
+        for listing in
+            others.chain([Listing::parse("D", elasticity(sheet.plane)).expect("it is sound")])
+        {
+            programs.define_program(Rc::new(listing));
+        }
+        let around = Around::Sheet(values, Rc::new(programs));
+        let case = |program, arguments| Case {
+            listing: text(program),
+            around: around.clone(),
+            settings: Settings::default(),
+            arguments,
+        };
+        let forces = Array::column(vec![1.0; sheet.cnt.rows()]).into();
+        let c_cnt = case(Program::CCnt, vec![Value::from(&sheet.node), forces]);
+        let pairs = c_cnt.execute(|_| ()).expect("it finds pairs").0;
+        cases.push(case(Program::Normals, vec![Value::from(&sheet.node)]));
+        cases.push(case(Program::Km, vec![pairs.clone()]));
+        cases.push(case(Program::Fm, vec![pairs]));
+        cases.push(case(Program::Iterate, vec![Value::Number(3.0)]));
+        cases.push(c_cnt);
+    }
+    cases
+}
+
+fn concerns(edit: &str, program: Program) -> bool {
+    let range = edit.lines().find(|line| !line.starts_with('#'));
+    range.is_some_and(|range| range.starts_with(&format!("{} line", program.name())))
+}
+
+/// What single characters are changed to.
+const CHARACTERS: &str =
+    "aiknxyRMVWcS_'0123456789.eE+-−·*/^=≠<>≤≥∧∨¬←∈ᵀ|,;:()[]⟨⟩\"#    \n\t&°√∑éπ😀";
+
+/// A text with one character taken away, put in or replaced.
+fn changed(text: &str, rng: &mut Rng) -> String {
+    let mut characters: Vec<char> = text.chars().collect();
+    let at = rng.usize(..characters.len());
+    let other = one_of(rng, &CHARACTERS.chars().collect::<Vec<_>>());
+    match rng.u8(..3) {
+        0 => drop(characters.remove(at)),
+        1 => characters.insert(at, other),
+        _ => characters[at] = other,
+    }
+    characters.into_iter().collect()
+}
+
+fn parse_error(error: &ParseError) -> Json {
+    let ParseError { line, file_line, column, message, .. } = error;
+    json!({ "line": line, "fileLine": file_line, "column": column, "message": message })
+}
+
+/// Writes JSON to a file of the folder.
+fn written(folder: &Path, name: &str, json: &Json) -> String {
+    let path = folder.join(name).to_string_lossy().into_owned();
+    std::fs::write(&path, json.to_string()).expect("a file");
+    path
+}
+
+#[test]
+fn the_page_s_interpreter_has_the_bits_of_this_one() {
+    let mut node = Command::new("node");
+    node.arg("--version");
+    if !is_there(node, "REQUIRE_BROWSER") {
+        eprintln!("node is not installed: the page's interpreter is not run");
+        return;
+    }
+    let mut runner = proptest::test_runner::TestRunner::new(fixed(1));
+    let mut rng = Rng::with_seed(46);
+    let mut cases: Vec<Case> = (0..SCENES).flat_map(|_| drawn(&mut runner, &mut rng)).collect();
+    cases.extend(["fig1", "two-blocks"].into_iter().flat_map(corrected));
+    let mut texts = vec![];
+    let mut read = |name: &str, text: &str| {
+        let read = Listing::parse(name, text);
+        texts.push(
+            json!({ "name": name, "text": text, "error": read.as_ref().err().map(parse_error) }),
+        );
+        read.ok()
+    };
+    for _ in 0..EDITED {
+        let which = one_of(&mut rng, Which::ALL);
+        let text = changed(which.text(), &mut rng);
+        let [c_cnt, km] = drawn(&mut runner, &mut rng);
+        let scene = if which == Which::Km { km } else { c_cnt };
+        let listing = read(which.name(), &text);
+        cases.extend(listing.map(|listing| Case {
+            listing,
+            settings: Settings::default(),
+            ..scene
+        }));
+        let program = one_of(&mut rng, Program::ALL);
+        read(program.name(), &changed(program.text(), &mut rng));
+    }
+    let matrix = Array::from_fn(2, 2, |i, j| (2 * i + j + 1) as f64);
+    let (values, sheet) =
+        defined([("v", Array::column(vec![1.0, 2.0, 3.0]).into()), ("m", matrix.into())]);
+    let around = Around::Sheet(values, Rc::new(sheet));
+    for text in rules() {
+        read("f", &changed(&text, &mut rng));
+        let Some(listing) = read("f", &text) else { continue };
+        for settings in [Settings::default(), any_settings(&mut rng)] {
+            let (listing, around, arguments) =
+                (listing.clone(), around.clone(), vec![Value::Number(5.0)]);
+            cases.push(Case { listing, around, settings, arguments });
+        }
+    }
+    let folder = TempDir::new().expect("a folder");
+    let known = json!({ "functions": unsupported::FUNCTIONS, "units": unsupported::UNITS });
+    let path = folder.path();
+    let files = [
+        written(path, "interpreter", &json!(INTERPRETER.join("\n"))),
+        written(path, "known", &known),
+        written(path, "cases", &cases.iter().map(Case::json).collect()),
+        written(path, "texts", &json!(texts)),
+    ];
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fidelity/page_interpreter.cjs");
+    let output = Command::new("node").arg(script).args(files).output().expect("node starts");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    let said: Json = serde_json::from_str(&said).expect("JSON");
+    if let Some([case, step]) = said["differs"]
+        .as_array()
+        .map(|at| [0, 1].map(|k| at[k].as_u64().expect("a number") as usize))
+    {
+        panic!("{}", difference(&cases[case], step, &said));
+    }
+    println!("{said}");
+    let count = |name: &str| said[name].as_u64().expect("a number");
+    assert_eq!(said["texts"], json!([]), "texts that are not read alike");
+    assert!(count("same") > SCENES as u64 && count("failed") > SCENES as u64, "{said}");
+    assert!(count("refused") > EDITED as u64 && count("limited") < 20, "{said}");
+    // The functions and powers that the page does not have.
+    assert!(count("beyond") < 120, "{said}");
+}
+
+/// Says where the page's interpreter differs, and what this one has there.
+fn difference(case: &Case, step: usize, said: &Json) -> String {
+    let mut ours = vec![];
+    let end = case.execute(|done| ours.push(done.clone()));
+    let mut words = String::new();
+    writeln!(words, "{} under {:?}, step {step}", case.listing.name(), case.settings)
+        .expect("a text");
+    writeln!(words, "{}", case.listing).expect("a text");
+    writeln!(words, "here: {:?}", ours.get(step)).expect("a text");
+    let end = end.map(|(value, _)| value.kind()).map_err(|failure| failure.to_string());
+    writeln!(words, "it ends with {end:?}").expect("a text");
+    writeln!(words, "in the page: {}", said["page"].as_str().unwrap_or_default()).expect("a text");
+    words
+}
