@@ -17,7 +17,7 @@ use plane_contact::report::{
 use plane_contact::studies::audit::claims::{CLAIMS, Claim, by_reading};
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
-use plane_contact::studies::audit::prices;
+use plane_contact::studies::audit::prices::{self, Compared};
 use plane_contact::studies::audit::range::range;
 use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
@@ -129,17 +129,22 @@ fn prices(args: &Args) -> Result<()> {
     args.tables.check("audit")?;
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     memory::check(scene.model.nodes.len(), 2, memory::free())?;
-    let bar = progress(prices::steps(), "run {pos} of {len} {wide_bar} {eta}");
-    let found = prices::prices(&scene, &|| bar.inc(1))?;
+    let compared = Compared::new(&scene)?;
+    let runs = prices::runs() + prices::runs_of_repairs();
+    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let [alone, repairs] = [compared.prices(&|| bar.inc(1)), compared.repairs(&|| bar.inc(1))];
     bar.finish_and_clear();
-    let json = price_report::json(&found, &scene);
+    let document = price_report::Document { prices: &alone, repairs: &repairs };
+    let json = price_report::json(&document, &scene);
     if let Some(out) = &args.out {
-        files::write_all(out, "audit --prices", &[("prices.json", &json)])?;
+        let picture = price_report::picture(&repairs);
+        let files = [("prices.json", &json), ("prices.svg", &picture)];
+        files::write_all(out, "audit --prices", &files)?;
     }
     if args.json {
         return print(&json);
     }
-    args.tables.print("audit", price_report::report(&found, &scene))
+    args.tables.print("audit", price_report::report(&document, &scene))
 }
 
 /// Finds what a register lists under an id.

@@ -78,6 +78,13 @@ impl Edit {
         Ok(())
     }
 
+    /// Returns what the edit changes in the listing of that name.
+    #[must_use]
+    pub fn of(mut self, listing: &str) -> Self {
+        self.changes.retain(|change| change.listing == listing);
+        self
+    }
+
     /// Returns the listing under this reading.
     ///
     /// # Errors

@@ -4,64 +4,108 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
-use super::layout::listed;
+use super::layout::{counted, listed};
 use super::model::{Cell, Report, Table};
 use super::numbers::percent;
+use super::picture::{Axis, Series, Style, chart};
 use problem::scene::Scene;
-use studies::audit::prices::{Outcome, Price};
-
-/// The error below which a fault costs nothing: rounding.
-const NOTHING: f64 = 1e-9;
+use studies::audit::prices::{NOTHING, Outcome, Price};
 
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
-    /// The corrected algorithm, then a fault a row.
-    prices: &'a [Price],
+    /// The corrected algorithm, then a fault put back a row.
+    pub prices: &'a [Price],
+    /// The corrected algorithm with all faults put back, then a repair a row, with those above it.
+    pub repairs: &'a [Price],
 }
 
 /// Returns the prices as JSON.
-pub fn json(prices: &[Price], scene: &Scene) -> String {
-    json::line(Some(scene), &Document { prices })
+pub fn json(document: &Document, scene: &Scene) -> String {
+    json::line(Some(scene), document)
 }
 
-/// Reports the prices: a row for the corrected algorithm and one for each fault.
-pub fn report(prices: &[Price], scene: &Scene) -> Report {
-    let share = |price: &Price, k: usize| {
-        let shares = shares(&price.outcome);
-        shares.map_or(Cell::from("-"), |shares| Cell::decimals(100.0 * rounded(shares[k]), 2))
-    };
-    let table = Table::from_rows(prices.iter())
+/// Reports the prices: a row for the corrected algorithm and one for each fault; then a row for the print
+/// and one for each repair.
+pub fn report(document: &Document, scene: &Scene) -> Report {
+    let Document { prices, repairs } = document;
+    let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.finding.unwrap_or("-"))
-        .column("fault put back", |price| price.fault.clone())
-        .column("ends", |price| ends(&price.outcome))
-        .column("in contact", |price| match &price.outcome {
-            Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
-            Outcome::Failure { .. } => Cell::from("-"),
-        })
-        .column("transmitted load, %", |price| share(price, 0))
-        .column("error in energy, %", |price| share(price, 1))
-        .column("error of largest von Mises stress, %", |price| share(price, 2));
+        .column("fault put back", |price| price.fault.clone());
+    let repaired = Table::from_rows(repairs.iter().enumerate())
+        .column("repairs", |(k, _)| Cell::from(*k))
+        .column("finding repaired", |(_, price)| price.finding.unwrap_or("-"))
+        .column("its fault", |(_, price)| price.fault.clone());
     let failures = prices.iter().filter_map(|price| match &price.outcome {
         Outcome::Failure { failure } => {
             Some(format!("{}: {failure}", price.finding.unwrap_or("corrected")))
         }
         Outcome::Result { .. } => None,
     });
-    let free: Vec<&str> = prices
-        .iter()
-        .filter(|price| shares(&price.outcome).is_some_and(|[_, error, _]| error.abs() <= NOTHING))
-        .filter_map(|price| price.finding)
-        .collect();
+    let free = prices.iter().filter(|price| price.outcome.error() == 0.0);
+    let free: Vec<&str> = free.filter_map(|price| price.finding).collect();
     Report::titled(format!("What the printed faults cost on {}", scene.name))
         .line(
             "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
              back. Errors are against the solution without friction, node to segment, in the \
              initial geometry, on the same mesh.",
         )
-        .table("Prices", table)
+        .table("1. Each fault alone", outcomes(faults, |price| &price.outcome))
         .notes(failures)
         .line(summary(&prices[0].outcome, &free))
+        .table(
+            "2. From the print, repair by repair: each time the one that leaves the least error",
+            outcomes(repaired, |(_, price)| &price.outcome),
+        )
+        .line(way(repairs))
+}
+
+/// Adds the columns of what came of a run.
+fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) -> Table<Vec<R>> {
+    let share = move |row: &R, k: usize| {
+        let shares = shares(outcome(row));
+        shares.map_or(Cell::from("-"), |shares| Cell::decimals(100.0 * rounded(shares[k]), 2))
+    };
+    table
+        .column("ends", move |row| ends(outcome(row)))
+        .column("in contact", move |row| match outcome(row) {
+            Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
+            Outcome::Failure { .. } => Cell::from("-"),
+        })
+        .column("transmitted load, %", move |row| share(row, 0))
+        .column("error in energy, %", move |row| share(row, 1))
+        .column("error of largest von Mises stress, %", move |row| share(row, 2))
+}
+
+/// Says how many repairs the way from the print takes, and which of all gain nothing in this order.
+fn way(repairs: &[Price]) -> String {
+    let error = |price: &Price| price.outcome.error();
+    let exact = repairs.iter().rposition(|price| error(price) != 0.0).map_or(0, |k| k + 1);
+    if exact == repairs.len() {
+        return "The repairs do not lead to the solution on this scene.".into();
+    }
+    let gains_nothing = |pair: &&[Price]| error(&pair[1]) >= error(&pair[0]) - NOTHING;
+    let idle = repairs.windows(2).filter(gains_nothing).filter_map(|pair| pair[1].finding);
+    let idle: Vec<&str> = idle.collect();
+    let idle = match &idle[..] {
+        [] => "Each of them gains something.".into(),
+        idle => format!("Without gain in this order: {}.", listed(idle)),
+    };
+    let exact = counted(exact, "repair", "repairs");
+    format!("The solution is reached after {exact}. {idle}")
+}
+
+/// Draws the error in energy against the number of repairs.
+pub fn picture(repairs: &[Price]) -> String {
+    let points = repairs.iter().enumerate().map(|(k, price)| [k as f64, 100.0 * price.outcome.error()]);
+    let points = points.filter(|[_, error]| error.is_finite() && *error > 0.0).collect();
+    let name = "error".to_string();
+    let x = Axis { label: "repairs", logarithmic: false };
+    let y = Axis { label: "error in energy, %", logarithmic: true };
+    let named = repairs.iter().enumerate().skip(1).map(|(k, price)| format!("{k} {}", price.finding.unwrap_or("-")));
+    let caption = format!("Repairs, in this order: {}. {}", listed(named), way(repairs));
+    let series = Series { name, points, style: Style::Dotted };
+    chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
 }
 
 /// Says whether the corrected algorithm holds on the scene, and which faults cost nothing.

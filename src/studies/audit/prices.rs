@@ -1,5 +1,7 @@
-//! What the printed faults cost: the corrected algorithm of `listings/corrected/`, and the same with one
-//! fault put back at a time, against the solution of the same conditions.
+//! What the printed faults cost, against the solution of the same conditions: the corrected algorithm of
+//! `listings/corrected/` with one fault put back at a time, and with all of them, repaired one at a time.
+
+use std::collections::BTreeSet;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -8,20 +10,21 @@ use serde::Serialize;
 
 use engine::error::Error;
 use engine::{Request, Solution, Stiffness, over, solve};
-use paper::corrected::{self, Bound, Ending, FAULTS, STEPS, iterate};
-use problem::model::{Model, TriangleId};
+use paper::corrected::{self, Bound, Ending, FAULTS, Fault, STEPS, iterate};
+use problem::model::{Model, NodeId, TriangleId};
 use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Scene;
 
-/// A run of the corrected algorithm.
+/// The relative error that is rounding, and costs nothing.
+pub const NOTHING: f64 = 1e-9;
+
+/// A run of the corrected algorithm, with faults.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Price {
-    /// The finding whose fault was put back; nothing for the corrected algorithm itself.
+    /// The finding whose fault was put back, or repaired; nothing for the run before the first.
     pub finding: Option<&'static str>,
     /// The fault, in words.
     pub fault: String,
-    /// The components of displacement that a node in contact shares with its target.
-    pub bound: Bound,
     /// What came of the run.
     #[serde(flatten)]
     pub outcome: Outcome,
@@ -39,7 +42,7 @@ pub enum Outcome {
         is_settled: bool,
         /// The contact nodes in contact at the end.
         in_contact: usize,
-        /// The force that contact passes on along the load, over the load.
+        /// The component along the load of the force that reaches the target, over the load.
         transmitted: f64,
         /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution without friction.
         energy_relative: f64,
@@ -54,40 +57,106 @@ pub enum Outcome {
     },
 }
 
-/// The runs that [`prices`] makes.
-pub fn steps() -> usize {
-    FAULTS.len() + 2
+impl Outcome {
+    /// Returns the error in the energy norm, relative, 0 where it is rounding; infinite where the run
+    /// stopped.
+    pub fn error(&self) -> f64 {
+        match self {
+            Outcome::Result { energy_relative: error, .. } if *error <= NOTHING => 0.0,
+            Outcome::Result { energy_relative, .. } => *energy_relative,
+            Outcome::Failure { .. } => f64::INFINITY,
+        }
+    }
 }
 
-/// Runs the corrected algorithm on a scene along the normal, with each fault put back, and with both
-/// components bound, as eq. (1) says. `watch` is called after each run.
-///
-/// # Errors
-/// The scene has no contact or lists a contact node twice, or there is no solution without friction in
-/// the initial geometry with which they are compared.
-pub fn prices(scene: &Scene, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, Error> {
-    corrected::check(&scene.model)?;
-    let reference = Request::new(scene).reference();
-    let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
-    let exact = solve(&reference.contact(contact), &mut |_| ())?;
-    let stiffness = Stiffness::new(&exact.model, |x| x);
-    let none = (None, "none".to_string(), Bound::Normal, &[][..]);
-    let faults: Vec<_> = FAULTS.iter().map(|fault| (fault, [fault.edit])).collect();
-    let faulty = faults
-        .iter()
-        .map(|(fault, edits)| (Some(fault.finding), fault.words(), Bound::Normal, &edits[..]));
-    let tied = "eq. (1) binds both components: no node in contact slides";
-    let both = (Some("K9"), tied.to_string(), Bound::Both, &[][..]);
-    let runs: Vec<_> = [none].into_iter().chain(faulty).chain([both]).collect();
-    let price = |(finding, fault, bound, edits): (Option<&'static str>, String, Bound, &[&str])| {
-        let outcome = match iterate(&exact.model, bound, edits, STEPS) {
-            Ok(ending) => result(&exact, &stiffness, &ending),
-            Err(failure) => Outcome::Failure { failure: failure.to_string() },
+/// A scene, and the solution with which the runs are compared.
+pub struct Compared {
+    exact: Solution,
+    stiffness: Stiffness,
+}
+
+impl Compared {
+    /// Solves a scene without friction, node to segment, in the initial geometry.
+    ///
+    /// # Errors
+    /// The scene has no contact or lists a contact node twice, or there is no such solution.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        corrected::check(&scene.model)?;
+        let reference = Request::new(scene).reference();
+        let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
+        let exact = solve(&reference.contact(contact), &mut |_| ())?;
+        let stiffness = Stiffness::new(&exact.model, |x| x);
+        Ok(Compared { exact, stiffness })
+    }
+
+    /// Runs the corrected algorithm along the normal, then with each fault put back, in the order of
+    /// [`FAULTS`]. `watch` is called after each of the [`runs`].
+    pub fn prices(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
+        let faults = FAULTS.par_iter().map(Some);
+        let runs = rayon::iter::once(None).chain(faults).map(|fault| {
+            let outcome = self.run(fault.into_iter());
+            watch();
+            price(fault, outcome)
+        });
+        runs.collect()
+    }
+
+    /// Runs the corrected algorithm with all faults put back, then repairs one at a time: of those that
+    /// are left the one that leaves the least error, and the first in [`FAULTS`] of those that leave the
+    /// same. `watch` is called after each of the [`runs_of_repairs`].
+    pub fn repairs(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
+        let run = |faults: &mut dyn Iterator<Item = &Fault>| {
+            let outcome = self.run(faults);
+            watch();
+            outcome
         };
-        watch();
-        Price { finding, fault, bound, outcome }
-    };
-    Ok(runs.into_par_iter().map(price).collect())
+        let mut left: Vec<&'static Fault> = FAULTS.iter().collect();
+        let mut repaired = vec![price(None, run(&mut left.iter().copied()))];
+        while !left.is_empty() {
+            let without = |k: usize| {
+                let others = left.iter().enumerate().filter(move |(other, _)| *other != k);
+                run(&mut others.map(|(_, fault)| *fault))
+            };
+            let mut outcomes: Vec<Outcome> = (0..left.len()).into_par_iter().map(without).collect();
+            // Rounding is not to decide which comes first.
+            let error = |k: &usize| (outcomes[*k].error() / NOTHING).round();
+            let best = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
+            let best = best.expect("a fault is left");
+            repaired.push(price(Some(left.remove(best)), outcomes.swap_remove(best)));
+        }
+        repaired
+    }
+
+    /// Runs the corrected algorithm with faults put back.
+    fn run<'a>(&self, faults: impl Iterator<Item = &'a Fault>) -> Outcome {
+        let model = &*self.exact.model;
+        let edits: Vec<&str> = faults.map(|fault| fault.edit).collect();
+        match iterate(model, Bound::Normal, &edits, STEPS) {
+            Ok(ending) if ending.u.iter().all(|x| x.abs() <= model.bounds().larger_side()) => {
+                result(&self.exact, &self.stiffness, &ending)
+            }
+            Ok(_) => {
+                let failure = "a body is free to move: it moves by more than the size of the model";
+                Outcome::Failure { failure: failure.into() }
+            }
+            Err(failure) => Outcome::Failure { failure: failure.to_string() },
+        }
+    }
+}
+
+fn price(fault: Option<&Fault>, outcome: Outcome) -> Price {
+    let words = fault.map_or("none".into(), Fault::words);
+    Price { finding: fault.map(|fault| fault.finding), fault: words, outcome }
+}
+
+/// The runs that [`Compared::prices`] makes.
+pub fn runs() -> usize {
+    1 + FAULTS.len()
+}
+
+/// The runs that [`Compared::repairs`] makes.
+pub fn runs_of_repairs() -> usize {
+    1 + FAULTS.len() * (FAULTS.len() + 1) / 2
 }
 
 fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {
@@ -112,12 +181,12 @@ fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {
     }
 }
 
-/// Returns the component along the load of the forces on the contact nodes, over the load.
+/// Returns the component along the load of the forces of contact on the target, over the load.
 fn transmitted(model: &Model, forces: &DVector<f64>) -> f64 {
-    let [x, y] = model.total_load();
-    let along = model.contact.nodes.iter().map(|node| {
-        let [fx, fy] = node.components(forces);
-        fx * x + fy * y
-    });
-    over(-along.sum::<f64>(), x * x + y * y)
+    let load = model.total_load();
+    let surface: BTreeSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    let dofs = surface.iter().flat_map(|node| node.dofs());
+    let free = dofs.filter(|dof| !model.restrained[dof.index()]);
+    let along = free.map(|dof| forces[dof.index()] * load[dof.direction()]);
+    over(along.sum::<f64>(), load[0] * load[0] + load[1] * load[1])
 }
