@@ -75,7 +75,8 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range", "reading"])]
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
-    /// back, and show what each costs; takes a minute on strand.
+    /// back, and show what each costs; then, from the print, one repair after the other. It takes
+    /// minutes on strand.
     #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses", "reading"])]
     prices: bool,
     #[command(flatten)]
