@@ -201,5 +201,7 @@ fn sheet(model: &Model, bound: Bound, edits: &[&str]) -> Sheet {
 fn program(program: Program, edits: &[&str]) -> Listing {
     let parse = |edit: &&str| Edit::parse(edit).expect("the edits in listings are sound");
     let own = edits.iter().rev().map(|edit| parse(edit).of(program.name()));
-    own.fold(program.listing(), |listing, edit| edit.apply(&listing).expect("the edits fit the texts"))
+    own.fold(program.listing(), |listing, edit| {
+        edit.apply(&listing).expect("the edits fit the texts")
+    })
 }

@@ -97,12 +97,17 @@ fn way(repairs: &[Price]) -> String {
 
 /// Draws the error in energy against the number of repairs.
 pub fn picture(repairs: &[Price]) -> String {
-    let points = repairs.iter().enumerate().map(|(k, price)| [k as f64, 100.0 * price.outcome.error()]);
+    let points =
+        repairs.iter().enumerate().map(|(k, price)| [k as f64, 100.0 * price.outcome.error()]);
     let points = points.filter(|[_, error]| error.is_finite() && *error > 0.0).collect();
     let name = "error".to_string();
     let x = Axis { label: "repairs", logarithmic: false };
     let y = Axis { label: "error in energy, %", logarithmic: true };
-    let named = repairs.iter().enumerate().skip(1).map(|(k, price)| format!("{k} {}", price.finding.unwrap_or("-")));
+    let named = repairs
+        .iter()
+        .enumerate()
+        .skip(1)
+        .map(|(k, price)| format!("{k} {}", price.finding.unwrap_or("-")));
     let caption = format!("Repairs, in this order: {}. {}", listed(named), way(repairs));
     let series = Series { name, points, style: Style::Dotted };
     chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
