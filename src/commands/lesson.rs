@@ -75,11 +75,14 @@ fn lesson(args: &Args) -> Result<String> {
         asked.push(Switch::edited("edited", about, edited.which, edited.listing()));
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
-        let run = |switch: Switch| execute(&scene, switch, &args.nodes);
-        let mut runs = asked.into_iter().map(run).collect::<Result<Vec<_>>>()?;
-        // What a page cannot show under a reading, as R1 = inside on many nodes, is not offered.
-        runs.extend(switches(&scene).into_iter().skip(1).filter_map(|switch| run(switch).ok()));
-        let own = Chapter { runs, finding: None, scene };
+        // Refuses what a page cannot show.
+        for switch in asked.clone() {
+            execute(&scene, switch, &args.nodes)?;
+        }
+        let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
+        let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
+        let (runs, nodes) = (runs.collect(), args.nodes.clone());
+        let own = Chapter { runs, nodes, finding: None, scene: scene.clone() };
         std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
     })?;
     Ok(page::html(&chapters))
@@ -88,8 +91,8 @@ fn lesson(args: &Args) -> Result<String> {
 /// Returns the chapter of a finding, on the smallest scene that shows it.
 fn chapter(finding: &'static Finding) -> Result<Chapter> {
     let case = Case::new(finding.scene());
-    let runs = study::chapter(finding).into_iter();
-    let runs = runs.map(|switch| execute(&case.scene, switch, &[])).collect::<Result<_>>()?;
+    let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
+    let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
     let measured = finding.measure(&case);
-    Ok(Chapter { runs, finding: Some((finding, measured)), scene: case.scene })
+    Ok(Chapter { runs, nodes: vec![], finding: Some((finding, measured)), scene: case.scene })
 }

@@ -1,30 +1,31 @@
-//! The page of a lesson.
+//! The page of a lesson, which executes the listings itself.
 //!
-//! Its data: `scenes`, each with its mesh and its `runs`; a run has the programs `c_cnt` and `Km`,
-//! each with its lines and its steps. What repeats stands once and is named by its place: `names`
-//! and `values`, `accesses` (a name and a value), `steps` (line, what decided it, reads, writes).
+//! Its data: `scenes`, each with its `runs`; a run has its mesh, its settings and its two listings. What
+//! repeats stands once and is named by its place: `meshes` and `listings`.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::Page;
+use super::{INTERPRETER, Page};
 use crate::audit::FindingRow;
 use crate::json::document;
-use crate::picture::points;
-use mathcad::Listing;
-use problem::model::Model;
+use mathcad::unsupported::{FUNCTIONS, UNITS};
+use paper::listings::Which;
+use problem::model::{Element, Model};
 use problem::scene::Scene;
 use studies::audit::findings::{Evidence, Finding};
-use studies::audit::trace::{Access, Step};
-use studies::lesson::{Program, Run, figure_numbers};
+use studies::lesson::{Switch, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
     /// The scene on which the listings are run.
     pub scene: Scene,
-    /// The runs: as printed, then with each switch.
-    pub runs: Vec<Run>,
+    /// The runs, each with its model: as printed, then with each switch.
+    pub runs: Vec<(Switch, Arc<Model>)>,
+    /// The contact nodes whose turns are shown; none for all.
+    pub nodes: Vec<usize>,
     /// What the scene is there to show, and what was measured on it.
     pub finding: Option<(&'static Finding, Evidence)>,
 }
@@ -36,25 +37,26 @@ pub fn html(chapters: &[Chapter]) -> String {
     let scenes: Vec<Value> = chapters.iter().map(|chapter| shared.chapter(chapter)).collect();
     let own = json!({
         "scenes": scenes,
-        "names": shared.names.items,
-        "values": shared.values.items,
-        "accesses": shared.accesses.items,
-        "steps": shared.steps.items,
+        "meshes": shared.meshes.items,
+        "listings": shared.listings.items,
+        "known": { "functions": FUNCTIONS, "units": UNITS },
     });
+    let script = [
+        include_str!("lesson/worksheet.js"),
+        include_str!("lesson/machine.js"),
+        include_str!("lesson/listing.js"),
+        include_str!("lesson/scene.js"),
+        include_str!("lesson/matrix.js"),
+        include_str!("lesson/tables.js"),
+        include_str!("lesson/questions.js"),
+        include_str!("lesson/chapters.js"),
+        include_str!("lesson/lesson.js"),
+    ];
     Page {
         title: &format!("Lesson: {}", scene.title),
         body: include_str!("lesson/body.html"),
         style: include_str!("lesson/lesson.css"),
-        script: &[
-            include_str!("lesson/machine.js"),
-            include_str!("lesson/listing.js"),
-            include_str!("lesson/scene.js"),
-            include_str!("lesson/matrix.js"),
-            include_str!("lesson/tables.js"),
-            include_str!("lesson/questions.js"),
-            include_str!("lesson/chapters.js"),
-            include_str!("lesson/lesson.js"),
-        ],
+        script: &[&INTERPRETER[..], &script].concat(),
         data: &document(Some(scene), &own),
     }
     .html()
@@ -78,88 +80,72 @@ impl DistinctValues {
     }
 }
 
-/// What the steps of all runs share.
+/// What the runs share.
 #[derive(Default)]
 struct Shared {
-    names: DistinctValues,
-    values: DistinctValues,
-    accesses: DistinctValues,
-    steps: DistinctValues,
+    meshes: DistinctValues,
+    listings: DistinctValues,
 }
 
 impl Shared {
     fn chapter(&mut self, chapter: &Chapter) -> Value {
-        let runs: Vec<Value> = chapter.runs.iter().map(|run| self.run(run)).collect();
+        let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model));
         json!({
             "name": chapter.scene.name,
             "title": chapter.scene.title,
             "units": chapter.scene.units,
-            "mesh": mesh(&chapter.runs[0].model),
-            "runs": runs,
+            "runs": runs.collect::<Vec<_>>(),
+            "nodes": chapter.nodes,
             "finding": chapter.finding.as_ref().map(|(finding, measured)| FindingRow::new(finding, measured)),
         })
     }
 
-    fn run(&mut self, run: &Run) -> Value {
-        json!({
-            "name": run.switch.name,
-            "about": run.switch.about,
-            "c_tll": run.model.contact.tolerance,
-            "programs": {
-                "c_cnt": run.c_cnt.as_ref().map(|c_cnt| self.program(c_cnt)),
-                "Km": run.km.as_ref().map(|km| self.program(km)),
-            },
-        })
-    }
-
-    fn program(&mut self, program: &Program) -> Value {
-        let Program { listing, trace } = program;
-        let mut turns: Vec<(usize, Option<usize>)> = Vec::new();
-        for (place, step) in trace.steps.iter().enumerate() {
-            if turns.last().is_none_or(|(_, turn)| *turn != step.turn) {
-                turns.push((place, step.turn));
-            }
-        }
-        let lines = listing.lines().iter().map(|line| (line.printed, line.level, &line.text));
-        let steps: Vec<usize> = trace.steps.iter().map(|step| self.step(listing, step)).collect();
-        json!({
-            "lines": lines.collect::<Vec<_>>(),
-            "steps": steps,
-            "turns": turns,
-            "failure": trace.result.as_ref().err().map(ToString::to_string),
-        })
-    }
-
-    fn step(&mut self, listing: &Listing, step: &Step) -> usize {
-        let own = |line: &mathcad::Line| (line.printed, line.in_file) == (step.line, step.in_file);
-        let line = listing.lines().iter().position(own).expect("a step is of a line");
-        let mut all = |accesses: &[Access]| -> Vec<usize> {
-            accesses.iter().map(|access| self.access(access)).collect()
+    fn run(&mut self, switch: &Switch, model: &Model) -> Value {
+        let mut listing = |which: Which| {
+            let listing = switch.listing(which);
+            let lines = listing.lines().iter();
+            let lines = lines.map(|line| (line.printed, line.in_file, line.level, &line.text));
+            self.listings.index(json!(lines.collect::<Vec<_>>()))
         };
-        let (mut reads, writes) = (all(&step.reads), all(&step.writes));
-        // An access that is read twice in a step is shown once.
-        let mut seen = std::collections::HashSet::new();
-        reads.retain(|read| seen.insert(*read));
-        self.steps.index(json!([line, step.held, step.operands, reads, writes]))
-    }
-
-    fn access(&mut self, access: &Access) -> usize {
-        let name = self.names.index(access.name.clone().into());
-        let value = self.values.index(access.value.clone());
-        self.accesses.index(json!([name, value]))
+        json!({
+            "name": switch.name,
+            "about": switch.about,
+            "c_cnt": listing(Which::CCnt),
+            "Km": listing(Which::Km),
+            "settings": switch.settings(),
+            "c_tll": model.contact.tolerance,
+            "plane": model.plane,
+            "mesh": self.meshes.index(mesh(model)),
+        })
     }
 }
 
-/// Returns what is drawn of a model; nodes and triangles are counted from 1.
+/// Returns a model's mesh, from which the page makes the worksheet's tables and draws it; nodes and
+/// triangles are counted from 1.
 fn mesh(model: &Model) -> Value {
     let body = |id| model.bodies.iter().position(|body| body.triangles.contains(&id));
-    let triangles = model.triangle_ids().map(|id| (model.triangle(id).nodes, body(id)));
+    let triangle = |id| {
+        let triangle = model.triangle(id);
+        (triangle.nodes, body(id), triangle.material.e, triangle.material.nu)
+    };
+    let rows = model.rows.iter().map(|row| {
+        let (kind, nodes) = match &row.element {
+            Element::Point(node) => (15, vec![*node]),
+            Element::Edge(id) => (1, model.edge(*id).nodes.to_vec()),
+            Element::Triangle(id) => (2, model.triangle(*id).nodes.to_vec()),
+        };
+        (row.number, kind, row.physical, row.geometric, nodes)
+    });
     let edges = model.target_edges().map(|edge| (edge.number, edge.nodes));
     let restrained = model.node_ids().map(|node| model.restraints_of(node));
     let target = model.target().map(|target| target.nodes[0]);
     json!({
-        "nodes": points(model),
-        "triangles": triangles.collect::<Vec<_>>(),
+        "nodes": model.nodes,
+        "z": model.z,
+        "dropped": model.dropped,
+        "thickness": model.thickness,
+        "rows": rows.collect::<Vec<_>>(),
+        "triangles": model.triangle_ids().map(triangle).collect::<Vec<_>>(),
         "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
         "target": model.bodies.iter().position(|b| target.is_some_and(|node| b.has(node))),
         "contact": model.contact.nodes,

@@ -104,7 +104,10 @@ impl Switch {
     }
 
     /// Returns the scene's model under the switch.
-    pub(super) fn model(&self, scene: &Scene) -> Result<Arc<Model>> {
+    ///
+    /// # Errors
+    /// The plane problem of R6 does not allow a Poisson's ratio.
+    pub fn model(&self, scene: &Scene) -> Result<Arc<Model>> {
         let mut request = Request::new(scene).variant(Variant::Printed).reading(self.reading);
         request.tolerance = Some(self.factor * scene.model.contact.tolerance);
         let mut model = Arc::unwrap_or_clone(request.model()?);
@@ -112,14 +115,16 @@ impl Switch {
         Ok(Arc::new(model))
     }
 
-    pub(super) fn listing(&self, which: Which) -> Listing {
+    /// Returns a listing under the switch.
+    pub fn listing(&self, which: Which) -> Listing {
         match &self.edited {
             Some((edited, listing)) if *edited == which => listing.clone(),
             _ => which.under(&self.reading),
         }
     }
 
-    pub(super) fn settings(&self) -> Settings {
+    /// Returns the worksheet's settings under the switch.
+    pub fn settings(&self) -> Settings {
         let mut settings = settings(&self.reading);
         self.worksheet.set(&mut settings);
         settings

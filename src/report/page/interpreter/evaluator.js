@@ -32,9 +32,9 @@ class Recorder {
   }
 }
 
-/** What a run may take: statements, turns of loops and terms together; numbers of one array; calls within
- * each other. */
-const LIMITS = { steps: 20_000, entries: 1 << 20, calls: 60 };
+/** What a run may take: statements and turns of loops together; of these, kept by a recorder; numbers of one
+ * array; calls within each other. */
+const LIMITS = { steps: 20_000, kept: Infinity, entries: 1 << 20, calls: 60 };
 
 /** How much of a step a range may pass its end by: rounding's. */
 const RANGE_END = 1e-12;
@@ -70,6 +70,7 @@ class Run {
   spend() {
     this.count.steps += 1;
     if (this.count.steps > this.limits.steps) throw this.failure(overLimit(this.limits.steps, "steps"));
+    if (this.recorder?.steps.length > this.limits.kept) throw this.failure(overLimit(this.limits.kept, "statements shown"));
   }
 
   /** Checks that an array of so many numbers, of such a depth, may be. */

@@ -20,8 +20,7 @@ function worksheetOf(tables, plane, known) {
 
 /** Executes a listing on its argument. Returns its steps, its output, its value and the values of the names
  * that it wrote, or the failure that stopped it. */
-function executed(listing, worksheet, settings, values, limits = LIMITS) {
-  const recorder = new Recorder(listing.lines);
+function executed(listing, worksheet, settings, values, limits = LIMITS, recorder = new Recorder(listing.lines)) {
   const run = new Run(listing, worksheet, settings, { recorder, limits });
   const done = { steps: recorder.steps, output: run.output, locals: run.values, failure: null };
   try {

@@ -28,11 +28,12 @@ function changes(before, after) {
 const MOST_CHANGES = 12;
 
 /** Shows what the run changes against the listings as printed. */
-function showChanges(chapter, run) {
+function showChanges(run, programs) {
   const place = byId("changes");
-  place.hidden = run === chapter.runs[0];
+  const printed = chapter().runs[0];
+  place.hidden = run === printed;
   if (place.hidden) return;
-  const changed = changes(results(chapter.runs[0].programs), results(run.programs));
+  const changed = changes(results(programsOf(printed)), results(programs));
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
     make("tr", {}, make("th", { scope: "row" }, name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
   );

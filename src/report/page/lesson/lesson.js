@@ -5,17 +5,20 @@ const page = { chapter: 0, run: 0, which: "c_cnt" };
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
+const meshOf = (run) => new Mesh(data.meshes[run.mesh], chapter().units);
+const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
+
 /** A program that is not called. */
-const NOTHING = { lines: [], steps: [], turns: [] };
+const NOTHING = { lines: [], steps: [], failure: null };
 
 /** Chooses scene, run and listing. Under another reading of the same listing the place stays. */
 function choose(change) {
   const at = page.machine?.at ?? 0;
   Object.assign(page, change);
-  page.mesh = new Mesh(chapter());
-  const { c_cnt, Km } = run().programs;
-  page.pairs = new Machine(c_cnt ?? NOTHING);
-  page.machine = page.which === "Km" ? new Machine(Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
+  page.mesh = meshOf(run());
+  page.programs = programsOf(run());
+  page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
+  page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, page.pairs);
   page.map = new MatrixMap(page.mesh, page.machine);
@@ -24,9 +27,9 @@ function choose(change) {
   byId("about").textContent = `Scene ${chapter().name}. Reading: ${run().name} (${run().about}).`;
   byId("turn").textContent = page.which === "Km" ? "element" : "node";
   byId("turn").title = page.which === "Km" ? "Run to the next element (N)" : "Run to the next contact node (N)";
-  showLines(page.machine, chapter().runs[0].programs[page.which] ?? NOTHING, (line) => go(page.machine.runTo(line)));
+  showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
   fillTurns();
-  showChanges(chapter(), run());
+  showChanges(run(), page.programs);
   show();
 }
 
@@ -114,7 +117,7 @@ function openChapter(chapter) {
   const runs = data.scenes[chapter].runs.map(({ name }, k) => make("option", { value: k }, name));
   byId("run").replaceChildren(...runs);
   showFinding(data.scenes[chapter]);
-  const { contact } = data.scenes[chapter].mesh;
+  const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
   const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
   const which = inKm ? "Km" : "c_cnt";

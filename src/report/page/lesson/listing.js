@@ -3,7 +3,7 @@
 /** Builds the lines; the number of a line runs to it. Lines that are not as printed are marked. */
 function showLines(machine, printed, runTo) {
   const list = byId("listing");
-  const known = new Set(printed.lines.map((line) => line.join("\t")));
+  const known = new Set(printed.map(([number, , level, text]) => [number, level, text].join("\t")));
   list.replaceChildren(
     ...machine.lines.map((line, place) => {
       const number = make("button", { "aria-label": `run to line ${line.number}` }, String(line.number));

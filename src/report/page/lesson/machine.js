@@ -1,22 +1,36 @@
 // The steps of a program, forwards and backwards.
 
-/** Opens a step: its line's place, what decided it, what it read and what it wrote. */
-function opened(place) {
-  const [line, held, operands, reads, writes] = data.steps[place];
-  const access = (at) => {
-    const [name, value] = data.accesses[at];
-    return { name: data.names[name], value: data.values[value] };
-  };
-  return { line, held, operands, reads: reads.map(access), writes: writes.map(access) };
+/** What is shown of a value: of a large array, and of one of arrays, only what it is. */
+function shown(value) {
+  if (isNumber(value)) return value;
+  if (!isArrayOfNumbers(value) || value.entries.length > 36) return kindOf(value);
+  const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols);
+  return value.cols === 1 ? value.entries : Array.from({ length: value.rows }, (_, i) => row(i));
+}
+
+/** A step: its line's place, what decided it, what it wrote, and what it read, each value once. */
+class Step {
+  constructor({ line, turn, held, operands, reads, writes }) {
+    Object.assign(this, { line, turn, held, operands, all: reads, writes: writes.map(accessOf) });
+  }
+
+  get reads() {
+    const seen = new Map(this.all.map(accessOf).map((read) => [`${read.name} ${exact(read.value)}`, read]));
+    return [...seen.values()];
+  }
+}
+
+function accessOf({ name, subscripts, value }) {
+  return { name: subscripts.length ? `${name}[${subscripts.join(",")}]` : name, value: shown(value) };
 }
 
 /** A program after some of its steps: `values` has each name and each entry that was written. */
 class Machine {
-  constructor(program) {
-    this.lines = program.lines.map(([number, level, text]) => ({ number, level, text }));
-    this.steps = program.steps.map(opened);
-    this.turns = program.turns.map(([from, turn]) => ({ from, turn }));
-    this.failure = program.failure;
+  constructor({ lines, steps, failure }) {
+    this.lines = lines;
+    this.steps = steps.map((step) => new Step(step));
+    this.turns = this.steps.flatMap(({ turn }, from) => (from === 0 || turn !== this.steps[from - 1].turn ? [{ from, turn }] : []));
+    this.failure = failure && String(failure);
     this.at = 0;
     this.values = new Map();
     this.replaced = [];

@@ -3,15 +3,16 @@
 
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
-  constructor(chapter) {
-    const { nodes, triangles, contact, edges, figure, target, restrained } = chapter.mesh;
-    Object.assign(this, { triangles, contact, edges, target, restrained });
-    this.bodies = chapter.mesh.bodies;
-    this.at = (n) => nodes[n - 1];
+  constructor(own, units) {
+    const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
+    Object.assign(this, { own, triangles, contact, edges, target, restrained, bodies });
+    this.stands = (n) => nodes[n - 1];
+    // A node of no triangle is drawn where another is.
+    this.at = (n) => this.stands(dropped.includes(n) ? triangles[0][0][0] : n);
     this.count = nodes.length;
     this.figure = new Map(figure);
     this.edge = new Map(edges);
-    this.length = chapter.units.length;
+    this.length = units.length;
   }
 
   /** A node's name in the manner of the paper's fig. 1, and its number. */

@@ -1,0 +1,117 @@
+// The worksheet of a run: the tables that the paper has above its listings, made of the mesh.
+
+const words = (text) => new Set(text.split(/\s+/).filter(Boolean));
+const KNOWN = { functions: words(data.known.functions), units: words(data.known.units) };
+
+/** The tables of a mesh (listings/READING.md, section 8); `at(n)` is where node n stands. */
+function tablesOf({ z, thickness, rows, triangles, contact, edges, restrained, nodes }, at, c_tll) {
+  const numbers = nodes.map((_, k) => k + 1);
+  const elem = Array.from({ length: Math.max(...rows.map(([number]) => number)) }, () => Array(8).fill(0));
+  for (const [number, kind, physical, geometric, own] of rows) {
+    [number, kind, 2, physical, geometric, ...own].forEach((x, j) => (elem[number - 1][j] = x));
+  }
+  const corners = triangles.map(([own]) => own.map(at));
+  const column = (list) => list.map((x) => [x]);
+  return {
+    node: numbers.map((n) => [n, ...at(n), z]),
+    elem,
+    EL: rows.filter(([, kind]) => kind === 2).map(([number]) => elem[number - 1]),
+    trg: column(edges.map(([number]) => number)),
+    cnt: column(contact),
+    c_tll,
+    ind_1: 6,
+    R: nodes.length,
+    M: triangles.length,
+    S: column(restrained.flat().map(Number)),
+    Ae: column(corners.map((p) => areaOf(p) * thickness)),
+    B: column(corners.map(strainMatrix)),
+    E: column(triangles.map(([, , e]) => e)),
+    ν: column(triangles.map(([, , , nu]) => nu)),
+  };
+}
+
+/** The signed area of a triangle: negative where its corners run clockwise. */
+const areaOf = ([a, b, c]) => ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
+
+/** The strain matrix of a triangle: strains = B · displacements. */
+function strainMatrix(p) {
+  const doubleArea = areaOf(p) + areaOf(p);
+  const B = [Array(6).fill(0), Array(6).fill(0), Array(6).fill(0)];
+  for (let k = 0; k < 3; k += 1) {
+    const [next, last] = [p[(k + 1) % 3], p[(k + 2) % 3]];
+    const [dx, dy] = [(next[1] - last[1]) / doubleArea, (last[0] - next[0]) / doubleArea];
+    B[0][2 * k] = B[2][2 * k + 1] = dx;
+    B[1][2 * k + 1] = B[2][2 * k] = dy;
+  }
+  return B;
+}
+
+/** What a page shows at most: the statements of a listing. */
+const MOST_SHOWN = { ...LIMITS, steps: 4_000_000, kept: 20_000, entries: 1 << 23 };
+
+/** Keeps the statements of the turns that are shown: over the contact nodes, or over the elements. */
+class TurnRecorder extends Recorder {
+  constructor({ name, lines }, turns) {
+    super(lines);
+    Object.assign(this, { name, turns, turn: null });
+  }
+
+  begin(line) {
+    this.finish();
+    super.begin(line);
+  }
+
+  /** Gives the statement that is done the turn that it begins or belongs to. */
+  finish() {
+    const done = this.steps.at(-1);
+    if (!done || done.turn !== undefined) return;
+    const { text } = this.lines[done.line];
+    const [range, begun] = [text.startsWith("for ") ? text.slice(4) : "", done.writes[0]?.value];
+    const isOuter = this.name === "Km" ? range.startsWith("n ") : range.startsWith("i1 ") && range.includes("rows(cnt)");
+    if (isOuter && isNumber(begun)) this.turn = begun;
+    else if (this.name === "c_cnt" && range.startsWith("i1 ")) this.turn = null;
+    done.turn = this.turn;
+    if (this.turns && !this.turns.has(this.turn)) this.steps.pop();
+  }
+}
+
+/** The two listings of a run, each executed when it is first asked for. */
+class Programs {
+  constructor(run, mesh, shown) {
+    Object.assign(this, { run, mesh, shown, done: new Map() });
+    this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, run.c_tll), run.plane, KNOWN);
+  }
+
+  /** `c_cnt` on the initial shape; nothing without contact. */
+  get c_cnt() {
+    return this.mesh.contact.length ? this.program("c_cnt", () => this.worksheet.values.get("node")) : null;
+  }
+
+  /** `Km` on the pairs that `c_cnt` found; nothing where that stopped. */
+  get Km() {
+    if (this.c_cnt?.failure) return null;
+    return this.program("Km", () => this.c_cnt?.value ?? share(gridFrom(this.mesh.count, 4, () => 0)));
+  }
+
+  program(name, argument) {
+    if (!this.done.has(name)) this.done.set(name, this.execute(name, argument()));
+    return this.done.get(name);
+  }
+
+  execute(name, argument) {
+    const lines = data.listings[this.run[name]].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
+    const listing = readListing(name, lines);
+    const recorder = new TurnRecorder(listing, this.turns(name));
+    const done = executed(listing, this.worksheet, this.run.settings, [argument], MOST_SHOWN, recorder);
+    recorder.finish();
+    return { ...done, name, lines, failure: done.failure ?? unexpected(listing, done) };
+  }
+
+  /** The turns that are shown; nothing for all. */
+  turns(name) {
+    if (this.shown.length === 0) return null;
+    const places = this.mesh.contact.flatMap((n, k) => (this.shown.includes(n) ? [k + 1] : []));
+    const triangles = this.mesh.triangles.flatMap(([nodes], k) => (nodes.some((n) => this.shown.includes(n)) ? [k + 1] : []));
+    return new Set(name === "Km" ? triangles : places);
+  }
+}
