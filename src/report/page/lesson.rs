@@ -50,6 +50,8 @@ pub fn html(chapters: &[Chapter]) -> String {
         include_str!("lesson/tables.js"),
         include_str!("lesson/questions.js"),
         include_str!("lesson/chapters.js"),
+        include_str!("lesson/drag.js"),
+        include_str!("lesson/address.js"),
         include_str!("lesson/lesson.js"),
     ];
     Page {

@@ -131,6 +131,37 @@ async function questions(browser) {
   assert.deepEqual(said, []);
 }
 
+/** The tolerance by its slider, a node by the pointer: the listings run again; the address opens the same. */
+async function changed(browser) {
+  const { page, said } = await open(browser, file);
+  await page.click("#end");
+  const cells = (page) => page.locator("td[data-name]").evaluateAll((all) => all.map((cell) => cell.dataset.exact));
+  const printed = await cells(page);
+  await page.locator("#tolerance").fill("1");
+  assert.equal(await page.textContent("#tolerance-label"), "c_tll 0.01");
+  assert.ok((await cells(page)).includes("dy[4] = 1"), "node 2.4 lies within 0.01");
+  await page.click("#reset");
+  assert.deepEqual(await cells(page), printed);
+  const box = await page.locator("#zone").boundingBox();
+  const places = Array.from({ length: 40 * 40 }, (_, k) => [box.x + ((k % 40) / 40) * box.width, box.y + (Math.floor(k / 40) / 40) * box.height]);
+  for (const place of places) {
+    await page.mouse.move(...place);
+    if ((await page.locator("#zone").evaluate((zone) => zone.style.cursor)) === "grab") break;
+  }
+  const [x, y] = places[0];
+  await page.mouse.down();
+  for (let k = 1; k <= 5; k += 1) await page.mouse.move(x + box.width / 2 + 5 * k, y + box.height / 2 + k);
+  await page.mouse.up();
+  const moved = await cells(page);
+  assert.notDeepEqual(moved, printed);
+  assert.ok((await page.locator("#changes tbody tr").count()) > 0);
+  await page.waitForURL(/moved=\d/);
+  const again = await page.context().newPage();
+  await again.goto(page.url());
+  assert.deepEqual(await cells(again), moved, "the address opens the same situation");
+  assert.deepEqual(said, []);
+}
+
 /** The chapter of each finding, and what its repair changes. */
 async function chapters(browser) {
   const { page, said } = await open(browser, file);
@@ -179,5 +210,5 @@ async function views(browser) {
   });
 }
 
-const tests = [walk, runs, keyboard, hover, readings, questions, chapters, views];
+const tests = [walk, runs, keyboard, hover, readings, questions, changed, chapters, views];
 runAll(tests);

@@ -27,20 +27,20 @@ function changes(before, after) {
 
 const MOST_CHANGES = 12;
 
-/** Shows what the run changes against the listings as printed. */
+/** Shows what the run changes against the listings as printed, on the scene as it was given. */
 function showChanges(run, programs) {
   const place = byId("changes");
   const printed = chapter().runs[0];
-  place.hidden = run === printed;
+  place.hidden = run === printed && !isChanged();
   if (place.hidden) return;
   const changed = changes(results(programsOf(printed)), results(programs));
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
     make("tr", {}, make("th", { scope: "row" }, name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
   );
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
-  const heads = ["", "as printed", run.name].map((text, k) => make("th", { scope: "col" }, k ? text : "name"));
+  const heads = ["", "as printed", isChanged() ? "now" : run.name].map((text, k) => make("th", { scope: "col" }, k ? text : "name"));
   place.replaceChildren(
-    make("h3", {}, `At the end, ${run.name} beside as printed`),
+    make("h3", {}, `At the end, ${run.name}${isChanged() ? " on the changed scene" : ""} beside as printed`),
     ...(changed.length
       ? [
           make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))),

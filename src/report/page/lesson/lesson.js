@@ -1,35 +1,44 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt" };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map() };
 
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
-const meshOf = (run) => new Mesh(data.meshes[run.mesh], chapter().units);
+const meshOf = (run, moved) => new Mesh(data.meshes[run.mesh], chapter().units, moved);
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
+
+/** Whether the tolerance or a node is not as the scene has it. */
+const isChanged = () => page.factor !== 1 || page.moved.size > 0;
 
 /** A program that is not called. */
 const NOTHING = { lines: [], steps: [], failure: null };
 
 /** Chooses scene, run and listing. Under another reading of the same listing the place stays. */
 function choose(change) {
-  const at = page.machine?.at ?? 0;
+  const isEnded = page.machine?.at > 0 && page.machine.at === page.machine.steps.length;
+  const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
-  page.mesh = meshOf(run());
-  page.programs = programsOf(run());
+  page.mesh = meshOf(run(), page.moved);
+  page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
   page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, page.pairs);
   page.map = new MatrixMap(page.mesh, page.machine);
-  page.machine.goTo("which" in change ? 0 : at);
+  page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("about").textContent = `Scene ${chapter().name}. Reading: ${run().name} (${run().about}).`;
+  byId("tolerance").value = Math.log10(page.factor);
+  byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
+  byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
+  byId("reset").disabled = !isChanged();
   byId("turn").textContent = page.which === "Km" ? "element" : "node";
   byId("turn").title = page.which === "Km" ? "Run to the next element (N)" : "Run to the next contact node (N)";
   showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
   fillTurns();
-  showChanges(run(), page.programs);
+  // Beside the arrays it would take half of a move's time.
+  if (!page.dragged) showChanges(run(), page.programs);
   show();
 }
 
@@ -59,8 +68,8 @@ function show() {
   const line = machine.last ? machine.lines[machine.last.line].number : 0;
   const boxed = !inKm && (line === 6 || line === 7);
   if (mesh.contact.length) {
-    drawZone(mesh, pairs, zone, run().c_tll, node, boxed);
-    drawGaps(mesh, pairs, zone, run().c_tll, node);
+    drawZone(mesh, pairs, zone, page.programs.c_tll, node, boxed);
+    drawGaps(mesh, pairs, zone, page.programs.c_tll, node);
   }
   const linked = inKm ? page.map.vector("W").map((e) => Math.ceil(e / 2)) : [];
   drawWhole(mesh, pairs, inKm ? turn : null, linked);
@@ -76,6 +85,7 @@ function show() {
   byId("status").textContent = `step ${machine.at} of ${machine.steps.length}${line ? `, line ${line}` : ""}`;
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
+  keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = machine.at === 0;
   for (const id of ["forward", "over", "decision", "turn", "end"]) byId(id).disabled = ended;
 }
@@ -105,6 +115,10 @@ function watch() {
   byId("chapter").addEventListener("change", (event) => openChapter(Number(event.target.value)));
   byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
   byId("ask").addEventListener("change", show);
+  byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
+  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map() }));
+  window.addEventListener("hashchange", openAddress);
+  watchDrag();
   for (const radio of document.getElementsByName("which")) {
     radio.addEventListener("change", () => choose({ which: radio.value }));
   }
@@ -125,7 +139,7 @@ function openChapter(chapter) {
     radio.checked = radio.value === which;
     radio.disabled = contact.length === 0 && radio.value === "c_cnt";
   }
-  choose({ chapter, run: 0, which });
+  choose({ chapter, run: 0, which, factor: 1, moved: new Map() });
 }
 
 byId("title").textContent = document.title;
@@ -136,4 +150,4 @@ byId("colophon").textContent =
   `plane-contact ${data.version}; scene ${data.scenes[0].name}, SHA-256 ${data.scene_sha256}, mesh ${data.mesh_sha256}.`;
 watch();
 showExactValues();
-openChapter(0);
+openAddress();

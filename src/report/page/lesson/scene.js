@@ -3,10 +3,10 @@
 
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
-  constructor(own, units) {
+  constructor(own, units, moved = new Map()) {
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
     Object.assign(this, { own, triangles, contact, edges, target, restrained, bodies });
-    this.stands = (n) => nodes[n - 1];
+    this.stands = (n) => moved.get(n) ?? nodes[n - 1];
     // A node of no triangle is drawn where another is.
     this.at = (n) => this.stands(dropped.includes(n) ? triangles[0][0][0] : n);
     this.count = nodes.length;
@@ -57,7 +57,8 @@ function view(points, width, height, margin, magnify) {
   const sy = sx * factor;
   const [cx, cy] = [(left + right) / 2, (low + high) / 2];
   const to = ([x, y]) => [width / 2 + (x - cx) * sx, height / 2 - (y - cy) * sy];
-  return { to, factor, sy };
+  const from = ([x, y]) => [cx + (x - width / 2) / sx, cy - (y - height / 2) / sy];
+  return { to, from, factor, sy };
 }
 
 /** Draws a path through points. */
@@ -142,7 +143,9 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const canvas = byId("zone");
   const { context, width, height } = prepared(canvas, Math.max(230, Math.min(340, canvas.clientWidth * 0.6)));
   const points = [...zone.nodes, ...zone.edges.flatMap(([, ends]) => ends)].map(mesh.at);
-  const { to, factor, sy } = view(points, width, height, 42, true);
+  // While a node is dragged the view stays.
+  page.view = page.dragged ? page.view : view(points, width, height, 42, true);
+  const { to, factor, sy } = page.view;
   drawBodies(context, mesh, to);
   for (const [number, ends] of zone.edges) {
     const [a, b] = ends.map((n) => to(mesh.at(n)));
@@ -180,7 +183,8 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const size = factor === 1 ? "To scale." : `Heights are magnified ${short(factor)} times.`;
   byId("zone-caption").textContent =
     `${size} Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10. ` +
-    "Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights.";
+    "Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights." +
+    (mesh.count > MOST_DRAGGED ? "" : " A node can be dragged.");
   canvas.setAttribute("aria-label", `The contact zone: ${nodes.map((n) => `node ${mesh.name(n.node)} ${inWords(n)}`).join("; ")}`);
 }
 

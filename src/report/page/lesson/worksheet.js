@@ -77,9 +77,9 @@ class TurnRecorder extends Recorder {
 
 /** The two listings of a run, each executed when it is first asked for. */
 class Programs {
-  constructor(run, mesh, shown) {
-    Object.assign(this, { run, mesh, shown, done: new Map() });
-    this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, run.c_tll), run.plane, KNOWN);
+  constructor(run, mesh, shown, c_tll = run.c_tll) {
+    Object.assign(this, { run, mesh, shown, c_tll, done: new Map() });
+    this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, c_tll), run.plane, KNOWN);
   }
 
   /** `c_cnt` on the initial shape; nothing without contact. */

@@ -1,0 +1,37 @@
+// The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved nodes.
+
+/** The chapter's name in the address: its finding, or its scene. */
+const nameOf = ({ finding, name }) => finding?.id ?? name;
+
+/** Writes the situation into the address once nothing has changed for a while. */
+function keepAddress() {
+  clearTimeout(page.timer);
+  page.timer = setTimeout(() => {
+    const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
+    const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
+    const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !isChanged();
+    history.replaceState(null, "", isDefault ? " " : `#${new URLSearchParams(fields)}`);
+  }, 300);
+}
+
+/** Opens the situation of the address; what it does not say, or says wrongly, is as at first. */
+function openAddress() {
+  const fields = new URLSearchParams(location.hash.slice(1));
+  const place = (list, name) => Math.max(0, list.findIndex((item) => nameOf(item) === name));
+  openChapter(place(data.scenes, fields.get("chapter")));
+  if (!fields.has("chapter")) return;
+  const which = fields.get("listing") === "Km" || page.mesh.contact.length === 0 ? "Km" : "c_cnt";
+  const factor = Number(fields.get("tolerance"));
+  const nodes = (fields.get("moved") ?? "").split(";").map((text) => text.split(/[:,]/).map(Number));
+  const isMoved = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
+  choose({
+    run: place(chapter().runs, fields.get("run")),
+    which,
+    at: Number(fields.get("step")) || 0,
+    factor: factor >= 0.01 && factor <= 100 ? factor : 1,
+    moved: new Map(nodes.filter(isMoved).map(([n, ...at]) => [n, at])),
+  });
+  byId("chapter").value = page.chapter;
+  byId("run").value = page.run;
+  for (const radio of document.getElementsByName("which")) radio.checked = radio.value === which;
+}
