@@ -257,9 +257,10 @@ fn repairs(repairs: &[Repaired], scene: &Scene) -> Answer {
         question: "Which findings matter here?",
         answer: format!(
             "Fatal (no load passes until Km is repaired of them): {}. Displacements change once the \
-             listing is repaired of it: {shifts}. Harmless here (not triggered, or no displacement \
-             changes): {}. Present, but measured by no repair of a listing: {}. \
-             audit {} --prices puts each fault back into the corrected algorithm.",
+             listing is repaired of it: {shifts}. Not triggered here, or no displacement of the \
+             paper's variants changes: {}. Present, but measured by no repair of a listing: {}. What a \
+             fault costs where the others are repaired, audit {} --prices says: a finding of any of \
+             these lists may cost much there.",
             ids(Weight::Fatal),
             ids(Weight::Harmless),
             ids(Weight::Unmeasured),
