@@ -16,7 +16,8 @@ use studies::audit::prices::{NOTHING, Outcome, Price};
 pub struct Document<'a> {
     /// The corrected algorithm, then a fault put back a row.
     pub prices: &'a [Price],
-    /// The corrected algorithm with all faults put back, then a repair a row, with those above it.
+    /// The corrected algorithm with all faults put back, then a repair a row, with those above it; empty
+    /// where that was not asked for.
     pub repairs: &'a [Price],
 }
 
@@ -25,17 +26,19 @@ pub fn json(document: &Document, scene: &Scene) -> String {
     json::line(Some(scene), document)
 }
 
-/// Reports the prices: a row for the corrected algorithm and one for each fault; then a row for the print
-/// and one for each repair.
+/// Reports the prices: a row for the corrected algorithm and one for each fault; then, where they were
+/// asked for, a row for the print and one for each repair.
 pub fn report(document: &Document, scene: &Scene) -> Report {
     let Document { prices, repairs } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.finding.unwrap_or("-"))
         .column("fault put back", |price| price.fault.clone());
-    let repaired = Table::from_rows(repairs.iter().enumerate())
-        .column("repairs", |(k, _)| Cell::from(*k))
-        .column("finding repaired", |(_, price)| price.finding.unwrap_or("-"))
-        .column("its fault", |(_, price)| price.fault.clone());
+    let repaired = || {
+        Table::from_rows(repairs.iter().enumerate())
+            .column("repairs", |(k, _)| Cell::from(*k))
+            .column("finding repaired", |(_, price)| price.finding.unwrap_or("-"))
+            .column("its fault", |(_, price)| price.fault.clone())
+    };
     let failures = prices.iter().filter_map(|price| match &price.outcome {
         Outcome::Failure { failure } => {
             Some(format!("{}: {failure}", price.finding.unwrap_or("corrected")))
@@ -44,7 +47,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     });
     let free = prices.iter().filter(|price| price.outcome.error() == 0.0);
     let free: Vec<&str> = free.filter_map(|price| price.finding).collect();
-    Report::titled(format!("What the printed faults cost on {}", scene.name))
+    let report = Report::titled(format!("What the printed faults cost on {}", scene.name))
         .line(
             "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
              back. Errors are against the solution without friction, node to segment, in the \
@@ -52,10 +55,17 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         )
         .table("1. Each fault alone", outcomes(faults, |price| &price.outcome))
         .notes(failures)
-        .line(summary(&prices[0].outcome, &free))
+        .line(summary(&prices[0].outcome, &free));
+    if repairs.is_empty() {
+        return report.line(format!(
+            "audit {} --prices --repairs repairs the print one finding at a time.",
+            scene.name
+        ));
+    }
+    report
         .table(
             "2. From the print, repair by repair: each time the one that leaves the least error",
-            outcomes(repaired, |(_, price)| &price.outcome),
+            outcomes(repaired(), |(_, price)| &price.outcome),
         )
         .line(way(repairs))
 }

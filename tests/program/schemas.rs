@@ -165,7 +165,7 @@ fn succeeding(documents: &mut Documents) {
     documents.printed("audit", 0, "audit two-blocks");
     documents.printed("finding", 0, "audit --finding C4");
     documents.printed("finding", 0, "audit fig1 --finding K1");
-    documents.printed("prices", 0, "audit fig1 --prices");
+    documents.printed("prices", 0, "audit fig1 --prices --repairs");
     documents.printed("claim", 0, "audit fig1 --claim P12");
     documents.printed("c_cnt", 0, "listing run c_cnt fig1");
     documents.printed("extremes", 0, "extremes tolerance surfaces");

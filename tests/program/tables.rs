@@ -117,7 +117,7 @@ fn prices() {
     let title = "What each printed fault costs on the paper's example, put back alone into the corrected \
                  algorithm: errors against the solution without friction on the same mesh.";
     let way = "**From the print to the solution on figure 1, each time by the repair that leaves the least \
-               error.** Printed by `plane-contact audit fig1 --prices`.";
+               error.** Printed by `plane-contact audit fig1 --prices --repairs`.";
     assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
 }
 
