@@ -28,11 +28,21 @@ use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 /// Reports the conclusion, the claims, the readings, the findings, the variants side by side, and who sticks and
 /// slides under each coefficient of friction.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
+    opening(conclusion, scene)
+        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
+        .then(evidence(audit))
+}
+
+/// Reports the conclusion under the title of the audit.
+pub fn opening(conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
     Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
         .then(conclusion::report(&conclusion::answers(conclusion, scene)))
-        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(readings(&audit.readings))
+}
+
+/// Reports what the conclusion and the claims rest on: readings, findings, variants, friction.
+pub fn evidence(audit: &Audit) -> Report {
+    readings(&audit.readings)
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
         .then(variants(audit))
         .then(friction(&audit.friction))
@@ -78,7 +88,8 @@ fn failure(effect: &Effect) -> Option<&str> {
     effect.failure.as_deref().map(first_line)
 }
 
-fn first_line(text: &str) -> &str {
+/// Returns why something failed, in one line, without what it has in common with others.
+pub fn first_line(text: &str) -> &str {
     let line = text.lines().next().unwrap_or_default();
     line.trim_start_matches("the published algorithm fails as printed: ")
 }

@@ -9,13 +9,16 @@ impl Report {
         for block in &self.blocks {
             match block {
                 Block::Table { title, table } => {
-                    let mut name = name(title);
+                    let mut name = file_name(title);
                     if files.iter().any(|(other, _)| *other == name) {
                         name += &format!("-{}", files.len() + 1);
                     }
                     files.push((name, table.csv()));
                 }
-                Block::Heading { .. } | Block::Line { .. } | Block::Code(_) => {}
+                Block::Heading { .. }
+                | Block::Line { .. }
+                | Block::Code(_)
+                | Block::Figure { .. } => {}
             }
         }
         files
@@ -23,7 +26,7 @@ impl Report {
 }
 
 /// Returns a file's name of the first words of a title.
-fn name(title: &str) -> String {
+pub fn file_name(title: &str) -> String {
     let end = title.find([':', '(', ',']).unwrap_or(title.len());
     let words = title[..end].split(|c: char| !c.is_ascii_alphanumeric());
     let words: Vec<_> = words.filter(|word| !word.is_empty()).map(str::to_lowercase).collect();

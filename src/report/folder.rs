@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::picture::{self, Drawing, Field};
-use super::quantities::triangle_array;
+use super::quantities::{Array, triangle_array};
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
 use base::error::Result;
@@ -107,7 +107,6 @@ pub fn contents(
 ) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = &Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
-    let displacement = &solution.displacements()[..];
     let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
     let content = |file| -> Option<Content> {
         Some(match file {
@@ -119,11 +118,7 @@ pub fn contents(
             File::Picture(quantity) => {
                 let array = triangle_array(quantity, &triangles, &scene.units)?;
                 let quantity = quantity.title;
-                Box::new(move || {
-                    let (unit, values) = (&array.unit[..], &array.values[..]);
-                    let field = Field { quantity, unit, values, displacement, largest_at: None };
-                    picture::field(drawing, &field).into_bytes()
-                })
+                Box::new(move || field_picture(drawing, solution, quantity, &array).into_bytes())
             }
             File::Pressure if solution.contact.is_empty() => return None,
             File::Pressure => Box::new(move || pressures(solution, assessment).into_bytes()),
@@ -132,6 +127,13 @@ pub fn contents(
     let files = File::all(wanted).filter_map(|file| Some((file.name(), content(file)?)));
     let files: Vec<(String, Content)> = files.collect();
     files.par_iter().with_max_len(1).map(|(name, content)| (name.clone(), content())).collect()
+}
+
+/// Draws a quantity of the triangles on the deformed mesh, each with one value.
+pub fn field_picture(drawing: &Drawing, solution: &Solution, quantity: &str, array: &Array) -> String {
+    let (unit, values) = (&array.unit[..], &array.values[..]);
+    let displacement = &solution.displacements()[..];
+    picture::field(drawing, &Field { quantity, unit, values, displacement, largest_at: None })
 }
 
 /// Returns the content of `result.json`, and writes nothing.

@@ -8,7 +8,8 @@
 //! |----------------------------------------------------|----------------------------------------|
 //! | `tables`, `folder`, `result_file`, `pressure`      | a run: tables, folder, `result.json`   |
 //! | `quantities`                                       | columns and arrays of quantities       |
-//! | `audit`, `claims`, `conclusion`                    | the audit                              |
+//! | `audit`, `claims`, `conclusion`, `prices`          | the audit                              |
+//! | `document`, `glossary`                             | the audit report that is handed in     |
 //! | `comparison`, `extremes`, `plan`, `trace`          | a study each                           |
 //! | `answers`                                          | the marks of answers to exercises      |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
@@ -19,7 +20,7 @@
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
-//! | `model`; `text`, `csv`, `markdown`                 | reports of tables, and their renderings |
+//! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
 #![forbid(unsafe_code)]
 
@@ -30,12 +31,15 @@ pub mod claims;
 pub mod comparison;
 pub mod conclusion;
 mod csv;
+pub mod document;
 pub mod edited;
 pub mod evaluation;
 pub mod exports;
 pub mod extremes;
 pub mod failure;
 pub mod folder;
+mod glossary;
+mod html;
 pub mod json;
 mod layout;
 mod markdown;

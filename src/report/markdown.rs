@@ -1,9 +1,11 @@
 //! A report as Markdown.
 
+use super::csv::file_name;
 use super::model::{Block, Cell, Report, Table};
 
 impl Report {
-    /// Writes the report as a page of Markdown.
+    /// Writes the report as a page of Markdown, whose figures are the files of
+    /// [`figures`](Report::figures) beside it.
     pub fn markdown(&self) -> String {
         let blocks = self.blocks.iter().map(|block| match block {
             Block::Heading { level, text } => format!("{} {}\n", "#".repeat(*level), escaped(text)),
@@ -12,12 +14,25 @@ impl Report {
                 format!("{}- {}\n", "  ".repeat(level - 1), escaped(text))
             }
             Block::Code(lines) => code(lines),
-            Block::Table { title, table } if title.is_empty() => table.markdown(),
             Block::Table { title, table } => {
-                format!("## {}\n\n{}", escaped(title), table.markdown())
+                let title = (!title.is_empty()).then(|| format!("## {}\n\n", escaped(title)));
+                let reasons = table.reasons().into_iter().map(|why| format!("\n- -: {}\n", escaped(why)));
+                title.unwrap_or_default() + &table.markdown() + &reasons.collect::<String>()
+            }
+            Block::Figure { title, .. } => {
+                format!("![{0}]({1})\n\n{0}\n", escaped(title), figure_file(title))
             }
         });
         blocks.collect::<Vec<_>>().join("\n")
+    }
+
+    /// Returns each figure, a file of SVG, with the name of its file.
+    pub fn figures(&self) -> Vec<(String, &str)> {
+        let figures = self.blocks.iter().filter_map(|block| match block {
+            Block::Figure { title, svg } => Some((figure_file(title), svg.as_str())),
+            Block::Heading { .. } | Block::Line { .. } | Block::Code(_) | Block::Table { .. } => None,
+        });
+        figures.collect()
     }
 }
 
@@ -31,6 +46,10 @@ impl<R> Table<R> {
         let rule = "|---".repeat(self.headings.len()) + "|\n";
         row(self.headings.clone()) + &rule + &rows.collect::<String>()
     }
+}
+
+fn figure_file(title: &str) -> String {
+    file_name(title) + ".svg"
 }
 
 /// Returns a text that stands in a line of Markdown or a cell of a table as it is.

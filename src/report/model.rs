@@ -1,5 +1,5 @@
-//! What a command reports to people: headings, lines, code and tables with typed cells. Text, CSV
-//! and Markdown are renderings of it (`text`, `csv`, `markdown`).
+//! What a command reports to people: headings, lines, code, tables with typed cells, figures. Text,
+//! CSV, Markdown and HTML are renderings of it (`text`, `csv`, `markdown`, `html`).
 
 use std::fmt::{self, Display, Formatter};
 
@@ -17,7 +17,7 @@ pub struct Report {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum Block {
-    /// The heading of the report (level 1) or of a section (level 2).
+    /// The heading of the report (level 1), of a section (level 2), or of a part of one.
     Heading { level: usize, text: String },
     /// A line of prose; from level 1 on it belongs to what stands above it.
     Line { level: usize, text: String },
@@ -25,6 +25,8 @@ pub enum Block {
     Code(String),
     /// A table under its title, which may be empty.
     Table { title: String, table: Table },
+    /// A picture, as a file of SVG, under its title.
+    Figure { title: String, svg: String },
 }
 
 impl Report {
@@ -87,6 +89,24 @@ impl Report {
         self.with(Block::Table { title: title.into(), table: Table { rows: (), headings, cells } })
     }
 
+    /// Adds a picture, as a file of SVG, whose title's first words name its file.
+    #[must_use]
+    pub fn figure(self, title: impl Into<String>, svg: impl Into<String>) -> Self {
+        self.with(Block::Figure { title: title.into(), svg: svg.into() })
+    }
+
+    /// Returns the report as a part of a section: its headings are two levels deeper.
+    #[must_use]
+    pub fn within_section(mut self) -> Self {
+        for block in &mut self.blocks {
+            match block {
+                Block::Heading { level, .. } => *level += 2,
+                Block::Line { .. } | Block::Code(_) | Block::Table { .. } | Block::Figure { .. } => (),
+            }
+        }
+        self
+    }
+
     /// Adds all of another report.
     #[must_use]
     pub fn then(mut self, other: Report) -> Self {
@@ -118,6 +138,26 @@ impl Table {
             row
         });
         Table { rows: (), cells: cells.collect(), headings }
+    }
+}
+
+impl<R> Table<R> {
+    /// Whether a column stands to the right: it has numbers alone, or nothing in place of one.
+    pub fn is_numeric(&self, column: usize) -> bool {
+        self.cells.iter().all(|row| row[column].is_numeric())
+    }
+
+    /// Returns why numbers are missing, each reason once.
+    pub fn reasons(&self) -> Vec<&'static str> {
+        let mut reasons = Vec::new();
+        for cell in self.cells.iter().flatten() {
+            if let Cell::Missing(Some(reason)) = cell
+                && !reasons.contains(reason)
+            {
+                reasons.push(*reason);
+            }
+        }
+        reasons
     }
 }
 

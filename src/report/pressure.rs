@@ -3,7 +3,8 @@
 use super::numbers::quantity;
 use super::picture::{Axis, Series, Style, chart};
 use engine::contact::ContactNode;
-use engine::{Hertz, Solution};
+use engine::quantities::Value;
+use engine::{Hertz, Quantity, Solution};
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
@@ -16,24 +17,45 @@ const POINTS: usize = 101;
 /// Draws the contact pressure against the distance along the undeformed contact surface: a curve of
 /// each run, and `hertz`'s.
 pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> String {
-    let [from, to] = shown(runs);
-    let mut series: Vec<Series> = runs.iter().map(|run| curve(run, [from, to])).collect();
     let mut captions = vec![String::from(
         "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, \
          over the length that the node stands for.",
     )];
     if let Some(hertz) = hertz {
-        series.push(hertz_curve(hertz, [from, to]));
         captions.push(format!(
             "Hertz: half width {:.4}, peak {:.5}, relative radius {:.4}.",
             hertz.half_width, hertz.peak, hertz.radius
         ));
     }
+    let hertz = hertz.map(|hertz| hertz_curve(hertz, shown(runs)));
+    along_surface(scene, runs, named("pressure"), hertz, &captions)
+}
+
+/// Draws the shear and the gap of contact nodes in the same way.
+pub fn shear_and_gap(scene: &Scene, runs: &[&Solution]) -> [(&'static str, String); 2] {
+    [named("shear"), named("gap")]
+        .map(|drawn| (drawn.title, along_surface(scene, runs, drawn, None, &[])))
+}
+
+fn named(name: &str) -> &'static Quantity<ContactNode> {
+    ContactNode::QUANTITIES.iter().find(|quantity| quantity.name == name).expect("it is declared")
+}
+
+/// Draws a quantity of contact nodes: a curve of each run, and one more.
+fn along_surface(
+    scene: &Scene,
+    runs: &[&Solution],
+    drawn: &Quantity<ContactNode>,
+    more: Option<Series>,
+    captions: &[String],
+) -> String {
+    let range = shown(runs);
+    let series: Vec<Series> = runs.iter().map(|run| curve(run, drawn, range)).chain(more).collect();
     let x = quantity("distance along the contact surface", &scene.units.length);
-    let y = quantity("contact pressure", &scene.units.stress);
+    let y = quantity(drawn.title, drawn.unit.in_scene(&scene.units));
     let axis = |label| Axis { label, logarithmic: false };
-    let title = format!("{}: contact pressure", scene.title);
-    chart(&title, [axis(&x), axis(&y)], &series, &captions)
+    let title = format!("{}: {}", scene.title, drawn.title);
+    chart(&title, [axis(&x), axis(&y)], &series, captions)
 }
 
 /// Returns the stretch of the surface that any run has in contact, with a margin; all of it where
@@ -52,11 +74,17 @@ fn shown(runs: &[&Solution]) -> [f64; 2] {
     }
 }
 
-fn curve(run: &Solution, [from, to]: [f64; 2]) -> Series {
+fn curve(run: &Solution, drawn: &Quantity<ContactNode>, [from, to]: [f64; 2]) -> Series {
     let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
+    let point = |c: &ContactNode| match (drawn.value)(c) {
+        Value::Number(y) => Some([c.arc, y]),
+        Value::Unknown | Value::Count(_) | Value::Components(_) | Value::State(..) | Value::Words(_) => {
+            None
+        }
+    };
     Series {
         name: name(run),
-        points: shown.filter_map(|c| Some([c.arc, c.pressure?])).collect(),
+        points: shown.filter_map(point).collect(),
         style: Style::Dotted,
     }
 }

@@ -19,6 +19,7 @@ impl Report {
                 Block::Code(lines) => fitted(&indented(lines, 1), width),
                 Block::Table { title, table } if title.is_empty() => table.text(width),
                 Block::Table { title, table } => fitted(title, width) + &table.text(width),
+                Block::Figure { title, .. } => fitted(title, width),
             };
             previous = Some(block);
         }
@@ -29,7 +30,7 @@ impl Report {
 /// Whether a blank line stands between two blocks.
 fn is_apart(previous: &Block, next: &Block) -> bool {
     match (previous, next) {
-        (_, Block::Heading { .. }) => true,
+        (_, Block::Heading { .. } | Block::Figure { .. }) => true,
         (_, Block::Table { title, .. }) if !title.is_empty() => true,
         (Block::Table { .. }, Block::Table { .. }) => true,
         (Block::Heading { .. } | Block::Line { level: 0, .. }, _) => false,
@@ -99,19 +100,6 @@ impl Table {
         fitted(&(rows + &notes.collect::<String>()), width)
     }
 
-    /// Returns why numbers are missing, each reason once.
-    fn reasons(&self) -> Vec<&'static str> {
-        let mut reasons = Vec::new();
-        for cell in self.cells.iter().flatten() {
-            if let Cell::Missing(Some(reason)) = cell
-                && !reasons.contains(reason)
-            {
-                reasons.push(*reason);
-            }
-        }
-        reasons
-    }
-
     /// Lays out the rows in columns under their headings: numbers to the right, words to the left.
     fn aligned(&self, rows: &[Vec<String>]) -> String {
         let columns = 0..self.headings.len();
@@ -121,7 +109,7 @@ impl Table {
             .map(|j| lines().map(|line| length(&line[j])).max().unwrap_or(0))
             .collect();
         let numeric: Vec<bool> =
-            columns.map(|j| self.cells.iter().all(|row| row[j].is_numeric())).collect();
+            columns.map(|j| self.is_numeric(j)).collect();
         let line = |cells: &Vec<String>| {
             let cells = cells.iter().zip(&widths).zip(&numeric).map(|((cell, &width), numeric)| {
                 if *numeric { format!("{cell:>width$}") } else { format!("{cell:<width$}") }

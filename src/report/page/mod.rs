@@ -31,7 +31,7 @@ pub const INTERPRETER: [&str; 6] = [
 struct Page<'a> {
     title: &'a str,
     /// The content of `body`.
-    body: &'static str,
+    body: &'a str,
     style: &'static str,
     script: &'a [&'static str],
     data: &'a Value,

@@ -1,9 +1,9 @@
-//! The page of a report: what was run, what it came to, and the fields of every run.
+//! The page of an audit report: the report as a document, then the fields of every run.
 //!
-//! Its data: `audit` as `audit --json` has it, `runs`, each with `result` as `result.json` has it,
-//! and the mesh and the fields as numbers in base64, little-endian: `u` and `triangles` (all components
-//! of a quantity by its name) in 32 bits; of iterations before the last `u`, and the von Mises stress
-//! in 16 bits of its largest. `quantities` says what there is, and in which units.
+//! Its data: `runs`, each with `result` as `result.json` has it, and the mesh and the fields as numbers
+//! in base64, little-endian: `u` and `triangles` (all components of a quantity by its name) in 32 bits;
+//! of iterations before the last `u`, and the von Mises stress in 16 bits of its largest. `quantities`
+//! says what there is, and in which units.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -11,73 +11,40 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::Page;
+use crate::document::{Contents, Run};
 use crate::json::document;
+use crate::model::Report;
 use crate::picture::{colour, points};
-use crate::{ResultFile, audit, pressure, quantities};
-use engine::{Assessment, Detail, Solution, Step, Stiffness, TriangleState, TriangleValues};
+use crate::{ResultFile, pressure, quantities};
+use engine::{Detail, Step, Stiffness, TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
-use problem::scene::Scene;
-use studies::audit::Audit;
-use studies::audit::conclusion::Conclusion;
 use studies::calculix::{Comparison, Fields};
 
 /// The shades of a field.
 const SHADES: u8 = 64;
 
-/// What an audit report contains.
-pub struct Report<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// What was asked, in words: what, and what it was set to.
-    pub what: Vec<(&'a str, String)>,
-    /// The audit and its conclusion, where it was asked for.
-    pub audit: Option<(&'a Audit, &'a Conclusion)>,
-    /// The runs of the variants.
-    pub runs: Vec<Run<'a>>,
-    /// The run beside CalculiX, and how the two were run, in words.
-    pub calculix: Option<(&'a Comparison, String)>,
-    /// Charts of `trade`: name and SVG.
-    pub charts: Vec<(String, String)>,
-}
-
-/// A run of a report.
-pub struct Run<'a> {
-    /// What was computed.
-    pub solution: &'a Solution,
-    /// What is said of its errors.
-    pub assessment: Assessment<'a>,
-}
-
-/// Returns the page.
-pub fn html(report: &Report) -> String {
-    let scene = report.scene;
-    let runs = report.runs.par_iter().map(run).collect::<Vec<Value>>();
-    let calculix_fields = report.calculix.as_ref().map(|(comparison, _)| calculix_run(comparison));
-    let charts = report.charts.iter();
-    let charts = charts.map(|(name, svg)| json!({ "name": name, "svg": base64(svg.as_bytes()) }));
+/// Returns the page of a report, which was made of `contents`.
+pub fn html(report: &Report, contents: &Contents) -> String {
+    let scene = contents.scene;
+    let runs = contents.runs.par_iter().map(run).collect::<Vec<Value>>();
+    let calculix = contents.calculix.as_ref().map(|compared| calculix_run(compared.comparison));
     let own = json!({
-        "scene": { "name": scene.name, "title": scene.title },
-        "what": report.what,
-        "audit": report.audit.map(|(audit, conclusion)| audit::Document::new(audit, conclusion, scene)),
         "mesh": mesh(&scene.model),
-        "runs": runs.into_iter().chain(calculix_fields).collect::<Vec<_>>(),
-        "own": own_run(report),
-        "equilibrium": report.runs.last().map(|run| pressure::name(run.solution)),
-        "calculix": report.calculix.as_ref().map(|(compared, heading)| calculix(compared, heading)),
-        "charts": charts.collect::<Vec<_>>(),
+        "runs": runs.into_iter().chain(calculix).collect::<Vec<_>>(),
+        "own": own_run(contents),
+        "equilibrium": contents.runs.last().map(|run| pressure::name(run.solution)),
         "colours": colour::parts(SHADES),
         "quantities": quantities::on_pages(),
     });
     Page {
         title: &format!("Report: {}", scene.name),
-        body: include_str!("report/body.html"),
+        body: &include_str!("report/body.html").replace("DOCUMENT", &report.html()),
         style: include_str!("report/report.css"),
         script: &[
             include_str!("table.js"),
             include_str!("report/fields.js"),
             include_str!("report/raster.js"),
             include_str!("report/viewer.js"),
-            include_str!("report/chart.js"),
             include_str!("report/report.js"),
         ],
         data: &document(Some(scene), &own),
@@ -86,9 +53,9 @@ pub fn html(report: &Report) -> String {
 }
 
 /// Returns the name of the run of the scene's own variant.
-fn own_run(report: &Report) -> Option<String> {
-    let own = |run: &&Run| run.solution.request.variant == report.scene.variant;
-    report.runs.iter().find(own).map(|run| pressure::name(run.solution))
+fn own_run(contents: &Contents) -> Option<String> {
+    let own = |run: &&Run| run.solution.request.variant == contents.scene.variant;
+    contents.runs.iter().find(own).map(|run| pressure::name(run.solution))
 }
 
 fn base64(bytes: &[u8]) -> String {
@@ -174,20 +141,5 @@ fn calculix_run(comparison: &Comparison) -> Value {
         "u": floats(u.as_flattened().iter().copied()),
         "triangles": triangles(&values),
         "iterations": [],
-    })
-}
-
-fn calculix(compared: &Comparison, heading: &str) -> Value {
-    let (u, stress) = (&compared.displacement.largest, &compared.stress.largest);
-    json!({
-        "heading": heading,
-        "differences": [
-            json!({ "of": "displacement", "at": format!("node {}", u.at), "difference": u.difference,
-                "scale": u.scale, "relative": u.relative }),
-            json!({ "of": "stress", "at": format!("triangle {}", stress.at),
-                "difference": stress.difference, "scale": stress.scale,
-                "relative": stress.relative }),
-        ],
-        "bodies": compared.bodies,
     })
 }

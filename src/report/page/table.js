@@ -1,8 +1,8 @@
 // Tables that copy as CSV.
 
-/** A field as CSV has it (RFC 4180). */
-function csvField(value) {
-  const text = value === null || value === undefined ? "" : exact(value);
+/** A cell as a field of CSV (RFC 4180): a number with all its digits, nothing where there is none. */
+function csvField(cell) {
+  const text = cell.dataset.exact ?? (cell.textContent === "-" ? "" : cell.textContent);
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
@@ -20,24 +20,28 @@ async function copy(text) {
   }
 }
 
-/** A table of rows: each column has a heading, the value of a row, and a class where it is text. */
-function tableOf(title, columns, rows) {
-  const csv = () => [columns.map(([head]) => head), ...rows.map((row) => columns.map(([, of]) => of(row)))]
-    .map((line) => line.map(csvField).join(",")).join("\r\n") + "\r\n";
-  const button = make("button", { "aria-label": `copy as CSV: ${title}` }, "copy as CSV");
+/** Adds a button to a table's caption that copies the table as CSV. */
+function addCopying(table) {
+  const rows = [...table.rows].map((row) => [...row.cells]);
+  const button = make("button", { "aria-label": `copy as CSV: ${table.caption.textContent}` }, "copy as CSV");
   button.addEventListener("click", async () => {
-    await copy(csv());
+    await copy(rows.map((row) => row.map(csvField).join(",") + "\r\n").join(""));
     button.textContent = "copied";
   });
-  const head = columns.map(([text, , kind]) => make("th", { scope: "col", class: kind && "text" }, text));
+  table.caption.append(" ", button);
+}
+
+/** A table of rows: each column has a heading, the value of a row, and a class where it is text. */
+function tableOf(title, columns, rows) {
+  const head = columns.map(([text, , kind]) => make("th", { scope: "col", class: kind ?? "number" }, text));
   const cell = (row) => ([, of, kind]) => {
     const value = of(row);
     const shown = value === null || value === undefined ? "-" : brief(value);
-    const full = typeof value === "number" && shown.replace("−", "-") !== String(value) ? exact(value) : undefined;
-    return make("td", { class: kind, "data-exact": full }, shown);
+    const full = typeof value === "number" && shown !== String(value) ? exact(value) : undefined;
+    return make("td", { class: kind ?? "number", "data-exact": full }, shown);
   };
   const body = rows.map((row) => make("tr", {}, ...columns.map(cell(row))));
-  const table = make("table", {}, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...body));
-  const box = make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, table);
-  return make("figure", {}, make("figcaption", {}, title, button), box);
+  const table = make("table", {}, make("caption", {}, title), make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...body));
+  addCopying(table);
+  return make("div", { class: "table", tabindex: 0, role: "region", "aria-label": title }, table);
 }
