@@ -150,9 +150,12 @@ fn surface(contents: &Contents) -> Report {
     let runs: Vec<&Solution> = contents.runs.iter().map(|run| run.solution).collect();
     let hertz = runs.iter().rev().find_map(|run| Hertz::from_solution(run));
     let picture = pressure::picture(contents.scene, &runs, hertz.as_ref());
-    let others = pressure::shear_and_gap(contents.scene, &runs);
-    let report = Report::default().heading("Contact surface").figure("Contact pressure", picture);
-    others.into_iter().fold(report, |report, (title, picture)| report.figure(title, picture))
+    let [shear, gap] = pressure::shear_and_gap(contents.scene, &runs);
+    Report::default()
+        .heading("Contact surface")
+        .figure("Contact pressure of every run", picture)
+        .figure("Contact shear of every run", shear)
+        .figure("Gap of every run, below 0 where a node penetrates", gap)
 }
 
 /// Reports the differences from CalculiX, or how they are found.

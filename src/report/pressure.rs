@@ -32,9 +32,8 @@ pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> Stri
 }
 
 /// Draws the shear and the gap of contact nodes in the same way.
-pub fn shear_and_gap(scene: &Scene, runs: &[&Solution]) -> [(&'static str, String); 2] {
-    [named("shear"), named("gap")]
-        .map(|drawn| (drawn.title, along_surface(scene, runs, drawn, None, &[])))
+pub fn shear_and_gap(scene: &Scene, runs: &[&Solution]) -> [String; 2] {
+    ["shear", "gap"].map(|name| along_surface(scene, runs, named(name), None, &[]))
 }
 
 fn named(name: &str) -> &'static Quantity<ContactNode> {

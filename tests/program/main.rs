@@ -20,6 +20,7 @@ mod cases;
 mod claims;
 mod cli;
 mod conclusion;
+mod document;
 mod drawing;
 mod edited;
 mod examples;

@@ -116,6 +116,8 @@ fn a_report_is_markdown() {
 | 1 | new | a \"b\" |
 | 2 | as in 1, a turn | - |
 
+- -: nothing moves
+
 - (1) a note that is no row
 
 ````text
@@ -125,6 +127,35 @@ fn a_report_is_markdown() {
 a\\_b
 ";
     assert_eq!(report().code("```\n").line("a_b").markdown(), page);
+}
+
+/// Notes are lists, numbers stand to the right with all their digits beside them, nothing is markup.
+#[test]
+fn a_report_is_html() {
+    let page = "<h1>A run</h1>
+<p>a &lt;b&gt; <code>c</code> &amp;</p>
+<ul><li>one<ul><li>inner
+</li></ul>
+</li>
+<li>two
+</li></ul>
+<pre>&lt;x&gt;</pre>
+<figure><img src=\"data:image/svg+xml;base64,PHN2Zy8+\" alt=\"Figure 4: &quot;m&quot;\">
+<figcaption>Figure 4: &quot;m&quot;</figcaption></figure>
+<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"T\"><table><caption>T</caption>
+<thead><tr><th scope=\"col\">a</th><th scope=\"col\" class=\"number\">b</th></tr></thead>
+<tbody>
+<tr><td>x</td><td class=\"number\" data-exact=\"0.125\">12 %</td></tr>
+<tr><td></td><td class=\"number\">-</td></tr>
+</tbody></table></div>
+<p>-: nothing moves</p>
+";
+    let missing = Cell::from(None::<f64>).because("nothing moves");
+    let table = Table::new(["a", "b"], [vec!["x".into(), Cell::percent(0.125, 0)], vec!["".into(), missing]]);
+    let report = Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
+    let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);
+    assert_eq!(report.html(), page);
+    assert_eq!(report.figures(), [("figure-4.svg".to_string(), "<svg/>")]);
 }
 
 const FACTORIAL: &str = "fact(n) :=

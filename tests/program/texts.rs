@@ -30,7 +30,7 @@ fn assert_text(folder: &str, name: &str, args: &[&str]) {
     assert_golden_by(folder, name, &printed(args), same_text);
 }
 
-fn same_text(expected: &str, value: &str) -> bool {
+pub fn same_text(expected: &str, value: &str) -> bool {
     let (expected, value) = (expected.trim_end(), value.trim_end());
     let different = expected.lines().zip(value.lines()).find(|(e, v)| !same_line(e, v));
     if let Some((e, v)) = different {

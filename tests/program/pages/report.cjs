@@ -4,13 +4,14 @@
 
 const assert = require("node:assert");
 const fs = require("node:fs");
+const { pathToFileURL } = require("node:url");
 const { open, inAllViews, runAll, drawn } = require("./browser.cjs");
 
 const [file, folder, resultFile, auditFile] = process.argv.slice(2);
 const result = JSON.parse(fs.readFileSync(resultFile, "utf8"));
 const audit = JSON.parse(fs.readFileSync(auditFile, "utf8"));
 
-const rows = (page, title) => page.locator(`div[aria-label="${title}"] tbody tr`).count();
+const rows = (page, title) => page.locator(`article div[aria-label^="${title}"] tbody tr`).count();
 
 /** Chooses an option by its text, or a range by its value. */
 const setRange = (page, id, value) => page.locator(`#${id}`).fill(String(value));
@@ -70,7 +71,7 @@ async function surface(browser) {
 /** The tables of a run; iterations on the slider; both runs can be any. */
 async function iterations(browser) {
   const { page, said } = await open(browser, file);
-  for (const [k, list] of [result.iterations, result.bodies].entries()) {
+  for (const [k, list] of [result.iterations, result.bodies, result.contact].entries()) {
     assert.equal(await page.locator("#iterations table").nth(k).locator("tbody tr").count(), list.length);
   }
   await setRange(page, "iteration", 3);
@@ -84,20 +85,51 @@ async function iterations(browser) {
   assert.deepEqual(said, []);
 }
 
-/** The audit's tables, whole, and as CSV. */
+/** The audit's tables, whole, and as CSV; the conclusion. */
 async function tables(browser) {
   const { page } = await open(browser, file);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
-  for (const [title, list] of [["Claims", audit.claims], ["Readings", audit.readings], ["Findings", audit.findings], ["Variants", audit.variants]]) {
+  for (const [title, list] of [["Claims of the paper", audit.claims], ["1. Readings", audit.readings], ["2. Findings", audit.findings], ["3. Variants", audit.variants]]) {
     assert.equal(await rows(page, title), list.length, title);
   }
-  assert.deepEqual(await page.locator("#conclusion h3").allTextContents(), audit.answers.map(({ question }) => question));
-  await page.click('button[aria-label="copy as CSV: Findings"]');
+  const text = await page.textContent("article");
+  for (const { question, answer } of audit.answers) assert.ok(text.includes(question) && text.includes(answer), question);
+  await page.click('button[aria-label^="copy as CSV: 2. Findings"]');
   const csv = await page.evaluate(() => navigator.clipboard.readText());
   const lines = csv.trimEnd().split("\r\n");
   assert.equal(lines.length, audit.findings.length + 1);
   const fourth = audit.findings[3];
   assert.ok(lines[4].startsWith(`${fourth.id},"${fourth.listing} ${fourth.lines.join(", ")}",${fourth.verdict},${fourth.number},`), lines[4]);
+  await page.locator("#contents a").last().click();
+  assert.ok(await page.locator("#fields").isVisible());
+}
+
+/** Without a script the page has the whole report. */
+async function readable(browser) {
+  const context = await browser.newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(pathToFileURL(file).href);
+  const text = await page.innerText("article");
+  for (const part of ["Conclusion", "Each finding in full", "Figure 5b", "SHA-256"]) assert.ok(text.includes(part), part);
+  assert.equal(await page.locator("#fields").isVisible(), false);
+}
+
+/** Printed on A4, 180 mm between the margins: no table is wider, no cell is cut, and figures stand in
+ * place of the fields under the pointer. */
+async function printed(browser) {
+  const { page } = await open(browser, file);
+  const width = Math.floor((180 / 25.4) * 96);
+  await page.setViewportSize({ width, height: 1000 });
+  await page.emulateMedia({ media: "print" });
+  const wide = await page.evaluate((width) => {
+    const right = (element) => element.getBoundingClientRect().right > width + 0.5;
+    const cut = (element) => element.scrollWidth > element.clientWidth + 1;
+    const of = (selector, is) => [...document.querySelectorAll(selector)].filter(is).map((element) => element.textContent.slice(0, 80));
+    return [...of("table, pre, img", right), ...of("th, td, pre", cut)];
+  }, width);
+  assert.deepEqual(wide, []);
+  assert.equal(await page.locator("#fields").isVisible(), false);
+  assert.ok((await page.locator("article figure img").count()) >= 6);
 }
 
 /** The pointer over a picture, dragging, and keys. */
@@ -130,5 +162,5 @@ async function views(browser) {
   });
 }
 
-const tests = [fields, surface, iterations, tables, moves, views];
+const tests = [fields, surface, iterations, tables, readable, printed, moves, views];
 runAll(tests);
