@@ -140,7 +140,9 @@ fn prices(case: &Case) -> Result<Vec<Price>, String> {
     let (scene, nodes) = (&case.scene, case.model().nodes.len());
     if nodes > MOST_NODES {
         let name = &scene.name;
-        return Err(format!("the mesh has more than {MOST_NODES} nodes; audit {name} --prices measures it"));
+        return Err(format!(
+            "the mesh has more than {MOST_NODES} nodes; audit {name} --prices measures it"
+        ));
     }
     prices::prices(scene, &|| ()).map_err(|why| why.to_string())
 }

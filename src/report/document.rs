@@ -57,7 +57,8 @@ pub fn document(contents: &Contents) -> Report {
         None => Report::titled(format!("Runs of scene {} ({})", scene.name, scene.title))
             .then(what_was_audited()),
     };
-    let charts = charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
+    let charts =
+        charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
     report
         .then(figures(contents))
         .then(other_codes(contents))
@@ -73,9 +74,12 @@ fn audited(
     prices: Option<&Result<Vec<Price>, String>>,
     scene: &Scene,
 ) -> Report {
-    let findings = Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
+    let findings =
+        Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
-        report.then(audit::explanation(finding, measured, scene).within_section())
+        report.then(
+            audit::explanation(finding, measured, scene, &conclusion.reading).within_section(),
+        )
     });
     audit::opening(conclusion, scene)
         .then(what_was_audited())
@@ -193,7 +197,9 @@ fn unchecked(audit: &Audit) -> Report {
     let untriggered: Vec<&str> = untriggered.map(|(finding, _)| finding.id).collect();
     let findings = (!untriggered.is_empty()).then(|| {
         let ids = listed(&untriggered);
-        format!("findings that this scene does not trigger, each shown on its own smallest scene: {ids}")
+        format!(
+            "findings that this scene does not trigger, each shown on its own smallest scene: {ids}"
+        )
     });
     Report::default()
         .heading("What could not be checked on this scene")

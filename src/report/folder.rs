@@ -130,7 +130,12 @@ pub fn contents(
 }
 
 /// Draws a quantity of the triangles on the deformed mesh, each with one value.
-pub fn field_picture(drawing: &Drawing, solution: &Solution, quantity: &str, array: &Array) -> String {
+pub fn field_picture(
+    drawing: &Drawing,
+    solution: &Solution,
+    quantity: &str,
+    array: &Array,
+) -> String {
     let (unit, values) = (&array.unit[..], &array.values[..]);
     let displacement = &solution.displacements()[..];
     picture::field(drawing, &Field { quantity, unit, values, displacement, largest_at: None })

@@ -13,7 +13,9 @@ impl Report {
         let (mut html, mut previous) = (String::new(), 0);
         for block in &self.blocks {
             let (depth, content) = match block {
-                Block::Heading { level, text } => (0, format!("<h{level}>{}</h{level}>", prose(text))),
+                Block::Heading { level, text } => {
+                    (0, format!("<h{level}>{}</h{level}>", prose(text)))
+                }
                 Block::Line { level: 0, text } => (0, format!("<p>{}</p>", prose(text))),
                 Block::Line { level, text } => (*level, prose(text)),
                 Block::Code(lines) => (0, format!("<pre>{}</pre>", escape(lines.trim_end()))),
@@ -67,7 +69,8 @@ impl Table {
             format!("<th scope=\"col\"{class}>{}</th>", prose(heading))
         };
         let headings: String = self.headings.iter().enumerate().map(heading).collect();
-        let row = |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
+        let row =
+            |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
         let rows: String = self.cells.iter().map(row).collect();
         let reasons = self.reasons().into_iter().map(|why| format!("\n<p>-: {}</p>", escape(why)));
         format!(
@@ -87,7 +90,11 @@ fn cell(cell: &Cell) -> String {
         Cell::Number { .. } | Cell::Percent { .. } if exact != shown => {
             format!(" data-exact=\"{exact}\"")
         }
-        Cell::Empty | Cell::Missing(_) | Cell::Text(_) | Cell::Integer(_) | Cell::Number { .. }
+        Cell::Empty
+        | Cell::Missing(_)
+        | Cell::Text(_)
+        | Cell::Integer(_)
+        | Cell::Number { .. }
         | Cell::Percent { .. } => String::new(),
     };
     format!("<td{class}{digits}>{}</td>", prose(&shown))

@@ -16,7 +16,8 @@ impl Report {
             Block::Code(lines) => code(lines),
             Block::Table { title, table } => {
                 let title = (!title.is_empty()).then(|| format!("## {}\n\n", escaped(title)));
-                let reasons = table.reasons().into_iter().map(|why| format!("\n- -: {}\n", escaped(why)));
+                let reasons =
+                    table.reasons().into_iter().map(|why| format!("\n- -: {}\n", escaped(why)));
                 title.unwrap_or_default() + &table.markdown() + &reasons.collect::<String>()
             }
             Block::Figure { title, .. } => {
@@ -30,7 +31,9 @@ impl Report {
     pub fn figures(&self) -> Vec<(String, &str)> {
         let figures = self.blocks.iter().filter_map(|block| match block {
             Block::Figure { title, svg } => Some((figure_file(title), svg.as_str())),
-            Block::Heading { .. } | Block::Line { .. } | Block::Code(_) | Block::Table { .. } => None,
+            Block::Heading { .. } | Block::Line { .. } | Block::Code(_) | Block::Table { .. } => {
+                None
+            }
         });
         figures.collect()
     }

@@ -101,7 +101,10 @@ impl Report {
         for block in &mut self.blocks {
             match block {
                 Block::Heading { level, .. } => *level += 2,
-                Block::Line { .. } | Block::Code(_) | Block::Table { .. } | Block::Figure { .. } => (),
+                Block::Line { .. }
+                | Block::Code(_)
+                | Block::Table { .. }
+                | Block::Figure { .. } => (),
             }
         }
         self

@@ -77,15 +77,13 @@ fn curve(run: &Solution, drawn: &Quantity<ContactNode>, [from, to]: [f64; 2]) ->
     let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
     let point = |c: &ContactNode| match (drawn.value)(c) {
         Value::Number(y) => Some([c.arc, y]),
-        Value::Unknown | Value::Count(_) | Value::Components(_) | Value::State(..) | Value::Words(_) => {
-            None
-        }
+        Value::Unknown
+        | Value::Count(_)
+        | Value::Components(_)
+        | Value::State(..)
+        | Value::Words(_) => None,
     };
-    Series {
-        name: name(run),
-        points: shown.filter_map(point).collect(),
-        style: Style::Dotted,
-    }
+    Series { name: name(run), points: shown.filter_map(point).collect(), style: Style::Dotted }
 }
 
 /// Names the run by its variant, and by how contact was modelled where the variant leaves a choice.

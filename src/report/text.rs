@@ -108,8 +108,7 @@ impl Table {
             .clone()
             .map(|j| lines().map(|line| length(&line[j])).max().unwrap_or(0))
             .collect();
-        let numeric: Vec<bool> =
-            columns.map(|j| self.is_numeric(j)).collect();
+        let numeric: Vec<bool> = columns.map(|j| self.is_numeric(j)).collect();
         let line = |cells: &Vec<String>| {
             let cells = cells.iter().zip(&widths).zip(&numeric).map(|((cell, &width), numeric)| {
                 if *numeric { format!("{cell:>width$}") } else { format!("{cell:<width$}") }

@@ -66,7 +66,9 @@ fn html_markdown_and_the_texts_of_audit_say_the_same() {
         of_markdown.filter(|sentence| !sentence.ends_with("--format markdown")).collect();
     assert!(of_markdown.len() > 500, "{}", of_markdown.len());
     let explained = ["P1", "P12", "P13"].map(|id| ["audit", "fig1", "--claim", id]);
-    let explained = explained.into_iter().chain(["C4", "C8", "K1"].map(|id| ["audit", "fig1", "--finding", id]));
+    let explained = explained
+        .into_iter()
+        .chain(["C4", "C8", "K1"].map(|id| ["audit", "fig1", "--finding", id]));
     let texts = explained.flat_map(|args| {
         let text = output(folder.path(), &args);
         // The verdicts under other readings are a table of their own.

@@ -151,8 +151,12 @@ fn a_report_is_html() {
 <p>-: nothing moves</p>
 ";
     let missing = Cell::from(None::<f64>).because("nothing moves");
-    let table = Table::new(["a", "b"], [vec!["x".into(), Cell::percent(0.125, 0)], vec!["".into(), missing]]);
-    let report = Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
+    let table = Table::new(
+        ["a", "b"],
+        [vec!["x".into(), Cell::percent(0.125, 0)], vec!["".into(), missing]],
+    );
+    let report =
+        Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
     let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);
     assert_eq!(report.html(), page);
     assert_eq!(report.figures(), [("figure-4.svg".to_string(), "<svg/>")]);
