@@ -47,7 +47,8 @@ printed fault costs; readings, findings and variants; this project's own figures
 differences from CalculiX; what could not be checked; a glossary; and at its end the command that
 makes it again, versions and hashes. --format html and markdown say the same. The page has the
 fields of every run under the pointer and at probes too, and tables that copy as CSV; printed, it is
-a document of A4 pages. It takes a minute on strand, and 3 times as long as solve with --no-audit.
+a document of A4 pages. It takes one to two minutes on strand, and 3 times as long as solve
+with --no-audit.
 
 Examples:
   plane-contact report

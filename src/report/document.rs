@@ -78,7 +78,7 @@ fn audited(
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
         report.then(
-            audit::explanation(finding, measured, scene, &conclusion.reading).within_section(),
+            audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2),
         )
     });
     audit::opening(conclusion, scene)
@@ -113,7 +113,7 @@ fn what_was_audited() -> Report {
 /// Reports what the printed faults cost, or why that is not known.
 fn cost(prices: &Result<Vec<Price>, String>, scene: &Scene) -> Report {
     match prices {
-        Ok(prices) => prices::report(prices, scene).within_section(),
+        Ok(prices) => prices::report(prices, scene).deeper(1),
         Err(why) => Report::default()
             .heading("What the printed faults cost")
             .line(format!("Not measured here: {why}")),
@@ -166,7 +166,7 @@ fn surface(contents: &Contents) -> Report {
 fn other_codes(contents: &Contents) -> Report {
     let report = Report::default().heading("Differences from another code");
     match &contents.calculix {
-        Some(compared) => report.then(comparison::report(compared).within_section()),
+        Some(compared) => report.then(comparison::report(compared).deeper(2)),
         None => report.line(format!(
             "No other code was run here. `plane-contact report {} --ccx` runs CalculiX by its own contact \
              beside the variant unilateral.",

@@ -95,12 +95,12 @@ impl Report {
         self.with(Block::Figure { title: title.into(), svg: svg.into() })
     }
 
-    /// Returns the report as a part of a section: its headings are two levels deeper.
+    /// Returns the report with its headings so many levels deeper, as a part of another one.
     #[must_use]
-    pub fn within_section(mut self) -> Self {
+    pub fn deeper(mut self, levels: usize) -> Self {
         for block in &mut self.blocks {
             match block {
-                Block::Heading { level, .. } => *level += 2,
+                Block::Heading { level, .. } => *level += levels,
                 Block::Line { .. }
                 | Block::Code(_)
                 | Block::Table { .. }

@@ -134,7 +134,8 @@ a\\_b
 fn a_report_is_html() {
     let page = "<h1>A run</h1>
 <p>a &lt;b&gt; <code>c</code> &amp;</p>
-<ul><li>one<ul><li>inner
+<ul><li>one
+<ul><li>inner
 </li></ul>
 </li>
 <li>two
