@@ -77,9 +77,7 @@ fn audited(
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
-        report.then(
-            audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2),
-        )
+        report.then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
     });
     audit::opening(conclusion, scene)
         .then(what_was_audited())
