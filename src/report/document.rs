@@ -31,8 +31,9 @@ pub struct Contents<'a> {
     pub asked: Vec<(&'static str, String)>,
     /// The audit and its conclusion, where it was asked for.
     pub audit: Option<(&'a Audit, &'a Conclusion)>,
-    /// What the printed faults cost, or why that is not known, where it was asked for.
-    pub prices: Option<Result<Vec<Price>, String>>,
+    /// What the printed faults cost alone, then one repair after the other, or why that is not known,
+    /// where it was asked for.
+    pub prices: Option<Result<[Vec<Price>; 2], String>>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
     pub runs: Vec<Run<'a>>,
     /// The run beside CalculiX.
@@ -71,7 +72,7 @@ pub fn document(contents: &Contents) -> Report {
 fn audited(
     audit: &Audit,
     conclusion: &Conclusion,
-    prices: Option<&Result<Vec<Price>, String>>,
+    prices: Option<&Result<[Vec<Price>; 2], String>>,
     scene: &Scene,
 ) -> Report {
     let findings =
@@ -109,9 +110,11 @@ fn what_was_audited() -> Report {
 }
 
 /// Reports what the printed faults cost, or why that is not known.
-fn cost(prices: &Result<Vec<Price>, String>, scene: &Scene) -> Report {
+fn cost(prices: &Result<[Vec<Price>; 2], String>, scene: &Scene) -> Report {
     match prices {
-        Ok(prices) => prices::report(prices, scene).deeper(1),
+        Ok([prices, repairs]) => prices::report(&prices::Document { prices, repairs }, scene)
+            .deeper(1)
+            .figure("Error by the number of repairs", prices::picture(repairs)),
         Err(why) => Report::default()
             .heading("What the printed faults cost")
             .line(format!("Not measured here: {why}")),
