@@ -21,7 +21,6 @@ use super::{read_listing, report_written, waiting};
 The page is one file that opens offline. It shows the listing as printed with the current line lit,
 the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and
 the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene.
-It takes half a second, which on a scene of 20 nodes is 50 times as long as solve.
 
 Examples:
   plane-contact lesson
