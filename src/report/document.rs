@@ -101,7 +101,7 @@ fn what_was_audited() -> Report {
              figure 5 its von Mises stress and strain.",
         )
         .line(
-            "The program plane-contact executes both listings as printed. Beside their results stands a \
+            "This program executes both listings as printed. Beside their results stands a \
              solution of the same scene on the same mesh that fulfils the contact conditions: the equilibrium \
              under friction, and without friction the reference solution. The method is run in these variants:",
         )
