@@ -44,6 +44,7 @@ pub fn html(chapters: &[Chapter]) -> String {
     let script = [
         include_str!("lesson/worksheet.js"),
         include_str!("lesson/machine.js"),
+        include_str!("lesson/edit.js"),
         include_str!("lesson/listing.js"),
         include_str!("lesson/scene.js"),
         include_str!("lesson/matrix.js"),

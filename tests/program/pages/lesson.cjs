@@ -3,7 +3,7 @@
 
 const assert = require("node:assert");
 const fs = require("node:fs");
-const { open, inAllViews, runAll, drawn } = require("./browser.cjs");
+const { open, violations, inAllViews, runAll, drawn } = require("./browser.cjs");
 const { comparing, read } = require("./traced.cjs");
 
 const [file, folder, ofContact, ofStiffness] = process.argv.slice(2);
@@ -11,6 +11,7 @@ const traces = { c_cnt: read(ofContact), Km: read(ofStiffness) };
 
 const compare = comparing(traces);
 
+const cellsOf = (page) => page.locator("td[data-name]").evaluateAll((all) => all.map((cell) => cell.dataset.exact));
 const chosen = (page, which) => page.check(`input[value=${which}]`);
 
 /** 200 moves drawn at random, each compared with the trace. */
@@ -135,13 +136,12 @@ async function questions(browser) {
 async function changed(browser) {
   const { page, said } = await open(browser, file);
   await page.click("#end");
-  const cells = (page) => page.locator("td[data-name]").evaluateAll((all) => all.map((cell) => cell.dataset.exact));
-  const printed = await cells(page);
+  const printed = await cellsOf(page);
   await page.locator("#tolerance").fill("1");
   assert.equal(await page.textContent("#tolerance-label"), "c_tll 0.01");
-  assert.ok((await cells(page)).includes("dy[4] = 1"), "node 2.4 lies within 0.01");
+  assert.ok((await cellsOf(page)).includes("dy[4] = 1"), "node 2.4 lies within 0.01");
   await page.click("#reset");
-  assert.deepEqual(await cells(page), printed);
+  assert.deepEqual(await cellsOf(page), printed);
   const box = await page.locator("#zone").boundingBox();
   const places = Array.from({ length: 40 * 40 }, (_, k) => [box.x + ((k % 40) / 40) * box.width, box.y + (Math.floor(k / 40) / 40) * box.height]);
   for (const place of places) {
@@ -152,13 +152,91 @@ async function changed(browser) {
   await page.mouse.down();
   for (let k = 1; k <= 5; k += 1) await page.mouse.move(x + box.width / 2 + 5 * k, y + box.height / 2 + k);
   await page.mouse.up();
-  const moved = await cells(page);
+  const moved = await cellsOf(page);
   assert.notDeepEqual(moved, printed);
   assert.ok((await page.locator("#changes tbody tr").count()) > 0);
   await page.waitForURL(/moved=\d/);
   const again = await page.context().newPage();
   await again.goto(page.url());
-  assert.deepEqual(await cells(again), moved, "the address opens the same situation");
+  assert.deepEqual(await cellsOf(again), moved, "the address opens the same situation");
+  assert.deepEqual(said, []);
+}
+
+/** The listing edited in place: the page runs it, says where it leaves the notation, shows what differs, and takes it back. */
+async function edited(browser) {
+  const { page, said } = await open(browser, file);
+  await page.click("#end");
+  const printed = await cellsOf(page);
+  const [title, error] = [page.locator("#listing-title"), page.locator("#text-error")];
+  await page.click("#edit");
+  const text = await page.inputValue("#text");
+  const typed = async (from, to) => {
+    assert.equal(text.split(from).length, 2, `${from} stands in one line`);
+    await page.fill("#text", text.replace(from, to));
+  };
+  const status = await page.textContent("#status");
+  await page.press("#text", "ArrowLeft");
+  await page.press("#text", "Home");
+  assert.equal(await page.textContent("#status"), status, "the keys of the text do not step");
+
+  await typed("|yt[i1]| < c_tll ∧", "|yt[i1]| < ∧");
+  await error.filter({ hasText: "Line 16, column 30: found `∧`, expected an operand." }).waitFor();
+  assert.equal(await page.getAttribute("#text", "aria-invalid"), "true");
+  assert.deepEqual(await violations(page), []);
+  assert.deepEqual(await cellsOf(page), printed, "a text with an error is not run");
+  await page.click("#edit");
+  assert.equal(await page.isVisible("#text"), true, "an error is mended or taken back first");
+  await page.click("#reset");
+  assert.equal(await page.inputValue("#text"), text);
+
+  await typed("|yt[i1]| < c_tll ∧", "|yt[i1]| ≤ 20 · c_tll ∧");
+  await title.filter({ hasText: "The listing, edited" }).waitFor();
+  assert.deepEqual([await error.textContent(), await page.getAttribute("#text", "aria-invalid")], ["", "false"]);
+  const after = await cellsOf(page);
+  assert.ok(!printed.includes("dy[4] = 1") && after.includes("dy[4] = 1"), "node 2.4 comes into contact");
+  assert.match(await page.textContent("#changes"), /the edited listing beside as printed.*dy\[4\]01/);
+  assert.deepEqual(await violations(page), []);
+  await page.click("#edit");
+  assert.deepEqual(await page.locator("#listing li.edited button").allTextContents(), ["16"]);
+  assert.match(await page.locator("#listing li.edited").textContent(), /^16not as printed: .*20 · c_tll/);
+  assert.deepEqual(await violations(page), []);
+
+  await page.waitForURL(/c_cnt=/);
+  const again = await page.context().newPage();
+  await again.goto(page.url());
+  assert.deepEqual(await cellsOf(again), after, "the address opens the same edit");
+  assert.equal(await again.textContent("#listing-title"), "The listing, edited");
+  await again.click("#reset");
+  assert.deepEqual(await cellsOf(again), printed);
+  assert.equal(await again.textContent("#listing-title"), "The listing as printed");
+  assert.equal(await again.locator("#listing li.edited").count(), 0);
+  assert.deepEqual(said, []);
+}
+
+/** An edit that writes what no scene has, or repeats a line for ever, leaves the page whole. */
+async function unforeseen(browser) {
+  const { page, said } = await open(browser, file);
+  const edits = {
+    c_cnt: [["ct[i1] ← 0", "ct[i1] ← 7.5"], ["yt[i1] ← 0\n", 'yt[i1] ← "no"\n'], ["k_cnt[i1,i2] ← 0", "k_cnt[i1,i2] ← 9999"], ["dy[i1] ← 0", "while 1\n      dy[i1] ← 0"], ["i1 ∈ 1 .. R", "i1 ∈ 1 .. R + 5"]],
+    Km: [["n ∈ 1 .. M", "n ∈ 0 .. M + 1"], ["MJS[V[i],V[j]] +", "5000 +"]],
+  };
+  for (const [which, pairs] of Object.entries(edits)) {
+    await chosen(page, which);
+    await page.click("#edit");
+    for (const [from, to] of pairs) {
+      const text = await page.inputValue("#text");
+      assert.ok(text.includes(from), from);
+      await page.fill("#text", text.replace(from, to));
+      await page.locator("#listing-title", { hasText: "The listing, edited" }).waitFor();
+      for (const at of [0, 0.3, 0.6, 1]) {
+        const last = Number(await page.getAttribute("#slider", "max"));
+        await page.locator("#slider").fill(String(Math.floor(at * last)));
+      }
+      assert.equal(await page.textContent("#text-error"), "");
+      await page.click("#reset");
+    }
+    await page.click("#edit");
+  }
   assert.deepEqual(said, []);
 }
 
@@ -210,5 +288,5 @@ async function views(browser) {
   });
 }
 
-const tests = [walk, runs, keyboard, hover, readings, questions, changed, chapters, views];
+const tests = [walk, runs, keyboard, hover, readings, questions, changed, edited, unforeseen, chapters, views];
 runAll(tests);

@@ -1,4 +1,7 @@
-// The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved nodes.
+// The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved
+// nodes, and the texts of the listings that are edited.
+
+const LISTINGS = ["c_cnt", "Km"];
 
 /** The chapter's name in the address: its finding, or its scene. */
 const nameOf = ({ finding, name }) => finding?.id ?? name;
@@ -9,6 +12,7 @@ function keepAddress() {
   page.timer = setTimeout(() => {
     const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
     const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
+    for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = page.edits.get(run()[name]);
     const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !isChanged();
     history.replaceState(null, "", isDefault ? " " : `#${new URLSearchParams(fields)}`);
   }, 300);
@@ -21,15 +25,18 @@ function openAddress() {
   openChapter(place(data.scenes, fields.get("chapter")));
   if (!fields.has("chapter")) return;
   const which = fields.get("listing") === "Km" || page.mesh.contact.length === 0 ? "Km" : "c_cnt";
+  const chosen = place(chapter().runs, fields.get("run"));
+  const edits = LISTINGS.filter((name) => fields.has(name) && !errorIn(name, fields.get(name)));
   const factor = Number(fields.get("tolerance"));
   const nodes = (fields.get("moved") ?? "").split(";").map((text) => text.split(/[:,]/).map(Number));
-  const isMoved = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
+  const isNode = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
   choose({
-    run: place(chapter().runs, fields.get("run")),
+    run: chosen,
     which,
     at: Number(fields.get("step")) || 0,
     factor: factor >= 0.01 && factor <= 100 ? factor : 1,
-    moved: new Map(nodes.filter(isMoved).map(([n, ...at]) => [n, at])),
+    edits: new Map(edits.map((name) => [chapter().runs[chosen][name], fields.get(name)])),
+    moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
   });
   byId("chapter").value = page.chapter;
   byId("run").value = page.run;

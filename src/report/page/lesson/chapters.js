@@ -40,7 +40,7 @@ function showChanges(run, programs) {
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
   const heads = ["", "as printed", isChanged() ? "now" : run.name].map((text, k) => make("th", { scope: "col" }, k ? text : "name"));
   place.replaceChildren(
-    make("h3", {}, `At the end, ${run.name}${isChanged() ? " on the changed scene" : ""} beside as printed`),
+    make("h3", {}, `At the end, ${isEdited() ? "the edited listing" : run.name}${isMoved() ? " on the changed scene" : ""} beside as printed`),
     ...(changed.length
       ? [
           make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))),

@@ -1,6 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), edits: new Map() };
 
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
@@ -9,7 +9,12 @@ const meshOf = (run, moved) => new Mesh(data.meshes[run.mesh], chapter().units, 
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 
 /** Whether the tolerance or a node is not as the scene has it. */
-const isChanged = () => page.factor !== 1 || page.moved.size > 0;
+const isMoved = () => page.factor !== 1 || page.moved.size > 0;
+
+/** Whether a listing of the run is edited; one that other readings share is so in all of them. */
+const isEdited = () => page.edits.has(run().c_cnt) || page.edits.has(run().Km);
+
+const isChanged = () => isMoved() || isEdited();
 
 /** A program that is not called. */
 const NOTHING = { lines: [], steps: [], failure: null };
@@ -20,7 +25,7 @@ function choose(change) {
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
   page.mesh = meshOf(run(), page.moved);
-  page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll);
+  page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
   page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
@@ -32,7 +37,8 @@ function choose(change) {
   byId("tolerance").value = Math.log10(page.factor);
   byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
-  byId("reset").disabled = !isChanged();
+  if (["run", "which", "edits"].some((name) => name in change)) showText();
+  showReset();
   byId("turn").textContent = page.which === "Km" ? "element" : "node";
   byId("turn").title = page.which === "Km" ? "Run to the next element (N)" : "Run to the next contact node (N)";
   showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
@@ -104,7 +110,7 @@ const moves = {
 function watch() {
   for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine)));
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input")) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
     const move = Object.values(moves).find(([key]) => key === event.key || key === event.key.toLowerCase());
     if (!move) return;
     event.preventDefault();
@@ -116,9 +122,10 @@ function watch() {
   byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
   byId("ask").addEventListener("change", show);
   byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
-  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map() }));
+  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), edits: new Map() }));
   window.addEventListener("hashchange", openAddress);
   watchDrag();
+  watchEditor();
   for (const radio of document.getElementsByName("which")) {
     radio.addEventListener("change", () => choose({ which: radio.value }));
   }
@@ -139,7 +146,7 @@ function openChapter(chapter) {
     radio.checked = radio.value === which;
     radio.disabled = contact.length === 0 && radio.value === "c_cnt";
   }
-  choose({ chapter, run: 0, which, factor: 1, moved: new Map() });
+  choose({ chapter, run: 0, which, factor: 1, moved: new Map(), edits: new Map() });
 }
 
 byId("title").textContent = document.title;

@@ -3,14 +3,15 @@
 /** Builds the lines; the number of a line runs to it. Lines that are not as printed are marked. */
 function showLines(machine, printed, runTo) {
   const list = byId("listing");
-  const known = new Set(printed.map(([number, , level, text]) => [number, level, text].join("\t")));
+  const words = (level, text) => `${level} ${text}`;
+  const same = placesAsPrinted(machine.lines.map(({ level, text }) => words(level, text)), printed.map(([, , level, text]) => words(level, text)));
   list.replaceChildren(
     ...machine.lines.map((line, place) => {
       const number = make("button", { "aria-label": `run to line ${line.number}` }, String(line.number));
       number.addEventListener("click", () => runTo(place));
       const text = make("code", { style: `--level: ${line.level}` }, line.text);
-      const same = known.has([line.number, line.level, line.text].join("\t"));
-      return make("li", { class: same ? undefined : "edited" }, number, text);
+      const mark = same.has(place) ? [] : [make("span", { class: "unseen" }, "not as printed: ")];
+      return make("li", { class: same.has(place) ? undefined : "edited" }, number, ...mark, text);
     }),
   );
   roving(list, "button");

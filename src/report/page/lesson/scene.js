@@ -35,11 +35,15 @@ function roundAtMost(x) {
 }
 
 /** What the run has found of each contact node: `ct`, `yt`, `dy` and its row of `k_cnt`, as far as
- * known; `pairs` is the machine of c_cnt. */
+ * known; `pairs` is the machine of c_cnt. An edited listing may write anything: what is no number counts as
+ * not known, what is no node as 0. */
 function contactNodes(mesh, pairs) {
   return mesh.contact.map((node, k) => {
-    const of = (name) => pairs.get(`${name}[${k + 1}]`);
-    const row = [1, 2, 3, 4].map((j) => pairs.get(`k_cnt[${node},${j}]`) ?? 0);
+    const number = (value) => (Number.isFinite(value) ? value : undefined);
+    const of = (name) => number(pairs.get(`${name}[${k + 1}]`));
+    const [first, a, second, b] = [1, 2, 3, 4].map((j) => number(pairs.get(`k_cnt[${node},${j}]`)) ?? 0);
+    const mate = (n) => (Number.isInteger(n) && n >= 1 && n <= mesh.count ? n : 0);
+    const row = [mate(first), a, mate(second), b];
     return { node, place: k + 1, ct: of("ct"), yt: of("yt"), dy: of("dy"), row };
   });
 }

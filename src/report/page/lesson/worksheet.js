@@ -49,11 +49,12 @@ function strainMatrix(p) {
 /** What a page shows at most: the statements of a listing. */
 const MOST_SHOWN = { ...LIMITS, steps: 4_000_000, kept: 20_000, entries: 1 << 23 };
 
-/** Keeps the statements of the turns that are shown: over the contact nodes, or over the elements. */
+/** Keeps the statements of the turns that are shown: over the contact nodes, or over the elements, of which
+ * there are `count`; an edited loop may pass them by. */
 class TurnRecorder extends Recorder {
-  constructor({ name, lines }, turns) {
+  constructor({ name, lines }, turns, count) {
     super(lines);
-    Object.assign(this, { name, turns, turn: null });
+    Object.assign(this, { name, turns, count, turn: null });
   }
 
   begin(line) {
@@ -68,17 +69,18 @@ class TurnRecorder extends Recorder {
     const { text } = this.lines[done.line];
     const [range, begun] = [text.startsWith("for ") ? text.slice(4) : "", done.writes[0]?.value];
     const isOuter = this.name === "Km" ? range.startsWith("n ") : range.startsWith("i1 ") && range.includes("rows(cnt)");
-    if (isOuter && isNumber(begun)) this.turn = begun;
+    if (isOuter && isNumber(begun)) this.turn = Number.isInteger(begun) && begun >= 1 && begun <= this.count ? begun : null;
     else if (this.name === "c_cnt" && range.startsWith("i1 ")) this.turn = null;
     done.turn = this.turn;
     if (this.turns && !this.turns.has(this.turn)) this.steps.pop();
   }
 }
 
-/** The two listings of a run, each executed when it is first asked for. */
+/** The two listings of a run, each executed when it is first asked for; `edits` has the texts of those that are
+ * edited, by their place. */
 class Programs {
-  constructor(run, mesh, shown, c_tll = run.c_tll) {
-    Object.assign(this, { run, mesh, shown, c_tll, done: new Map() });
+  constructor(run, mesh, shown, c_tll = run.c_tll, edits = new Map()) {
+    Object.assign(this, { run, mesh, shown, c_tll, edits, done: new Map() });
     this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, c_tll), run.plane, KNOWN);
   }
 
@@ -99,9 +101,11 @@ class Programs {
   }
 
   execute(name, argument) {
-    const lines = data.listings[this.run[name]].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
+    const place = this.run[name];
+    const given = data.listings[place].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
+    const lines = this.edits.has(place) ? linesOf(this.edits.get(place)) : given;
     const listing = readListing(name, lines);
-    const recorder = new TurnRecorder(listing, this.turns(name));
+    const recorder = new TurnRecorder(listing, this.turns(name), name === "Km" ? this.mesh.triangles.length : this.mesh.contact.length);
     const done = executed(listing, this.worksheet, this.run.settings, [argument], MOST_SHOWN, recorder);
     recorder.finish();
     return { ...done, name, lines, failure: done.failure ?? unexpected(listing, done) };
