@@ -52,7 +52,7 @@ long as solve with --no-audit.
 Examples:
   plane-contact report
   plane-contact report fig1 --out fig1.html
-  plane-contact report --format markdown --out report/strand.md
+  plane-contact report --format markdown                   with its figures beside it
   plane-contact report --ccx                               CalculiX beside it
   plane-contact report --charts out/strand-geometry        with the charts that trade wrote there
   plane-contact report my/scene.json --variant unilateral --no-audit")]
@@ -78,15 +78,18 @@ pub struct Args {
     /// A folder whose charts, *.svg, are shown.
     #[arg(long, value_name = "DIR")]
     charts: Option<PathBuf>,
-    /// The file [default: out/report.html, out/report.md].
+    /// The file [default: out/report, and .html or .md].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let out = args.out.clone().unwrap_or_else(|| match args.format {
-        Format::Html => "out/report.html".into(),
-        Format::Markdown => "out/report.md".into(),
+    let out = args.out.clone().unwrap_or_else(|| {
+        let ending = match args.format {
+            Format::Html => "html",
+            Format::Markdown => "md",
+        };
+        Path::new("out/report").with_extension(ending)
     });
     files::check_file(&out)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;

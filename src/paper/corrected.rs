@@ -198,7 +198,7 @@ fn sheet(model: &Model, bound: Bound, edits: &[&str]) -> Sheet {
 }
 
 /// Returns a program with what concerns it of the edits.
-fn program(program: Program, edits: &[&str]) -> Listing {
+pub fn program(program: Program, edits: &[&str]) -> Listing {
     let parse = |edit: &&str| Edit::parse(edit).expect("the edits in listings are sound");
     let own = edits.iter().rev().map(|edit| parse(edit).of(program.name()));
     own.fold(program.listing(), |listing, edit| {

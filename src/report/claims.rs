@@ -100,7 +100,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
             let others = verdicts(judged).into_iter();
             let others = others.filter(|(_, other)| other.verdict != judged.measured.verdict);
             let words = others.map(|(reading, other)| {
-                format!("{reading}: {} ({})", other.verdict, or_dash(other.number, rounded))
+                format!("{reading}: {} ({})", other.words(), or_dash(other.number, rounded))
             });
             words.collect::<Vec<_>>().join("; ")
         });

@@ -82,7 +82,7 @@ fn every_golden_file_is_used() {
         let mut expected: Vec<String> = Variant::ALL.iter().map(by_variant).chain(once).collect();
         if scene.name == "fig1" {
             let decks = ["tied", "unilateral", "pair"].map(|deck| format!("calculix-{deck}"));
-            let own = ["MJS", "MJS-coupled-by-none", "trace-c_cnt", "trace-Km", "claim"]
+            let own = ["MJS", "MJS-coupled-by-none", "trace-c_cnt", "trace-Km", "claim", "report"]
                 .map(String::from);
             expected.extend(own.into_iter().chain(decks).map(|name| name + ".snap"));
         }

@@ -14,7 +14,7 @@ use plane_contact::mathcad::{
     Array, Cause, Conjunction, Failure, Limits, Listing, ParseError, Recorder, Settings, Sheet,
     Value, unsupported,
 };
-use plane_contact::paper::corrected::{Bound, FAULTS, Program};
+use plane_contact::paper::corrected::{Bound, FAULTS, Program, program};
 use plane_contact::paper::listings::{self, Which, edited, elasticity, settings, tables};
 use plane_contact::paper::mirror::{Reading, Worksheet};
 use plane_contact::report::page::INTERPRETER;
@@ -262,10 +262,7 @@ fn corrected(scene: &str) -> Vec<Case> {
     let sheet = initial(scene);
     let mut cases = vec![];
     for edit in [None].into_iter().chain(FAULTS.iter().map(|fault| Some(fault.edit))) {
-        let text = |program: Program| match edit.filter(|edit| concerns(edit, program)) {
-            Some(edit) => edited(&program.listing(), edit),
-            None => program.listing(),
-        };
+        let text = |of: Program| program(of, edit.as_slice());
         let load = (0..2 * sheet.R()).map(|k| k as f64 - 3.5).collect();
         let own = [("F", Array::column(load).into()), ("both", Bound::Normal.both().into())];
         let (values, mut programs) = defined(tables(&sheet).into_iter().chain(own));
@@ -292,11 +289,6 @@ fn corrected(scene: &str) -> Vec<Case> {
         cases.push(c_cnt);
     }
     cases
-}
-
-fn concerns(edit: &str, program: Program) -> bool {
-    let range = edit.lines().find(|line| !line.starts_with('#'));
-    range.is_some_and(|range| range.starts_with(&format!("{} line", program.name())))
 }
 
 /// What single characters are changed to.
