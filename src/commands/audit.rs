@@ -80,7 +80,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses", "reading"])]
     prices: bool,
     /// Then repair the print one finding after the other, each time the one that leaves the least
-    /// error. It takes seconds on fig1, and more than ten minutes on strand.
+    /// error. It takes seconds on fig1, and many minutes on strand.
     #[arg(long, requires = "prices")]
     repairs: bool,
     #[command(flatten)]

@@ -14,9 +14,10 @@ use base::choices;
 use engine::error::Result;
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, Solution, distance, over, summaries};
+use mathcad::Edit;
 use numbers::solve::Solver;
 use paper::edited::Edited;
-use paper::listings::{self, Which};
+use paper::listings::Which;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
@@ -272,7 +273,12 @@ fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Repaired> {
         Which::Km => Variant::Printed,
     };
     let mut request = case.request(variant);
-    let listing = listings::edited(&which.under(case.reading()), edit);
+    // It is an edit of the print, which need not fit another reading.
+    let edit = Edit::parse(edit).expect("the edits in listings are sound");
+    let listing = match edit.apply(&which.under(case.reading())) {
+        Ok(listing) => listing,
+        Err(why) => return Ok(unmeasured(id, format!("under {}: {why}", case.reading()))),
+    };
     request.edited.push(Edited::new(id, &listing.to_string())?);
     if which == Which::Km {
         // Its matrix need not be symmetric.
