@@ -6,6 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::paper::edited::Edited;
 use plane_contact::problem::scene::Scene;
+use plane_contact::report::language::Language;
 use plane_contact::report::page::exercise;
 use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
@@ -27,7 +28,8 @@ Examples:
   plane-contact lesson two-blocks --out two-blocks.html
   plane-contact lesson strand --nodes 113,114
   plane-contact lesson fig1 --listing my-c_cnt.txt       an edited listing beside the printed one
-  plane-contact lesson --exercise 7 --seed 2026")]
+  plane-contact lesson --exercise 7 --seed 2026
+  plane-contact lesson --lang ru                         in Russian")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: fig1].
     #[arg(value_name = "SCENE")]
@@ -45,6 +47,9 @@ pub struct Args {
     /// The seed of the class.
     #[arg(long, value_name = "S", requires = "exercise", default_value = "1")]
     seed: u64,
+    /// The language of the page: en, ru; messages of the interpreter stay English.
+    #[arg(long, default_value_t)]
+    lang: Language,
     /// The file of the page [default: out/lesson.html, out/exercise-N.html].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -54,7 +59,7 @@ pub fn run(args: &Args) -> Result<()> {
     let (name, page) = match args.exercise {
         Some(number) => {
             let exercise = Exercise { exercise: number, seed: args.seed };
-            (format!("exercise-{number}"), exercise::html(exercise))
+            (format!("exercise-{number}"), exercise::html(exercise, args.lang))
         }
         None => ("lesson".into(), lesson(args)?),
     };
@@ -84,7 +89,7 @@ fn lesson(args: &Args) -> Result<String> {
         let own = Chapter { runs, nodes, finding: None, scene: scene.clone() };
         std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
     })?;
-    Ok(page::html(&chapters))
+    Ok(page::html(&chapters, args.lang))
 }
 
 /// Returns the chapter of a finding, on the smallest scene that shows it.

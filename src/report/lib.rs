@@ -22,6 +22,7 @@
 //! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
+//! | `language`                                         | the words in Russian                   |
 #![forbid(unsafe_code)]
 
 pub mod answers;
@@ -41,6 +42,7 @@ pub mod folder;
 mod glossary;
 mod html;
 pub mod json;
+pub mod language;
 mod layout;
 mod markdown;
 pub mod matrix_market;

@@ -32,6 +32,7 @@ mod gmsh;
 mod hostile;
 mod limits;
 mod mathcad;
+mod messages;
 mod mistakes;
 mod models;
 #[path = "../../fuzz/oracles/mod.rs"]

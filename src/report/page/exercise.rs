@@ -6,13 +6,14 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::json;
 
 use super::Page;
+use crate::language::Language;
 use crate::picture::{self, Drawing};
 use paper::door;
 use paper::listings::Which;
 use studies::lesson::exercise::{ANSWERS, Exercise};
 
 /// Returns the page of a student's exercise.
-pub fn html(exercise: Exercise) -> String {
+pub fn html(exercise: Exercise, language: Language) -> String {
     let scene = exercise.scene();
     let sheet = door::worksheet(&scene.model, |x| x);
     let surface = scene.model.target_edges().flat_map(|edge| edge.nodes);
@@ -34,11 +35,12 @@ pub fn html(exercise: Exercise) -> String {
         "picture": picture,
     });
     Page {
-        title: &format!("Exercise {}", exercise.exercise),
+        language,
+        title: &language.say(&format!("Exercise {}", exercise.exercise)),
         body: include_str!("exercise/body.html"),
         style: include_str!("exercise/exercise.css"),
         script: &[include_str!("table.js"), include_str!("exercise/exercise.js")],
-        data: &data,
+        data,
     }
     .html()
 }

@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use super::{INTERPRETER, Page};
 use crate::audit::FindingRow;
 use crate::json::document;
+use crate::language::Language;
 use mathcad::unsupported::{FUNCTIONS, UNITS};
 use paper::listings::Which;
 use problem::model::{Element, Model};
@@ -31,10 +32,11 @@ pub struct Chapter {
 }
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
-pub fn html(chapters: &[Chapter]) -> String {
+pub fn html(chapters: &[Chapter], language: Language) -> String {
     let scene = &chapters[0].scene;
     let mut shared = Shared::default();
-    let scenes: Vec<Value> = chapters.iter().map(|chapter| shared.chapter(chapter)).collect();
+    let scenes: Vec<Value> =
+        chapters.iter().map(|chapter| shared.chapter(chapter, language)).collect();
     let own = json!({
         "scenes": scenes,
         "meshes": shared.meshes.items,
@@ -56,11 +58,12 @@ pub fn html(chapters: &[Chapter]) -> String {
         include_str!("lesson/lesson.js"),
     ];
     Page {
-        title: &format!("Lesson: {}", scene.title),
+        language,
+        title: &language.say(&format!("Lesson: {}", scene.title)),
         body: include_str!("lesson/body.html"),
         style: include_str!("lesson/lesson.css"),
         script: &[&INTERPRETER[..], &script].concat(),
-        data: &document(Some(scene), &own),
+        data: document(Some(scene), &own),
     }
     .html()
 }
@@ -91,19 +94,23 @@ struct Shared {
 }
 
 impl Shared {
-    fn chapter(&mut self, chapter: &Chapter) -> Value {
-        let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model));
+    fn chapter(&mut self, chapter: &Chapter, language: Language) -> Value {
+        let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model, language));
+        let finding = chapter
+            .finding
+            .as_ref()
+            .map(|(finding, measured)| language.say_all(json!(FindingRow::new(finding, measured))));
         json!({
             "name": chapter.scene.name,
-            "title": chapter.scene.title,
+            "title": language.say(&chapter.scene.title),
             "units": chapter.scene.units,
             "runs": runs.collect::<Vec<_>>(),
             "nodes": chapter.nodes,
-            "finding": chapter.finding.as_ref().map(|(finding, measured)| FindingRow::new(finding, measured)),
+            "finding": finding,
         })
     }
 
-    fn run(&mut self, switch: &Switch, model: &Model) -> Value {
+    fn run(&mut self, switch: &Switch, model: &Model, language: Language) -> Value {
         let mut listing = |which: Which| {
             let listing = switch.listing(which);
             let lines = listing.lines().iter();
@@ -112,7 +119,8 @@ impl Shared {
         };
         json!({
             "name": switch.name,
-            "about": switch.about,
+            "label": language.say(&switch.name),
+            "about": language.say(&switch.about),
             "c_cnt": listing(Which::CCnt),
             "Km": listing(Which::Km),
             "settings": switch.settings(),

@@ -10,6 +10,7 @@ pub mod report;
 
 use serde_json::Value;
 
+use crate::language::Language;
 use base::xml::escape;
 
 /// The style and the script that all pages share.
@@ -29,19 +30,23 @@ pub const INTERPRETER: [&str; 6] = [
 
 /// A page's own parts.
 struct Page<'a> {
+    language: Language,
     title: &'a str,
-    /// The content of `body`.
+    /// The content of `body`, in English but for what is put into it.
     body: &'a str,
     style: &'static str,
     script: &'a [&'static str],
-    data: &'a Value,
+    data: Value,
 }
 
 impl Page<'_> {
-    fn html(&self) -> String {
+    fn html(mut self) -> String {
         let script = [&[SCRIPT], self.script].concat().join("\n");
+        if let Some(messages) = self.language.messages_of(&script) {
+            self.data["messages"] = messages;
+        }
         format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+            "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
              script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n\
@@ -49,10 +54,11 @@ impl Page<'_> {
              <title>{}</title>\n<style>\n{STYLE}{}</style>\n</head>\n<body>\n{}\
              <script type=\"application/json\" id=\"data\">{}</script>\n\
              <script type=\"module\">\n\"use strict\";\n{script}</script>\n</body>\n</html>\n",
+            self.language,
             escape(self.title),
             self.style,
-            self.body,
-            in_script(self.data),
+            self.language.say_html(self.body),
+            in_script(&self.data),
         )
     }
 }

@@ -34,6 +34,19 @@ function brief(value) {
   return "(" + value.map((row) => (Array.isArray(row) ? row.map(short).join("  ") : short(row))).join(Array.isArray(value[0]) ? ";  " : "  ") + ")";
 }
 
+/** Says a sentence in the page's language. `english` is its key in the table of messages, of which a page in
+ * another language has what it needs; `{name}` stands for a value. */
+function t(english, values = {}) {
+  const text = data.messages?.[english] ?? english;
+  return text.replace(/\{(\w+)\}/g, (_, name) => inProse(values[name]));
+}
+
+/** Writes a value of a sentence: a number short, with the decimal sign of the page's language. */
+function inProse(value) {
+  if (typeof value !== "number") return String(value);
+  return data.messages ? short(value).replace(".", ",") : short(value);
+}
+
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 
 /** Clears a canvas for its size on the page, in CSS pixels; returns its context. */

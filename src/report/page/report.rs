@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 use super::Page;
 use crate::document::{Contents, Run};
 use crate::json::document;
+use crate::language::Language;
 use crate::model::Report;
 use crate::picture::{colour, points};
 use crate::{ResultFile, pressure, quantities};
@@ -37,6 +38,7 @@ pub fn html(report: &Report, contents: &Contents) -> String {
         "quantities": quantities::on_pages(),
     });
     Page {
+        language: Language::En,
         title: &format!("Report: {}", scene.name),
         body: &include_str!("report/body.html").replace("DOCUMENT", &report.html()),
         style: include_str!("report/report.css"),
@@ -47,7 +49,7 @@ pub fn html(report: &Report, contents: &Contents) -> String {
             include_str!("report/viewer.js"),
             include_str!("report/report.js"),
         ],
-        data: &document(Some(scene), &own),
+        data: document(Some(scene), &own),
     }
     .html()
 }

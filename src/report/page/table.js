@@ -23,10 +23,10 @@ async function copy(text) {
 /** Adds a button to a table's caption that copies the table as CSV. */
 function addCopying(table) {
   const rows = [...table.rows].map((row) => [...row.cells]);
-  const button = make("button", { "aria-label": `copy as CSV: ${table.caption.textContent}` }, "copy as CSV");
+  const button = make("button", { "aria-label": t("copy as CSV: {title}", { title: table.caption.textContent }) }, t("copy as CSV"));
   button.addEventListener("click", async () => {
     await copy(rows.map((row) => row.map(csvField).join(",") + "\r\n").join(""));
-    button.textContent = "copied";
+    button.textContent = t("copied");
   });
   table.caption.append(" ", button);
 }

@@ -3,7 +3,7 @@
 const ASKED = ["ct", "dy", "k1"];
 
 function answerRow(node) {
-  const input = (of) => make("input", { type: "number", step: "any", required: true, "data-node": node, "data-of": of, "aria-label": `${of} of node ${node}` });
+  const input = (of) => make("input", { type: "number", step: "any", required: true, "data-node": node, "data-of": of, "aria-label": t("{of} of node {node}", { of, node }) });
   return make("tr", {}, make("th", { scope: "row" }, String(node)), ...ASKED.map((of) => make("td", {}, input(of))));
 }
 
@@ -21,7 +21,7 @@ function save(event) {
   const text = JSON.stringify(answers(), null, 2) + "\n";
   const link = make("a", { download: `answers-${data.exercise}.json`, href: URL.createObjectURL(new Blob([text], { type: "application/json" })) });
   link.click();
-  byId("saved").textContent = "Saved: hand in the file.";
+  byId("saved").textContent = t("Saved: hand in the file.");
 }
 
 byId("title").textContent = document.title;
@@ -29,10 +29,10 @@ byId("listing").textContent = data.listing;
 byId("picture").src = `data:image/svg+xml;base64,${data.picture}`;
 byId("scene").append(
   make("p", {}, `c_tll = ${data.c_tll}; cnt = (${data.contact.join("  ")}); trg = (${data.edges.map(([number]) => number).join("  ")})`),
-  tableOf("node", [["node", ([n]) => n], ["x", ([, [x]]) => String(x)], ["y", ([, [, y]]) => String(y)]], data.nodes),
-  tableOf("elem: the target edges", [["number", ([n]) => n], ["column 6", ([, [a]]) => a], ["column 7", ([, [, b]]) => b]], data.edges),
+  tableOf("node", [[t("node"), ([n]) => n], ["x", ([, [x]]) => String(x)], ["y", ([, [, y]]) => String(y)]], data.nodes),
+  tableOf(t("elem: the target edges"), [[t("number"), ([n]) => n], [t("column {n}", { n: 6 }), ([, [a]]) => a], [t("column {n}", { n: 7 }), ([, [, b]]) => b]], data.edges),
 );
-const heads = ["node", ...ASKED].map((text) => make("th", { scope: "col" }, text));
+const heads = [t("node"), ...ASKED].map((text) => make("th", { scope: "col" }, text));
 byId("answers").append(make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...data.contact.map(answerRow))));
 byId("form").addEventListener("submit", save);
 showExactValues();

@@ -21,11 +21,17 @@ const RESULTS = ["stops", "ct", "yt", "dy", "k_cnt", "MJS"];
 function changes(before, after) {
   const place = (name) => RESULTS.indexOf(name.split("[")[0]);
   const names = [...new Set([...before.keys(), ...after.keys()])].sort((a, b) => place(a) - place(b));
-  const value = (of, name) => of.get(name) ?? (name === "stops" ? "no" : 0);
+  const value = (of, name) => of.get(name) ?? (name === "stops" ? t("no") : 0);
   return names.map((name) => [name, value(before, name), value(after, name)]).filter(([, a, b]) => a !== b);
 }
 
 const MOST_CHANGES = 12;
+
+/** What runs, in words. */
+function whatRuns(run) {
+  const what = isEdited() ? t("the edited listing") : run.label;
+  return isMoved() ? t("{what} on the changed scene", { what }) : what;
+}
 
 /** Shows what the run changes against the listings as printed, on the scene as it was given. */
 function showChanges(run, programs) {
@@ -35,18 +41,18 @@ function showChanges(run, programs) {
   if (place.hidden) return;
   const changed = changes(results(programsOf(printed)), results(programs));
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
-    make("tr", {}, make("th", { scope: "row" }, name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
+    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
   );
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
-  const heads = ["", "as printed", isChanged() ? "now" : run.name].map((text, k) => make("th", { scope: "col" }, k ? text : "name"));
+  const heads = [t("name"), t("as printed"), isChanged() ? t("now") : run.label].map((text) => make("th", { scope: "col" }, text));
   place.replaceChildren(
-    make("h3", {}, `At the end, ${isEdited() ? "the edited listing" : run.name}${isMoved() ? " on the changed scene" : ""} beside as printed`),
+    make("h3", {}, t("At the end, {what} beside as printed", { what: whatRuns(run) })),
     ...(changed.length
       ? [
           make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))),
-          make("p", { class: "muted" }, `${changed.length === 1 ? "One value changes" : `${changed.length} values change`}, ${entries} of them in MJS${changed.length > MOST_CHANGES ? `; the first ${MOST_CHANGES} are shown` : ""}.`),
+          make("p", { class: "muted" }, [t("Values that change: {count}, of them in MJS: {entries}.", { count: changed.length, entries }), ...(changed.length > MOST_CHANGES ? [t("The first {count} are shown.", { count: MOST_CHANGES })] : [])].join(" ")),
         ]
-      : [make("p", {}, "Nothing changes on this scene.")]),
+      : [make("p", {}, t("Nothing changes on this scene."))]),
   );
   roving(place, "td", () => 2);
 }
@@ -57,17 +63,17 @@ function showFinding(chapter) {
   place.hidden = !chapter.finding;
   if (!chapter.finding) return;
   const row = chapter.finding;
-  const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : "around the listings";
+  const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");
   const part = (term, text) => [make("dt", {}, term), make("dd", {}, text)];
   place.replaceChildren(
     make("h2", {}, `${row.id} (${lines}): ${row.title}`),
     make(
       "dl",
       {},
-      ...part("On this scene", `${row.verdict}: ${short(row.number)} ${row.of}. ${row.detail}`),
-      ...part("Why it matters", row.why),
-      ...part("A repair", row.repair),
-      ...part("Before and after", row.edit.none?.reason ?? `before: ${chapter.runs[0].about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes`),
+      ...part(t("On this scene"), `${row.verdict}: ${inProse(row.number)} ${row.of}. ${row.detail}`),
+      ...part(t("Why it matters"), row.why),
+      ...part(t("A repair"), row.repair),
+      ...part(t("Before and after"), row.edit.none?.reason ?? t("before: {about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes", chapter.runs[0])),
     ),
   );
 }

@@ -40,7 +40,7 @@ function showReset() {
 }
 
 function showError(error) {
-  byId("text-error").textContent = error ? `Line ${error.fileLine}, column ${error.column}: ${error.message}.` : "";
+  byId("text-error").textContent = error ? t("Line {fileLine}, column {column}: {message}.", error) : "";
   byId("text").setAttribute("aria-invalid", String(error !== null));
   showReset();
 }
@@ -49,7 +49,7 @@ function showError(error) {
 function showText() {
   const place = run()[page.which];
   const text = page.edits.get(place) ?? textOf(place);
-  byId("listing-title").textContent = page.edits.has(place) ? "The listing, edited" : "The listing as printed";
+  byId("listing-title").textContent = page.edits.has(place) ? t("The listing, edited") : t("The listing as printed");
   if (byId("text").value !== text) byId("text").value = text;
   showError(null);
 }
@@ -70,7 +70,7 @@ function readText() {
 function showEditor(isOpen) {
   byId("editor").hidden = !isOpen;
   byId("listing-box").hidden = isOpen;
-  byId("edit").textContent = isOpen ? "done" : "edit";
+  byId("edit").textContent = isOpen ? t("done") : t("edit");
 }
 
 function watchEditor() {

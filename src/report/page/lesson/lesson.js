@@ -27,20 +27,20 @@ function choose(change) {
   page.mesh = meshOf(run(), page.moved);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
-  page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: "c_cnt stopped, so Km is not called" }) : page.pairs;
+  page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, page.pairs);
   page.map = new MatrixMap(page.mesh, page.machine);
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
-  byId("about").textContent = `Scene ${chapter().name}. Reading: ${run().name} (${run().about}).`;
+  byId("about").textContent = t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() });
   byId("tolerance").value = Math.log10(page.factor);
   byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
   if (["run", "which", "edits"].some((name) => name in change)) showText();
   showReset();
-  byId("turn").textContent = page.which === "Km" ? "element" : "node";
-  byId("turn").title = page.which === "Km" ? "Run to the next element (N)" : "Run to the next contact node (N)";
+  byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
+  byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
   showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
   fillTurns();
   // Beside the arrays it would take half of a move's time.
@@ -50,12 +50,12 @@ function choose(change) {
 
 /** Lists the turns of the outer loops, each with the step that begins it. */
 function fillTurns() {
-  const name = (turn) => (page.which === "Km" ? `element ${turn}` : `node ${page.mesh.name(page.mesh.contact[turn - 1])}`);
+  const name = (turn) => (page.which === "Km" ? t("element {n}", { n: turn }) : t("node {n}", { n: page.mesh.name(page.mesh.contact[turn - 1]) }));
   const options = page.machine.turns.flatMap(({ from, turn }) => {
     const line = page.machine.lines[page.machine.steps[from].line].number;
-    return turn === null ? [] : [make("option", { value: from + 1 }, `${name(turn)}, line ${line}`)];
+    return turn === null ? [] : [make("option", { value: from + 1 }, t("{turn}, line {line}", { turn: name(turn), line }))];
   });
-  byId("turns").replaceChildren(make("option", { value: 0 }, "the start"), ...options);
+  byId("turns").replaceChildren(make("option", { value: 0 }, t("the start")), ...options);
 }
 
 function go(at) {
@@ -85,10 +85,10 @@ function show() {
   byId("block").replaceChildren(...(inKm ? [elementTable(machine)] : []));
   if (inKm) page.map.draw();
   const ended = machine.at === machine.steps.length;
-  byId("failure").textContent = ended && machine.failure ? `The listing stops: ${machine.failure}` : "";
+  byId("failure").textContent = ended && machine.failure ? t("The listing stops: {failure}", machine) : "";
   ask(machine, mesh);
   byId("slider").value = machine.at;
-  byId("status").textContent = `step ${machine.at} of ${machine.steps.length}${line ? `, line ${line}` : ""}`;
+  byId("status").textContent = [t("step {at} of {count}", { at: machine.at, count: machine.steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", ");
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
   keepAddress();
@@ -135,7 +135,7 @@ function watch() {
 }
 
 function openChapter(chapter) {
-  const runs = data.scenes[chapter].runs.map(({ name }, k) => make("option", { value: k }, name));
+  const runs = data.scenes[chapter].runs.map(({ label }, k) => make("option", { value: k }, label));
   byId("run").replaceChildren(...runs);
   showFinding(data.scenes[chapter]);
   const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
@@ -151,10 +151,10 @@ function openChapter(chapter) {
 
 byId("title").textContent = document.title;
 byId("chapter").replaceChildren(
-  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : `scene ${name}`)),
+  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : t("scene {name}", { name }))),
 );
 byId("colophon").textContent =
-  `plane-contact ${data.version}; scene ${data.scenes[0].name}, SHA-256 ${data.scene_sha256}, mesh ${data.mesh_sha256}.`;
+  t("plane-contact {version}; scene {name}, SHA-256 {scene_sha256}, mesh {mesh_sha256}.", { ...data, name: data.scenes[0].name });
 watch();
 showExactValues();
 openAddress();

@@ -7,10 +7,10 @@ function showLines(machine, printed, runTo) {
   const same = placesAsPrinted(machine.lines.map(({ level, text }) => words(level, text)), printed.map(([, , level, text]) => words(level, text)));
   list.replaceChildren(
     ...machine.lines.map((line, place) => {
-      const number = make("button", { "aria-label": `run to line ${line.number}` }, String(line.number));
+      const number = make("button", { "aria-label": t("run to line {number}", line) }, String(line.number));
       number.addEventListener("click", () => runTo(place));
       const text = make("code", { style: `--level: ${line.level}` }, line.text);
-      const mark = same.has(place) ? [] : [make("span", { class: "unseen" }, "not as printed: ")];
+      const mark = same.has(place) ? [] : [make("span", { class: "unseen" }, t("not as printed:") + " ")];
       return make("li", { class: same.has(place) ? undefined : "edited" }, number, ...mark, text);
     }),
   );
@@ -43,7 +43,7 @@ function accesses(list, sign) {
   );
 }
 
-const truth = (held) => make("span", { class: String(held) }, held === null ? "not evaluated" : held ? "true" : "false");
+const truth = (held) => make("span", { class: String(held) }, held === null ? t("not evaluated") : held ? t("true") : t("false"));
 
 /** Writes what the last step did. */
 function showStep(machine) {
@@ -51,13 +51,13 @@ function showStep(machine) {
   const rows = [];
   const row = (term, ...content) => rows.push(make("dt", {}, term), make("dd", {}, ...content));
   if (!step) {
-    byId("step").replaceChildren(make("p", { class: "muted" }, "Nothing is executed yet."));
+    byId("step").replaceChildren(make("p", { class: "muted" }, t("Nothing is executed yet.")));
     return;
   }
-  row("line", String(machine.lines[step.line].number));
-  if (step.reads.length) row("reads", ...accesses(step.reads, "="));
-  for (const [text, held] of step.operands) row("∧", make("code", {}, text), " is ", truth(held));
-  if (step.held !== null) row("decision", "the condition is ", truth(step.held));
-  if (step.writes.length) row("writes", ...accesses(step.writes, "←"));
+  row(t("line"), String(machine.lines[step.line].number));
+  if (step.reads.length) row(t("reads"), ...accesses(step.reads, "="));
+  for (const [text, held] of step.operands) row("∧", make("code", {}, text), ` ${t("is")} `, truth(held));
+  if (step.held !== null) row(t("decision"), t("the condition is") + " ", truth(step.held));
+  if (step.writes.length) row(t("writes"), ...accesses(step.writes, "←"));
   byId("step").replaceChildren(make("dl", {}, ...rows));
 }

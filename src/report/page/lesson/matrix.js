@@ -13,7 +13,7 @@ function mappedNodes(mesh, machine) {
   return [...found].sort((a, b) => a - b);
 }
 
-const equationInWords = (e) => `${e % 2 ? "x" : "y"} of node ${Math.ceil(e / 2)}`;
+const equationInWords = (e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: Math.ceil(e / 2) });
 
 class MatrixMap {
   constructor(mesh, machine) {
@@ -64,10 +64,11 @@ class MatrixMap {
     if (!this.joins) this.neverAdded(context);
     this.numbers(context);
     if (document.activeElement === canvas) this.frame(context, ...this.cursor, "accent", 2);
-    byId("matrix-caption").textContent =
-      "Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W. " +
-      (this.joins ? "The block (V, W) joins the two bodies." : "Dashed: the block (V, W), which would join the two bodies and is never added (K1).");
-    canvas.setAttribute("aria-label", `MJS, ${count} by ${count} entries; arrow keys go from entry to entry`);
+    byId("matrix-caption").textContent = [
+      t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
+      this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
+    ].join(" ");
+    canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
     this.say();
   }
 
@@ -116,7 +117,7 @@ class MatrixMap {
   say() {
     const [i, j] = this.cursor.map((k) => this.equations[k]);
     const value = this.entry(i, j);
-    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? "not there yet" : value} (${equationInWords(i)}, ${equationInWords(j)})`;
+    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? t("not there yet") : value} (${equationInWords(i)}, ${equationInWords(j)})`;
   }
 
   /** Moves the cursor to a place on the canvas, or by a step. */

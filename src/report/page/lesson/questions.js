@@ -11,10 +11,10 @@ function question(machine, mesh) {
   if (step.held !== null) {
     const condition = text.includes(" if ") ? text.split(" if ")[1] : text.replace(/^if /, "");
     return {
-      words: `Line ${number}: will “${condition}” hold?`,
+      words: t("Line {number}: will “{condition}” hold?", { number, condition }),
       given: step.reads,
-      answers: ["yes", "no"],
-      right: step.held ? "yes" : "no",
+      answers: [t("yes"), t("no")],
+      right: step.held ? t("yes") : t("no"),
       reason: reasonOf(step),
     };
   }
@@ -25,9 +25,9 @@ function question(machine, mesh) {
 
 /** Why a condition holds or does not: of an ∧ each operand, else what was compared. */
 function reasonOf({ operands, reads, held }) {
-  if (operands.length === 0) return `It compares ${[...new Set(reads.map(({ name, value }) => `${name} = ${brief(value)}`))].join(", ")}.`;
-  const words = operands.map(([text, holds]) => `${text} is ${holds === null ? "not to be evaluated" : holds}`).join("; ");
-  return `${words}. ${held ? "All operands are true." : "One operand that is false is enough."}`;
+  if (operands.length === 0) return t("It compares {values}.", { values: [...new Set(reads.map(({ name, value }) => `${name} = ${brief(value)}`))].join(", ") });
+  const words = operands.map(([text, holds]) => `${text} ${t("is")} ${holds === null ? t("not to be evaluated") : holds ? t("true") : t("false")}`).join("; ");
+  return `${words}. ${held ? t("All operands are true.") : t("One operand that is false is enough.")}`;
 }
 
 /** Which target edge the search of a turn ends with, and which boxes had the node. */
@@ -36,15 +36,15 @@ function edgeQuestion(machine, mesh, turn) {
   const name = `ct[${turn}]`;
   const writes = machine.steps.slice(machine.at, end).flatMap((step) => step.writes.filter((write) => write.name === name));
   const hits = writes.map(({ value }) => value).filter((edge) => edge !== 0);
-  const inWords = (edge) => (edge === 0 ? "none" : `edge ${edge}`);
+  const inWords = (edge) => (edge === 0 ? t("none") : t("edge {edge}", { edge }));
   return {
-    words: `Which target edge will node ${mesh.name(mesh.contact[turn - 1])} get (lines 4 to 7)?`,
+    words: t("Which target edge will node {node} get (lines 4 to 7)?", { node: mesh.name(mesh.contact[turn - 1]) }),
     given: [],
     answers: [0, ...mesh.edges.map(([number]) => number)].slice(0, 12).map(inWords),
     right: inWords(writes.at(-1)?.value ?? 0),
     reason: hits.length
-      ? `The boxes that hold the node, in the order of trg: ${hits.map(inWords).join(", ")}. The last one stays (C2).`
-      : "No box of lines 5 and 6 holds the node.",
+      ? t("The boxes that hold the node, in the order of trg: {boxes}. The last one stays (C2).", { boxes: hits.map(inWords).join(", ") })
+      : t("No box of lines 5 and 6 holds the node."),
   };
 }
 
@@ -62,10 +62,10 @@ function ask(machine, mesh) {
       score.asked += 1;
       score.right += isRight ? 1 : 0;
       for (const other of buttons) other.disabled = true;
-      verdict.textContent = `${isRight ? "Right" : `No: ${asked.right}`}. ${asked.reason} (${score.right} of ${score.asked} right)`;
+      verdict.textContent = `${isRight ? t("Right.") : t("No: {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}`;
     });
     return button;
   });
-  const given = asked.given.length ? [make("p", {}, "Given: ", ...accesses(asked.given, "="))] : [];
-  place.replaceChildren(make("h3", {}, "What comes next?"), make("p", {}, asked.words), ...given, make("p", { class: "answers" }, ...buttons), verdict);
+  const given = asked.given.length ? [make("p", {}, t("Given:") + " ", ...accesses(asked.given, "="))] : [];
+  place.replaceChildren(make("h3", {}, t("What comes next?")), make("p", {}, asked.words), ...given, make("p", { class: "answers" }, ...buttons), verdict);
 }

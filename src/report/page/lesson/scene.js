@@ -160,7 +160,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     context.globalAlpha = 1;
     const tried = boxed && number === mesh.edges[pairs.get("i2") - 1]?.[0];
     path(context, [a, b], { stroke: colour("target-ink"), width: tried ? 4 : 2 });
-    label(context, `edge ${number}`, [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22], colour("target-ink"));
+    label(context, t("edge {edge}", { edge: number }), [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22], colour("target-ink"));
   }
   drawBox(context, to, pairs, boxed);
   const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node));
@@ -184,15 +184,17 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     status(context, [x, y], dy, place === turn);
     label(context, mesh.name(node), [x, Math.max(14, y - 15)], colour("stamp-ink"));
   }
-  const size = factor === 1 ? "To scale." : `Heights are magnified ${short(factor)} times.`;
-  byId("zone-caption").textContent =
-    `${size} Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10. ` +
-    "Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights." +
-    (mesh.count > MOST_DRAGGED ? "" : " A node can be dragged.");
-  canvas.setAttribute("aria-label", `The contact zone: ${nodes.map((n) => `node ${mesh.name(n.node)} ${inWords(n)}`).join("; ")}`);
+  const size = factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor });
+  byId("zone-caption").textContent = [
+    size,
+    t("Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
+    t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
+    ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged.")]),
+  ].join(" ");
+  canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));
 }
 
-const inWords = ({ dy }) => (dy === undefined ? "not decided" : dy === 1 ? "in contact" : "apart");
+const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("apart"));
 
 /** The box of lines 5 and 6, while lines 4 to 7 are executed. */
 function drawBox(context, to, pairs, boxed) {
@@ -229,10 +231,11 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
     const below = point[1] > height / 2;
     label(context, mesh.figure.get(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"));
   }
+  const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
   byId("gaps-caption").textContent = known.length
-    ? `${factor === 1 ? "" : `Gaps are drawn ${short(factor)} times as large as lengths along x. `}Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.`
-    : "No gap is known yet: line 10 computes them.";
-  canvas.setAttribute("aria-label", `Gaps: ${known.map((n) => `${mesh.name(n.node)} ${short(n.yt)}`).join(", ") || "none yet"}`);
+    ? [...scale, t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
+    : t("No gap is known yet: line 10 computes them.");
+  canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }
 
 /** Draws the whole scene to scale; `element` is lit, its equations' nodes V and W are ringed. */
@@ -262,8 +265,11 @@ function drawWhole(mesh, pairs, element, linked) {
     label(context, String(n), [x, y + up], colour(linked.includes(n) ? "accent" : "ink"));
   }
   const fixed = mesh.restrained.flatMap(([x, y], k) => (x || y ? [`${k + 1} (${[x && "x", y && "y"].filter(Boolean).join(", ")})`] : []));
-  byId("whole-caption").textContent =
-    `Triangles and nodes with their numbers. Restrained: ${fixed.slice(0, 12).join(", ")}${fixed.length > 12 ? " and others" : ""}.` +
-    (element ? ` Lit: triangle ${element}, which Km adds. Red: the linked nodes of W.` : "");
-  canvas.setAttribute("aria-label", `The scene: ${mesh.count} nodes, ${mesh.triangles.length} triangles`);
+  const restrained = fixed.slice(0, 12).join(", ");
+  byId("whole-caption").textContent = [
+    t("Triangles and nodes with their numbers."),
+    fixed.length > 12 ? t("Restrained: {restrained} and others.", { restrained }) : t("Restrained: {restrained}.", { restrained }),
+    ...(element ? [t("Lit: triangle {element}, which Km adds. Red: the linked nodes of W.", { element })] : []),
+  ].join(" ");
+  canvas.setAttribute("aria-label", t("The scene: {nodes} nodes, {triangles} triangles", { nodes: mesh.count, triangles: mesh.triangles.length }));
 }

@@ -14,7 +14,7 @@ function marks(machine) {
 
 function cell(machine, marked, name) {
   const value = machine.get(name);
-  const full = value === undefined ? `${name} has no value yet` : `${name} = ${exact(value)}`;
+  const full = value === undefined ? t("{name} has no value yet", { name }) : `${name} = ${exact(value)}`;
   const text = value === undefined ? "·" : brief(value);
   return make("td", { class: marked.get(name), "data-name": name, "data-exact": full }, text);
 }
@@ -42,9 +42,9 @@ function contactTables(mesh, machine, turn) {
   const shown = mesh.count <= 40 ? nodes : nodes.filter(touched);
   const k_cnt = shown.map((n) => [mesh.name(n), [1, 2, 3, 4].map((j) => `k_cnt[${n},${j}]`)]);
   return [
-    table(machine, "by contact node", ["node", "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"]), turn - 1),
-    table(machine, "now", ["name", "value"], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])),
-    table(machine, "k_cnt", ["node", "1: mate", "2: weight", "3: mate", "4: weight"], k_cnt),
+    table(machine, t("by contact node"), [t("node"), "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"]), turn - 1),
+    table(machine, t("now"), [t("name"), t("value")], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])),
+    table(machine, "k_cnt", [t("node"), t("1: mate"), t("2: weight"), t("3: mate"), t("4: weight")], k_cnt),
   ];
 }
 
@@ -52,13 +52,13 @@ function contactTables(mesh, machine, turn) {
 function stiffnessTables(machine) {
   const six = [1, 2, 3, 4, 5, 6];
   return [
-    table(machine, "by equation of the element", ["equation", "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])),
-    table(machine, "now", ["name", "value"], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])),
+    table(machine, t("by equation of the element"), [t("equation"), "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])),
+    table(machine, t("now"), [t("name"), t("value")], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])),
   ];
 }
 
 /** The element's stiffness. */
 function elementTable(machine) {
   const six = [1, 2, 3, 4, 5, 6];
-  return table(machine, "K", ["row", ...six.map(String)], six.map((i) => [String(i), six.map((j) => `K[${i},${j}]`)]));
+  return table(machine, "K", [t("row"), ...six.map(String)], six.map((i) => [String(i), six.map((j) => `K[${i},${j}]`)]));
 }

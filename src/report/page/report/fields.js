@@ -29,9 +29,9 @@ function range(values) {
 const FIELDS = [
   ...data.quantities.triangle.flatMap((quantity) => componentsOf(quantity).map((name, component, { length }) => (
     { name, unit: quantity.unit, triangle: quantity.name, component, components: length }))),
-  { name: "displacement |u|", unit: "length", of: Math.hypot },
-  { name: "displacement ux", unit: "length", of: (x) => x },
-  { name: "displacement uy", unit: "length", of: (x, y) => y },
+  { name: t("displacement {component}", { component: "|u|" }), unit: "length", of: Math.hypot },
+  { name: t("displacement {component}", { component: "ux" }), unit: "length", of: (x) => x },
+  { name: t("displacement {component}", { component: "uy" }), unit: "length", of: (x, y) => y },
   ...data.quantities.contact.filter(({ unit }) => unit).map(({ name, title, unit }) => ({ name: title, unit, contact: name })),
 ];
 

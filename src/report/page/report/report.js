@@ -9,13 +9,13 @@ function columnsOf(place, rows) {
   return known.map((quantity) => [headOf(quantity), valueOf(quantity), kindOf(quantity)]);
 }
 
-const periodOf = (cycle) => (!cycle ? "new" : cycle.length === 1 ? "unchanged" : `as in ${cycle.members[0]} (period of ${cycle.length})`);
+const periodOf = (cycle) => (!cycle ? t("new") : cycle.length === 1 ? t("unchanged") : t("as in {first} (period of {length})", { first: cycle.members[0], length: cycle.length }));
 
 /** The iterations of a run, its bodies and its contact nodes at the end. */
 function showIterations({ name, result }) {
-  const tables = [["Iterations", "iteration", result?.iterations], ["Bodies", "body", result?.bodies], ["Contact nodes", "contact", result?.contact]];
+  const tables = [[t("Iterations of {run}", { run: name }), "iteration", result?.iterations], [t("Bodies of {run}", { run: name }), "body", result?.bodies], [t("Contact nodes of {run}", { run: name }), "contact", result?.contact]];
   const known = tables.filter(([, , rows]) => rows?.length);
-  byId("iterations").replaceChildren(...known.map(([title, place, rows]) => tableOf(`${title} of ${name}`, columnsOf(place, rows), rows)));
+  byId("iterations").replaceChildren(...known.map(([title, place, rows]) => tableOf(title, columnsOf(place, rows), rows)));
 }
 
 /** Links to the sections and the tables of the report, and to the fields. */

@@ -137,7 +137,7 @@ function drawScale() {
     const rounding = 1e-9 * (high - low);
     context.fillText(short(Math.abs(value) < rounding ? 0 : Number(value.toPrecision(4))), 12 + (wide * k) / 4, 34);
   }
-  canvas.setAttribute("aria-label", `${view.field.name} from ${short(low)} to ${inUnit(short(high), view.field)}`);
+  canvas.setAttribute("aria-label", t("{field} from {low} to {high}", { field: view.field.name, low, high: inUnit(inProse(high), view.field) }));
 }
 
 /** What a panel shows, in words. */
@@ -145,14 +145,17 @@ function saidOf(panel) {
   const { run, k } = panel;
   const name = view.field.name;
   const known = rangeOf(panel);
-  if (!known) return `${run.name}: ${name} is ${k < iterationsOf(run) ? "kept of the last iteration only" : "not known"}`;
-  return `${run.name}, iteration ${numberOf(run, k)} of ${lastOf(run)}: ${name} from ${inUnit(known.map(short).join(" to "), view.field)}`;
+  const field = { run: run.name, field: name };
+  if (!known && k < iterationsOf(run)) return t("{run}: {field} is kept of the last iteration only", field);
+  if (!known) return t("{run}: {field} is not known", field);
+  const [low, high] = known;
+  return t("{run}, iteration {k} of {last}: {field} from {low} to {high}", { ...field, k: numberOf(run, k), last: lastOf(run), low, high: inUnit(inProse(high), view.field) });
 }
 
 /** Which shape is drawn, in words. */
 function drawnShape() {
-  if (view.factor === 0) return "undeformed";
-  return view.factor === 1 ? "deformed" : `displacement scale ${short(view.factor)}`;
+  if (view.factor === 0) return t("undeformed");
+  return view.factor === 1 ? t("deformed") : t("displacement scale {factor}", view);
 }
 
 /** Computes and draws everything anew. */
@@ -162,7 +165,7 @@ function showFields() {
   drawScale();
   const most = Math.max(...view.panels.map(({ run }) => iterationsOf(run)));
   byId("iteration").max = most;
-  byId("iteration-shown").textContent = view.panels.map(({ run, k }) => `${numberOf(run, k)} of ${lastOf(run)}`).join(" | ");
+  byId("iteration-shown").textContent = view.panels.map(({ run, k }) => t("{k} of {last}", { k: numberOf(run, k), last: lastOf(run) })).join(" | ");
   view.panels.forEach((panel, side) => {
     const said = saidOf(panel);
     byId(`said-${side}`).textContent = `${said}; ${drawnShape()}`;
@@ -190,23 +193,23 @@ function foundAt(panel, x, y, within) {
   if (view.field.contact) {
     const [n, far] = markAt(panel, x, y);
     if (far > within) return null;
-    return { at: `node ${n + 1}`, values: view.panels.map(({ marks }) => marks?.get(n) ?? null) };
+    return { at: t("node {n}", { n: n + 1 }), values: view.panels.map(({ marks }) => marks?.get(n) ?? null) };
   }
-  const t = triangleAt(panel.places, x, y);
-  if (t < 0) return null;
-  return { at: `triangle ${t + 1}`, body: data.mesh.bodies[mesh.body[t]], values: view.panels.map(({ values }) => values?.[t] ?? null) };
+  const triangle = triangleAt(panel.places, x, y);
+  if (triangle < 0) return null;
+  return { at: t("triangle {n}", { n: triangle + 1 }), body: data.mesh.bodies[mesh.body[triangle]], values: view.panels.map(({ values }) => values?.[triangle] ?? null) };
 }
 
 /** How near to a contact node the pointer finds it, pixels. */
 const NEAR = 14;
 
-const said = (value) => (value === null ? "not known" : inUnit(short(value), view.field));
+const said = (value) => (value === null ? t("not known") : inUnit(inProse(value), view.field));
 
 function pointed(panel, place) {
   const [x, y] = pointAt(panel, ...place);
   const found = foundAt(panel, x, y, NEAR / view.scale);
   const values = found && view.panels.map(({ run }, k) => `${run.name} ${said(found.values[k])}`).join("; ");
-  byId("pointed").textContent = found ? `${[found.at, found.body].filter(Boolean).join(", ")}, at (${short(x)}, ${short(y)}): ${values}` : "";
+  byId("pointed").textContent = found ? t("{what}, at ({x}, {y}): {values}", { what: [found.at, found.body].filter(Boolean).join(", "), x, y, values }) : "";
 }
 
 const probes = [];
@@ -216,13 +219,13 @@ const probes = [];
 function probe(panel, x, y) {
   const found = foundAt(panel, x, y, Infinity);
   const [left, right] = found?.values ?? [null, null];
-  probes.push({ x, y, at: found?.at ?? "outside", left, right, names: view.panels.map(({ run, k }) => `${run.name}, iteration ${numberOf(run, k)}`), field: view.field });
+  probes.push({ x, y, at: found?.at ?? t("outside"), left, right, names: view.panels.map(({ run, k }) => t("{run}, iteration {k}", { run: run.name, k: numberOf(run, k) })), field: view.field });
   byId("probes").replaceChildren(
-    tableOf("Probes", [
-      ["x", (p) => p.x], ["y", (p) => p.y], ["at", (p) => p.at, "text"],
-      ["field", (p) => p.field.name, "text"], ["unit", (p) => unitOf(p.field), "text"],
-      ["left", (p) => p.names[0], "text"], ["value left", (p) => p.left],
-      ["right", (p) => p.names[1], "text"], ["value right", (p) => p.right],
+    tableOf(t("Probes"), [
+      ["x", (p) => p.x], ["y", (p) => p.y], [t("at"), (p) => p.at, "text"],
+      [t("field"), (p) => p.field.name, "text"], [t("unit"), (p) => unitOf(p.field), "text"],
+      [t("left"), (p) => p.names[0], "text"], [t("value left"), (p) => p.left],
+      [t("right"), (p) => p.names[1], "text"], [t("value right"), (p) => p.right],
     ], probes),
   );
 }
@@ -305,7 +308,7 @@ function startViewer() {
   byId("iteration").value = view.k;
   byId("iteration").addEventListener("input", (event) => ((view.k = Number(event.target.value)), showFields()));
   byId("factor").value = view.factor;
-  byId("handy").textContent = `for example ${handyFactor()}`;
+  byId("handy").textContent = t("for example {factor}", { factor: handyFactor() });
   byId("factor").addEventListener("change", (event) => ((view.factor = Number(event.target.value) || 0), showFields()));
   const look = (nodes) => {
     lookAt(extent(mesh.at, nodes));
