@@ -44,7 +44,11 @@ fn in_bodies() -> BTreeSet<String> {
             let (tag, text) = piece.split_once('>').unwrap_or(("", piece));
             said.insert(text.split_whitespace().collect::<Vec<_>>().join(" "));
             for name in [" title=\"", " alt=\"", " aria-label=\""] {
-                said.extend(tag.split(name).skip(1).map(|rest| rest.split('"').next().unwrap_or("").to_string()));
+                said.extend(
+                    tag.split(name)
+                        .skip(1)
+                        .map(|rest| rest.split('"').next().unwrap_or("").to_string()),
+                );
             }
         }
     }
