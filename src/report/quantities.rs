@@ -192,7 +192,7 @@ fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
 /// Writes all quantities of a result as a page in Markdown: `golden/quantities.md`.
 pub fn page() -> String {
     "# The quantities of a result\n\n\
-     Made of `src/engine/quantities.rs`, where each is declared once; a test makes this page again. \
+     Made of `src/engine/quantities/mod.rs`, where each is declared once; a test makes this page again. \
      The field is that of `result.json`; the title heads the columns of tables, CSV and pages, and \
      names the array in `fields.vtu`, in lower case with `_` for blanks. A quantity without a title is \
      in `result.json` only. Lengths, stresses and forces are in the units of the scene; `1` has no \

@@ -31,14 +31,24 @@ const TOKENS: [&str; 12] = [
 ];
 
 fn in_folder(name: &str) -> BTreeSet<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz").join(name);
-    let entries = std::fs::read_dir(folder).expect("a folder of fuzz");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    let entries = std::fs::read_dir(folder).expect("a folder");
     entries.map(|entry| entry.expect("an entry").path()).collect()
+}
+
+/// Returns a target's inputs: its corpus and, where it reads scenes, those of the findings.
+fn inputs(target: &str) -> BTreeSet<PathBuf> {
+    let mut inputs = in_folder(&format!("fuzz/corpus/{target}"));
+    if ["scene", "solve"].contains(&target) {
+        let folders = in_folder("golden/findings").into_iter().filter(|path| path.is_dir());
+        inputs.extend(folders.map(|folder| folder.join("scene.json")));
+    }
+    inputs
 }
 
 fn replay(target: &str) {
     let (_, hold) = TARGETS.iter().find(|(name, _)| *name == target).expect("a target");
-    let inputs = in_folder(&format!("corpus/{target}"));
+    let inputs = inputs(target);
     assert!(!inputs.is_empty(), "{target} has no corpus");
     let mut corpus = Vec::new();
     for input in inputs {
@@ -106,7 +116,7 @@ macro_rules! replayed {
             assert_eq!(TARGETS.map(|(name, _)| name), targets);
             let names = |folder| {
                 let stem = |path: PathBuf| path.file_stem().map(|stem| stem.to_owned());
-                in_folder(folder).into_iter().filter_map(stem).collect::<Vec<_>>()
+                in_folder(&format!("fuzz/{folder}")).into_iter().filter_map(stem).collect::<Vec<_>>()
             };
             assert_eq!(names("fuzz_targets"), targets);
             assert_eq!(names("corpus"), targets);

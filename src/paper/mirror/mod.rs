@@ -14,6 +14,7 @@
 
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+mod ambiguity;
 mod c_cnt;
 mod conditions;
 mod failure;
@@ -21,6 +22,7 @@ mod km;
 mod reading;
 mod worksheet;
 
+pub use ambiguity::{Ambiguity, Change, DefaultFrom, Trial, Value};
 pub use c_cnt::{
     Pairs, c_cnt, distances, edge, edge_box, on_edges, own_weights, status, weights, weights_from,
 };
@@ -30,7 +32,6 @@ pub use conditions::{
 pub use failure::{Cause, Failure};
 pub use km::Km;
 pub use reading::{
-    Ambiguity, Change, DefaultFrom, LoopPlace, NodeTable, READINGS, Reading, RestraintIndex,
-    Schedule, ToleranceUnit, Trial, Value, Wedge,
+    LoopPlace, NodeTable, READINGS, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge,
 };
 pub use worksheet::Worksheet;

@@ -15,16 +15,20 @@
 //! columns; without one the quantity is in `result.json` only. A vector or a tensor has a symbol for each
 //! component.
 
+mod places;
+mod value;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::contact::{ContactPlace, Status};
-use super::solution::{Cycle, Solution, Step};
+use crate::contact::{ContactPlace, Status};
+use crate::solution::{Cycle, Solution};
 use base::choices;
-use numbers::largest::{Largest, largest};
-use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
-use problem::model::{Body, Model, NodeId, TriangleId};
+use places::{BodyPlace, IterationPlace};
+pub use places::{TriangleState, summaries};
+use problem::model::{NodeId, TriangleId};
 use problem::scene::Units;
+pub use value::Value;
 
 /// A quantity of the places whose values `T` has.
 pub struct Quantity<T> {
@@ -58,23 +62,6 @@ choices! {
         /// That of forces in the scene.
         Force = "force",
     }
-}
-
-/// The value of a quantity.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// There is none, or it is not determined.
-    Unknown,
-    /// A whole number that counts something.
-    Count(usize),
-    /// A number with the quantity's unit.
-    Number(f64),
-    /// The components of a vector or a tensor, or of all vectors one after the other.
-    Components(Vec<f64>),
-    /// One of several states, and its number in files for viewers.
-    State(u8, String),
-    /// Words, such as the name of a body.
-    Words(String),
 }
 
 macro_rules! quantities {
@@ -244,142 +231,6 @@ mod as_number {
     }
 }
 
-/// An iteration of a run whose whole load has the size `load`, force.
-pub(crate) struct IterationPlace<'a> {
-    step: &'a Step,
-    load: f64,
-}
-
-impl IterationPlace<'_> {
-    fn target_share(&self) -> Option<f64> {
-        Some(self.step.target_force? / self.load).filter(|share| share.is_finite())
-    }
-}
-
-impl IterationRow {
-    /// Returns the results of each iteration of a solution.
-    pub fn all(solution: &Solution) -> Vec<Self> {
-        let [fx, fy] = solution.model.total_load();
-        let load = fx.hypot(fy);
-        let row = |step| IterationRow::compute(&IterationPlace { step, load });
-        solution.steps.iter().map(row).collect()
-    }
-}
-
-/// A body of a solution.
-pub(crate) struct BodyPlace<'a> {
-    solution: &'a Solution,
-    body: &'a Body,
-    /// Which of its triangles has the largest von Mises stress.
-    most_stressed: Largest,
-}
-
-/// Returns the largest values of each body, in the model's order.
-pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
-    let row = |body: &Body| {
-        let stress = |id: &TriangleId| solution.elements[id.index()].von_mises_stress;
-        let most_stressed =
-            largest(body.triangles.iter().map(stress)).expect("a body has a triangle");
-        BodySummary::compute(&BodyPlace { solution, body, most_stressed })
-    };
-    solution.model.bodies.iter().map(row).collect()
-}
-
-impl BodyPlace<'_> {
-    fn state(&self, id: TriangleId) -> &State {
-        &self.solution.elements[id.index()]
-    }
-
-    /// Returns the states of its triangles.
-    fn states(&self) -> impl Iterator<Item = &State> {
-        self.body.triangles.iter().map(|id| self.state(*id))
-    }
-
-    /// Returns the triangle with the largest von Mises stress.
-    fn largest(&self) -> TriangleId {
-        self.body.triangles[self.most_stressed.first]
-    }
-
-    fn centre(&self) -> [f64; 2] {
-        let corners = self.solution.model.corners(self.largest());
-        [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0)
-    }
-
-    fn max_displacement(&self) -> f64 {
-        let displacements = self.body.nodes.iter().map(|node| node.components(&self.solution.u));
-        displacements.map(|[x, y]: [f64; 2]| x.hypot(y)).fold(0.0, f64::max)
-    }
-
-    fn max_von_mises_strain(&self) -> f64 {
-        self.states().map(|state| state.von_mises_strain).fold(0.0, f64::max)
-    }
-}
-
-/// The state of a triangle, by this program or by another one; what is not known is NaN.
-pub struct TriangleState {
-    /// sigma_x, sigma_y, tau_xy, sigma_z.
-    pub sigma: [f64; 4],
-    /// e_xx, e_yy, g_xy, e_zz.
-    pub epsilon: [f64; 4],
-    /// The von Mises stress, stress.
-    pub von_mises_stress: f64,
-    /// The von Mises strain, without unit.
-    pub von_mises_strain: f64,
-    /// The error of the mesh there, where it is estimated.
-    pub mesh_error: Option<f64>,
-}
-
-impl TriangleState {
-    /// Returns the state of triangle `id` of a model.
-    pub fn new(model: &Model, id: TriangleId, state: &State, mesh_error: Option<f64>) -> Self {
-        let nu = model.triangle(id).material.nu;
-        let ([x, y, xy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
-        TriangleState {
-            sigma: [x, y, xy, out_of_plane_stress(model.plane, nu, &state.sigma)],
-            epsilon: [ex, ey, exy, out_of_plane_strain(model.plane, nu, &state.epsilon)],
-            von_mises_stress: state.von_mises_stress,
-            von_mises_strain: state.von_mises_strain,
-            mesh_error,
-        }
-    }
-
-    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y,
-    /// tau_xy, sigma_z, and the von Mises stress.
-    pub fn stressed(sigma: [f64; 4], von_mises_stress: f64) -> Self {
-        TriangleState {
-            sigma,
-            epsilon: [f64::NAN; 4],
-            von_mises_stress,
-            von_mises_strain: f64::NAN,
-            mesh_error: None,
-        }
-    }
-}
-
-impl TriangleValues {
-    /// Collects the values of a triangle from its state.
-    pub fn new(state: &TriangleState) -> Self {
-        TriangleValues::compute(state)
-    }
-
-    /// Returns the values of each triangle of a solution; `mesh_error` has the error of the mesh in
-    /// each, where that is estimated.
-    pub fn all(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<Self> {
-        let value = |(id, state): (TriangleId, &State)| {
-            let error = mesh_error.map(|error| error[id.index()]);
-            TriangleValues::compute(&TriangleState::new(&solution.model, id, state, error))
-        };
-        solution.model.triangle_ids().zip(&solution.elements).map(value).collect()
-    }
-}
-
-impl NodeFields {
-    /// Collects the values of each triangle of a solution, in the order of the model.
-    pub fn new(solution: &Solution) -> Self {
-        NodeFields::compute(solution)
-    }
-}
-
 impl<T> Quantity<T> {
     /// Returns the name of each component in ASCII, such as sigma_x; the field's name where there
     /// is only one.
@@ -410,114 +261,5 @@ impl Unit {
             Unit::Stress => &units.stress,
             Unit::Force => &units.force,
         }
-    }
-}
-
-impl Value {
-    /// Returns the numbers of a measured value or of a state; None of what is no number, or not
-    /// known.
-    pub fn numbers(&self) -> Option<Vec<f64>> {
-        self.components().filter(|numbers| numbers.iter().all(|x| x.is_finite()))
-    }
-
-    /// Returns the same, be some of it not known.
-    pub fn components(&self) -> Option<Vec<f64>> {
-        match self {
-            Value::Number(x) => Some(vec![*x]),
-            Value::Components(x) => Some(x.clone()),
-            Value::State(number, _) => Some(vec![f64::from(*number)]),
-            Value::Unknown | Value::Count(_) | Value::Words(_) => None,
-        }
-    }
-}
-
-impl From<&usize> for Value {
-    fn from(count: &usize) -> Self {
-        Value::Count(*count)
-    }
-}
-
-impl From<&f64> for Value {
-    fn from(x: &f64) -> Self {
-        Value::Number(*x)
-    }
-}
-
-impl<const N: usize> From<&[f64; N]> for Value {
-    fn from(components: &[f64; N]) -> Self {
-        Value::Components(components.to_vec())
-    }
-}
-
-impl From<&Vec<[f64; 2]>> for Value {
-    fn from(vectors: &Vec<[f64; 2]>) -> Self {
-        Value::Components(vectors.as_flattened().to_vec())
-    }
-}
-
-impl From<&NodeId> for Value {
-    fn from(node: &NodeId) -> Self {
-        Value::Count(node.number())
-    }
-}
-
-impl From<&TriangleId> for Value {
-    fn from(triangle: &TriangleId) -> Self {
-        Value::Count(triangle.number())
-    }
-}
-
-impl From<&String> for Value {
-    fn from(words: &String) -> Self {
-        Value::Words(words.clone())
-    }
-}
-
-impl From<&bool> for Value {
-    fn from(is: &bool) -> Self {
-        Value::State(u8::from(*is), u8::from(*is).to_string())
-    }
-}
-
-impl From<&Option<f64>> for Value {
-    fn from(x: &Option<f64>) -> Self {
-        x.map_or(Value::Unknown, Value::Number)
-    }
-}
-
-impl From<&Option<Status>> for Value {
-    fn from(status: &Option<Status>) -> Self {
-        let number = |status: &Status| match status {
-            Status::Open => 0,
-            Status::Stick => 1,
-            Status::Slip(_) => 2,
-        };
-        let state = |status: &Status| Value::State(number(status), status.to_string());
-        status.as_ref().map_or(Value::Unknown, state)
-    }
-}
-
-impl From<&Option<Cycle>> for Value {
-    fn from(cycle: &Option<Cycle>) -> Self {
-        Value::Words(match cycle {
-            None => "new".into(),
-            Some(Cycle { length: 1, .. }) => "unchanged".into(),
-            Some(Cycle { length, members }) => format!("as in {} (period of {length})", members[0]),
-        })
-    }
-}
-
-impl From<&Vec<u8>> for Value {
-    fn from(list: &Vec<u8>) -> Self {
-        Value::Words(list.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
-    }
-}
-
-impl From<&Option<Vec<Status>>> for Value {
-    fn from(statuses: &Option<Vec<Status>>) -> Self {
-        let words = |list: &Vec<Status>| {
-            list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
-        };
-        statuses.as_ref().map_or(Value::Unknown, |list| Value::Words(words(list)))
     }
 }

@@ -1,0 +1,143 @@
+//! What quantities live on: the places of a solution whose values the table computes.
+
+use super::{BodySummary, IterationRow, NodeFields, TriangleValues};
+use crate::solution::{Solution, Step};
+use numbers::largest::{Largest, largest};
+use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
+use problem::model::{Body, Model, TriangleId};
+
+/// An iteration of a run whose whole load has the size `load`, force.
+pub(crate) struct IterationPlace<'a> {
+    pub(super) step: &'a Step,
+    load: f64,
+}
+
+impl IterationPlace<'_> {
+    pub(super) fn target_share(&self) -> Option<f64> {
+        Some(self.step.target_force? / self.load).filter(|share| share.is_finite())
+    }
+}
+
+impl IterationRow {
+    /// Returns the results of each iteration of a solution.
+    pub fn all(solution: &Solution) -> Vec<Self> {
+        let [fx, fy] = solution.model.total_load();
+        let load = fx.hypot(fy);
+        let row = |step| IterationRow::compute(&IterationPlace { step, load });
+        solution.steps.iter().map(row).collect()
+    }
+}
+
+/// A body of a solution.
+pub(crate) struct BodyPlace<'a> {
+    solution: &'a Solution,
+    pub(super) body: &'a Body,
+    /// Which of its triangles has the largest von Mises stress.
+    pub(super) most_stressed: Largest,
+}
+
+/// Returns the largest values of each body, in the model's order.
+pub fn summaries(solution: &Solution) -> Vec<BodySummary> {
+    let row = |body: &Body| {
+        let stress = |id: &TriangleId| solution.elements[id.index()].von_mises_stress;
+        let most_stressed =
+            largest(body.triangles.iter().map(stress)).expect("a body has a triangle");
+        BodySummary::compute(&BodyPlace { solution, body, most_stressed })
+    };
+    solution.model.bodies.iter().map(row).collect()
+}
+
+impl BodyPlace<'_> {
+    pub(super) fn state(&self, id: TriangleId) -> &State {
+        &self.solution.elements[id.index()]
+    }
+
+    /// Returns the states of its triangles.
+    fn states(&self) -> impl Iterator<Item = &State> {
+        self.body.triangles.iter().map(|id| self.state(*id))
+    }
+
+    /// Returns the triangle with the largest von Mises stress.
+    pub(super) fn largest(&self) -> TriangleId {
+        self.body.triangles[self.most_stressed.first]
+    }
+
+    pub(super) fn centre(&self) -> [f64; 2] {
+        let corners = self.solution.model.corners(self.largest());
+        [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>() / 3.0)
+    }
+
+    pub(super) fn max_displacement(&self) -> f64 {
+        let displacements = self.body.nodes.iter().map(|node| node.components(&self.solution.u));
+        displacements.map(|[x, y]: [f64; 2]| x.hypot(y)).fold(0.0, f64::max)
+    }
+
+    pub(super) fn max_von_mises_strain(&self) -> f64 {
+        self.states().map(|state| state.von_mises_strain).fold(0.0, f64::max)
+    }
+}
+
+/// The state of a triangle, by this program or by another one; what is not known is NaN.
+pub struct TriangleState {
+    /// sigma_x, sigma_y, tau_xy, sigma_z.
+    pub sigma: [f64; 4],
+    /// e_xx, e_yy, g_xy, e_zz.
+    pub epsilon: [f64; 4],
+    /// The von Mises stress, stress.
+    pub von_mises_stress: f64,
+    /// The von Mises strain, without unit.
+    pub von_mises_strain: f64,
+    /// The error of the mesh there, where it is estimated.
+    pub mesh_error: Option<f64>,
+}
+
+impl TriangleState {
+    /// Returns the state of triangle `id` of a model.
+    pub fn new(model: &Model, id: TriangleId, state: &State, mesh_error: Option<f64>) -> Self {
+        let nu = model.triangle(id).material.nu;
+        let ([x, y, xy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
+        TriangleState {
+            sigma: [x, y, xy, out_of_plane_stress(model.plane, nu, &state.sigma)],
+            epsilon: [ex, ey, exy, out_of_plane_strain(model.plane, nu, &state.epsilon)],
+            von_mises_stress: state.von_mises_stress,
+            von_mises_strain: state.von_mises_strain,
+            mesh_error,
+        }
+    }
+
+    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y,
+    /// tau_xy, sigma_z, and the von Mises stress.
+    pub fn stressed(sigma: [f64; 4], von_mises_stress: f64) -> Self {
+        TriangleState {
+            sigma,
+            epsilon: [f64::NAN; 4],
+            von_mises_stress,
+            von_mises_strain: f64::NAN,
+            mesh_error: None,
+        }
+    }
+}
+
+impl TriangleValues {
+    /// Collects the values of a triangle from its state.
+    pub fn new(state: &TriangleState) -> Self {
+        TriangleValues::compute(state)
+    }
+
+    /// Returns the values of each triangle of a solution; `mesh_error` has the error of the mesh in
+    /// each, where that is estimated.
+    pub fn all(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<Self> {
+        let value = |(id, state): (TriangleId, &State)| {
+            let error = mesh_error.map(|error| error[id.index()]);
+            TriangleValues::compute(&TriangleState::new(&solution.model, id, state, error))
+        };
+        solution.model.triangle_ids().zip(&solution.elements).map(value).collect()
+    }
+}
+
+impl NodeFields {
+    /// Collects the values of each triangle of a solution, in the order of the model.
+    pub fn new(solution: &Solution) -> Self {
+        NodeFields::compute(solution)
+    }
+}
