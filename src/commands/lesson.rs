@@ -1,18 +1,20 @@
 //! `plane-contact lesson`.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::paper::edited::Edited;
+use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
 use plane_contact::report::page::exercise;
 use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::{FINDINGS, Finding};
+use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
-use plane_contact::studies::lesson::{self as study, Switch, run as execute, switches};
+use plane_contact::studies::lesson::{self as study, Iterations, Switch, run as execute, switches};
 
 use super::{read_listing, report_written, waiting};
 
@@ -85,8 +87,7 @@ fn lesson(args: &Args) -> Result<String> {
         }
         let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
-        let (runs, nodes) = (runs.collect(), args.nodes.clone());
-        let own = Chapter { runs, nodes, finding: None, scene: scene.clone() };
+        let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
@@ -98,5 +99,16 @@ fn chapter(finding: &'static Finding) -> Result<Chapter> {
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
     let measured = finding.measure(&case);
-    Ok(Chapter { runs, nodes: vec![], finding: Some((finding, measured)), scene: case.scene })
+    Ok(opened(case.scene, runs, vec![], Some((finding, measured))))
+}
+
+/// Returns a chapter with its iterations, on the model of its first run.
+fn opened(
+    scene: Scene,
+    runs: Vec<(Switch, Arc<Model>)>,
+    nodes: Vec<usize>,
+    finding: Option<(&'static Finding, Evidence)>,
+) -> Chapter {
+    let iterations = Iterations::new(&scene, &runs[0].1);
+    Chapter { scene, runs, nodes, finding, iterations }
 }

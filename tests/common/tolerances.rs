@@ -54,6 +54,11 @@ tolerances! {
         "two factorisations of up to 2,300 equations in f64, with multipliers and by elimination: \
          1e-12 on strand; the issue's own number";
 
+    /// Displacements of the page's iterations beside the engine's, relative to the largest.
+    PAGE_ITERATIONS = 1e-9,
+        "two factorisations of up to 200 equations in f64, and a shape from which the coordinates are \
+         taken off again: 1e-12; the issue's own number";
+
     /// What is left of the conditions of contact under the corrected algorithm, relative to the
     /// largest displacement, respectively load.
     CORRECTED_CONDITIONS = 1e-9,

@@ -11,6 +11,7 @@ mod common {
     pub mod program;
     pub mod recorded;
     pub mod tolerances;
+    pub mod tools;
 }
 
 mod calculix;
@@ -27,6 +28,7 @@ mod hard;
 mod invariance;
 mod limits;
 mod orders;
+mod page_iterations;
 mod quadratic_programme;
 mod recorded;
 mod searched;

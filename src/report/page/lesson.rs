@@ -3,7 +3,7 @@
 //! Its data: `scenes`, each with its `runs`; a run has its mesh, its settings and its two listings. What
 //! repeats stands once and is named by its place: `meshes` and `listings`.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use serde_json::{Value, json};
@@ -12,12 +12,15 @@ use super::{INTERPRETER, Page};
 use crate::audit::FindingRow;
 use crate::json::document;
 use crate::language::Language;
+use crate::picture::deformation::boundary_edges;
+use mathcad::Settings;
 use mathcad::unsupported::{FUNCTIONS, UNITS};
+use paper::corrected::Program;
 use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
 use studies::audit::findings::{Evidence, Finding};
-use studies::lesson::{Switch, figure_numbers};
+use studies::lesson::{Iterations, Recorded, State, Switch, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
@@ -29,6 +32,18 @@ pub struct Chapter {
     pub nodes: Vec<usize>,
     /// What the scene is there to show, and what was measured on it.
     pub finding: Option<(&'static Finding, Evidence)>,
+    /// The iterations of its scene.
+    pub iterations: Iterations,
+}
+
+/// The worksheet of a scene, and the iterations around the listings, which need the interpreter alone.
+pub const ITERATE: [&str; 2] =
+    [include_str!("lesson/worksheet.js"), include_str!("lesson/iterate.js")];
+
+/// Returns the programs of the corrected algorithm, and the settings under which they run.
+pub fn corrected() -> Value {
+    let programs = Program::ALL.iter().map(|program| (program.name(), program.text()));
+    json!({ "programs": programs.collect::<BTreeMap<_, _>>(), "settings": Settings::default() })
 }
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
@@ -42,15 +57,16 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "meshes": shared.meshes.items,
         "listings": shared.listings.items,
         "known": { "functions": FUNCTIONS, "units": UNITS },
+        "corrected": corrected(),
     });
     let script = [
-        include_str!("lesson/worksheet.js"),
         include_str!("lesson/machine.js"),
         include_str!("lesson/edit.js"),
         include_str!("lesson/listing.js"),
         include_str!("lesson/scene.js"),
         include_str!("lesson/matrix.js"),
         include_str!("lesson/tables.js"),
+        include_str!("lesson/play.js"),
         include_str!("lesson/questions.js"),
         include_str!("lesson/chapters.js"),
         include_str!("lesson/drag.js"),
@@ -62,7 +78,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         title: &language.say(&format!("Lesson: {}", scene.title)),
         body: include_str!("lesson/body.html"),
         style: include_str!("lesson/lesson.css"),
-        script: &[&INTERPRETER[..], &script].concat(),
+        script: &[&INTERPRETER[..], &ITERATE, &script].concat(),
         data: document(Some(scene), &own),
     }
     .html()
@@ -106,6 +122,9 @@ impl Shared {
             "units": chapter.scene.units,
             "runs": runs.collect::<Vec<_>>(),
             "nodes": chapter.nodes,
+            "variant": chapter.scene.variant,
+            "reference": chapter.iterations.reference.as_ref().map(|u| u.as_slice()),
+            "recorded": chapter.iterations.recorded.as_deref().map(|runs| recorded(&chapter.runs[0].1, runs)),
             "finding": finding,
         })
     }
@@ -124,6 +143,7 @@ impl Shared {
             "c_cnt": listing(Which::CCnt),
             "Km": listing(Which::Km),
             "settings": switch.settings(),
+            "readsRestraintOfY": switch.reads_restraint_of_y(),
             "c_tll": model.contact.tolerance,
             "plane": model.plane,
             "mesh": self.meshes.index(mesh(model)),
@@ -131,9 +151,42 @@ impl Shared {
     }
 }
 
+/// Returns the recorded iterations, what repeats once. Of displacements the page draws those of the bodies'
+/// rims, in whole thousandths of the largest, `unit`.
+fn recorded(model: &Model, runs: &[Recorded]) -> Value {
+    let triangles: Vec<_> =
+        model.triangles.iter().map(|t| t.nodes.map(|node| node.index())).collect();
+    let rim = boundary_edges(&triangles);
+    let nodes: BTreeSet<_> = rim.iter().flatten().copied().collect();
+    let states = || runs.iter().flat_map(|run| &run.states);
+    let unit = states().map(|state| state.u.amax()).fold(0.0, f64::max) / 1000.0;
+    let mut shapes = DistinctValues::default();
+    let mut state = |state: &State| {
+        let components = nodes.iter().flat_map(|n| [2 * n, 2 * n + 1]);
+        let u: Vec<_> = components.map(|e| (state.u[e] / unit).round() as i64).collect();
+        json!({
+            "inContact": state.in_contact,
+            "shape": shapes.index(json!(u)),
+            "error": state.error,
+        })
+    };
+    let mut variants = BTreeMap::new();
+    for run in runs {
+        let states: Vec<_> = run.states.iter().map(&mut state).collect();
+        variants.insert(run.variant.name(), json!({ "states": states, "failure": run.failure }));
+    }
+    json!({
+        "rim": rim.iter().map(|edge| edge.map(|n| n + 1)).collect::<Vec<_>>(),
+        "nodes": nodes.iter().map(|n| n + 1).collect::<Vec<_>>(),
+        "unit": unit,
+        "shapes": shapes.items,
+        "variants": variants,
+    })
+}
+
 /// Returns a model's mesh, from which the page makes the worksheet's tables and draws it; nodes and
 /// triangles are counted from 1.
-fn mesh(model: &Model) -> Value {
+pub fn mesh(model: &Model) -> Value {
     let body = |id| model.bodies.iter().position(|body| body.triangles.contains(&id));
     let triangle = |id| {
         let triangle = model.triangle(id);
@@ -160,6 +213,7 @@ fn mesh(model: &Model) -> Value {
         "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
         "target": model.bodies.iter().position(|b| target.is_some_and(|node| b.has(node))),
         "contact": model.contact.nodes,
+        "load": model.load.as_slice(),
         "edges": edges.collect::<Vec<_>>(),
         "restrained": restrained.collect::<Vec<_>>(),
         "figure": figure_numbers(model),

@@ -2,6 +2,7 @@
 //! lesson offers.
 
 pub mod exercise;
+mod iterations;
 mod switches;
 
 use std::collections::BTreeSet;
@@ -18,6 +19,7 @@ use paper::mirror::Reading;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
+pub use iterations::{ITERATIONS, Iterations, Recorded, State, recorded};
 pub use switches::{Switch, chapter, switches};
 
 /// The statements that a page holds at most, both listings together.

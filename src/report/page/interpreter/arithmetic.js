@@ -142,7 +142,12 @@ function lsolve(a, b) {
   if (!isArrayOfNumbers(a) || !isArrayOfNumbers(b)) throw wrongKind("a square matrix and a column", isNumber(a) ? a : b);
   const n = a.rows;
   if (n !== a.cols || n !== b.rows || b.cols !== 1) throw wrongSizes("lsolve", a, b);
-  const { rows, order } = factors(a);
+  return substituted(factors(a), b);
+}
+
+/** The solution from the rows of an eliminated matrix and their order. */
+function substituted({ rows, order }, b) {
+  const n = order.length;
   const x = order.map((i) => b.entries[i]);
   for (let k = 0; k < n; k += 1) for (let j = 0; j < k; j += 1) x[k] -= rows[order[k]][j] * x[j];
   for (let k = n - 1; k >= 0; k -= 1) {

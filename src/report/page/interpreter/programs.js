@@ -18,11 +18,11 @@ function worksheetOf(tables, plane, known) {
   return { values, programs: new Map(), functions: new Map([["D", elasticity(plane)]]), known };
 }
 
-/** Executes a listing on its argument. Returns its steps, its output, its value and the values of the names
- * that it wrote, or the failure that stopped it. */
+/** Executes a listing on its argument. Returns its steps (none without a recorder), its output, its value and
+ * the values of the names that it wrote, or the failure that stopped it. */
 function executed(listing, worksheet, settings, values, limits = LIMITS, recorder = new Recorder(listing.lines)) {
   const run = new Run(listing, worksheet, settings, { recorder, limits });
-  const done = { steps: recorder.steps, output: run.output, locals: run.values, failure: null };
+  const done = { steps: recorder?.steps, output: run.output, locals: run.values, failure: null };
   try {
     return { ...done, value: run.execute(values) };
   } catch (failure) {

@@ -12,6 +12,7 @@ function keepAddress() {
   page.timer = setTimeout(() => {
     const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
     const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
+    if (page.which === "iterations") fields.variant = page.variant;
     for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = page.edits.get(run()[name]);
     const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !isChanged();
     history.replaceState(null, "", isDefault ? " " : `#${new URLSearchParams(fields)}`);
@@ -24,7 +25,9 @@ function openAddress() {
   const place = (list, name) => Math.max(0, list.findIndex((item) => nameOf(item) === name));
   openChapter(place(data.scenes, fields.get("chapter")));
   if (!fields.has("chapter")) return;
-  const which = fields.get("listing") === "Km" || page.mesh.contact.length === 0 ? "Km" : "c_cnt";
+  const whiches = page.mesh.contact.length ? ["c_cnt", "Km", "iterations"] : ["Km"];
+  const which = whiches.find((which) => which === fields.get("listing")) ?? whiches[0];
+  const variants = [...byId("variant").options].map(({ value }) => value);
   const chosen = place(chapter().runs, fields.get("run"));
   const edits = LISTINGS.filter((name) => fields.has(name) && !errorIn(name, fields.get(name)));
   const factor = Number(fields.get("tolerance"));
@@ -33,6 +36,7 @@ function openAddress() {
   choose({
     run: chosen,
     which,
+    variant: variants.find((variant) => variant === fields.get("variant")) ?? page.variant,
     at: Number(fields.get("step")) || 0,
     factor: factor >= 0.01 && factor <= 100 ? factor : 1,
     edits: new Map(edits.map((name) => [chapter().runs[chosen][name], fields.get(name)])),
@@ -40,5 +44,6 @@ function openAddress() {
   });
   byId("chapter").value = page.chapter;
   byId("run").value = page.run;
+  byId("variant").value = page.variant;
   for (const radio of document.getElementsByName("which")) radio.checked = radio.value === which;
 }

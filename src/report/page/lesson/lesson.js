@@ -16,32 +16,35 @@ const isEdited = () => page.edits.has(run().c_cnt) || page.edits.has(run().Km);
 
 const isChanged = () => isMoved() || isEdited();
 
+const isIterating = () => page.which === "iterations";
+
 /** A program that is not called. */
 const NOTHING = { lines: [], steps: [], failure: null };
 
 /** Chooses scene, run and listing. Under another reading of the same listing the place stays. */
 function choose(change) {
+  play(false);
   const isEnded = page.machine?.at > 0 && page.machine.at === page.machine.steps.length;
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
   page.mesh = meshOf(run(), page.moved);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
-  page.machine = page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
+  page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, page.pairs);
-  page.map = new MatrixMap(page.mesh, page.machine);
+  page.map = isIterating() ? null : new MatrixMap(page.mesh, page.machine);
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("about").textContent = t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() });
   byId("tolerance").value = Math.log10(page.factor);
   byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
-  if (["run", "which", "edits"].some((name) => name in change)) showText();
+  if (!isIterating() && ["run", "which", "edits"].some((name) => name in change)) showText();
   showReset();
   byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
   byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
-  showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
+  if (!isIterating()) showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
   fillTurns();
   // Beside the arrays it would take half of a move's time.
   if (!page.dragged) showChanges(run(), page.programs);
@@ -63,8 +66,23 @@ function go(at) {
   show();
 }
 
-/** Shows the state after the steps that were executed. */
+/** Shows the state after the steps or the iterations that were made. */
 function show() {
+  document.querySelector(".columns").hidden = isIterating();
+  byId("iterations").hidden = !isIterating();
+  const line = isIterating() ? showIterations() : showSteps();
+  const { at, steps } = page.machine;
+  byId("slider").value = at;
+  byId("status").textContent = isIterating() ? t("iteration {at} of {count}", { at, count: steps.length }) : [t("step {at} of {count}", { at, count: steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", ");
+  byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
+  keepAddress();
+  for (const id of ["start", "back"]) byId(id).disabled = at === 0;
+  for (const id of ["forward", "end"]) byId(id).disabled = at === steps.length;
+  for (const id of ["over", "decision", "turn"]) byId(id).disabled = isIterating() || at === steps.length;
+}
+
+/** Shows the listing and its arrays; returns the number of the line that was executed last, 0 before the first. */
+function showSteps() {
   const { machine, mesh, pairs, zone } = page;
   const turn = machine.turnAt(machine.at - 1);
   const inKm = page.which === "Km";
@@ -87,13 +105,8 @@ function show() {
   const ended = machine.at === machine.steps.length;
   byId("failure").textContent = ended && machine.failure ? t("The listing stops: {failure}", machine) : "";
   ask(machine, mesh);
-  byId("slider").value = machine.at;
-  byId("status").textContent = [t("step {at} of {count}", { at: machine.at, count: machine.steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", ");
-  byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
-  keepAddress();
-  for (const id of ["start", "back"]) byId(id).disabled = machine.at === 0;
-  for (const id of ["forward", "over", "decision", "turn", "end"]) byId(id).disabled = ended;
+  return line;
 }
 
 /** What each button does, and its key. */
@@ -111,11 +124,14 @@ function watch() {
   for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine)));
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
+    if (event.key === "p") play(!page.playing);
     const move = Object.values(moves).find(([key]) => key === event.key || key === event.key.toLowerCase());
     if (!move) return;
     event.preventDefault();
     go(move[1](page.machine));
   });
+  byId("play").addEventListener("click", () => play(!page.playing));
+  byId("variant").addEventListener("change", (event) => choose({ variant: event.target.value, at: 0 }));
   byId("slider").addEventListener("input", (event) => go(Number(event.target.value)));
   byId("turns").addEventListener("change", (event) => go(Number(event.target.value)));
   byId("chapter").addEventListener("change", (event) => openChapter(Number(event.target.value)));
@@ -138,13 +154,14 @@ function openChapter(chapter) {
   const runs = data.scenes[chapter].runs.map(({ label }, k) => make("option", { value: k }, label));
   byId("run").replaceChildren(...runs);
   showFinding(data.scenes[chapter]);
+  fillVariants(data.scenes[chapter]);
   const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
   const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
   const which = inKm ? "Km" : "c_cnt";
   for (const radio of document.getElementsByName("which")) {
     radio.checked = radio.value === which;
-    radio.disabled = contact.length === 0 && radio.value === "c_cnt";
+    radio.disabled = contact.length === 0 && radio.value !== "Km";
   }
   choose({ chapter, run: 0, which, factor: 1, moved: new Map(), edits: new Map() });
 }

@@ -76,6 +76,12 @@ class TurnRecorder extends Recorder {
   }
 }
 
+/** The lines of the listing at a place, as given or as edited. */
+function linesAt(place, edits = new Map()) {
+  if (edits.has(place)) return linesOf(edits.get(place));
+  return data.listings[place].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
+}
+
 /** The two listings of a run, each executed when it is first asked for; `edits` has the texts of those that are
  * edited, by their place. */
 class Programs {
@@ -101,9 +107,7 @@ class Programs {
   }
 
   execute(name, argument) {
-    const place = this.run[name];
-    const given = data.listings[place].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
-    const lines = this.edits.has(place) ? linesOf(this.edits.get(place)) : given;
+    const lines = linesAt(this.run[name], this.edits);
     const listing = readListing(name, lines);
     const recorder = new TurnRecorder(listing, this.turns(name), name === "Km" ? this.mesh.triangles.length : this.mesh.contact.length);
     const done = executed(listing, this.worksheet, this.run.settings, [argument], MOST_SHOWN, recorder);

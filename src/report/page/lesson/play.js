@@ -1,0 +1,198 @@
+// The iterations as they are played: the deformed shape, who is in contact, and the error.
+
+/** The iterations of a variant, gone through by the bar as the steps of a program are. */
+class Played {
+  constructor({ states, failure }, error) {
+    Object.assign(this, { steps: states, failure, lines: [], turns: [], at: 0 });
+    this.errors = states.map((state) => state.error ?? error?.(state.u));
+  }
+
+  goTo(at) {
+    this.at = Math.max(0, Math.min(at, this.steps.length));
+  }
+
+  over() {
+    return this.at + 1;
+  }
+  nextDecision() {
+    return this.at + 1;
+  }
+  nextTurn() {
+    return this.at + 1;
+  }
+}
+
+/** The iterations of the variant that is chosen: of a large scene as recorded, else made here. */
+function played() {
+  const { recorded } = chapter();
+  if (recorded) {
+    const { states, failure } = recorded.variants[page.variant];
+    return new Played({ states: states.map((state) => ({ ...state, u: unpacked(recorded, state) })), failure });
+  }
+  const { mesh, programs } = page;
+  const first = chapter().runs[0];
+  const listings = (run, edits) => Object.fromEntries(["c_cnt", "Km"].map((name) => [name, readListing(name, linesAt(run[name], edits))]));
+  const equations = new Equations(run(), listings(run(), page.edits), mesh.own, mesh.stands, programs.c_tll);
+  const made = iterated(equations, page.variant, data.corrected);
+  return new Played(made, hasReference() ? errorsFrom(new Equations(first, listings(first), mesh.own, mesh.stands, programs.c_tll).stiffness, chapter().reference) : undefined);
+}
+
+/** Whether the reference solution is one of the scene as it is now. */
+const hasReference = () => chapter().reference && page.moved.size === 0 && run().mesh === chapter().runs[0].mesh && run().plane === chapter().runs[0].plane;
+
+/** The displacements of a recorded state: those of the bodies' rims. */
+function unpacked({ nodes, shapes, unit }, { shape }) {
+  const u = Array(2 * page.mesh.count).fill(0);
+  nodes.forEach((n, k) => [0, 1].forEach((d) => (u[2 * n - 2 + d] = unit * shapes[shape][2 * k + d])));
+  return u;
+}
+
+/** Errors that are the equations' rounding. */
+const ROUNDING = 1e-10;
+
+/** How far displacements are from a reference solution's, in the energy norm. */
+function errorsFrom(K, reference) {
+  const whole = energyNorm(K, reference);
+  return (u) => {
+    const error = energyNorm(K, u.map((x, e) => x - reference[e]));
+    return error <= ROUNDING * whole ? 0 : error / whole;
+  };
+}
+
+const percent = (error) => `${short(Number((100 * error).toPrecision(3)))} %`;
+
+const listed = (nodes) => nodes.map((n) => page.mesh.name(n)).join(", ");
+const contactInWords = (nodes) => (nodes.length ? t("in contact: {nodes}", { nodes: listed(nodes) }) : t("no node in contact"));
+
+/** The iteration that is shown, in words. */
+function stateInWords({ at, steps, errors }) {
+  if (at === 0) return t("The initial shape, before the first iteration.");
+  const [now, before] = [steps[at - 1].inContact, steps[at - 2]?.inContact];
+  const others = (some, all) => some.filter((n) => !all.includes(n));
+  const [joined, left] = before ? [others(now, before), others(before, now)] : [[], []];
+  return [
+    t("Iteration {at} of {count}, {state}.", { at, count: steps.length, state: contactInWords(now) }),
+    ...(joined.length ? [t("New in contact: {nodes}.", { nodes: listed(joined) })] : []),
+    ...(left.length ? [t("No longer in contact: {nodes}.", { nodes: listed(left) })] : []),
+    ...(errors[at - 1] === undefined ? [] : [t("Error {error}.", { error: percent(errors[at - 1]) })]),
+  ].join(" ");
+}
+
+/** What all iterations come to, in words. */
+function courseInWords({ steps, failure }, variant) {
+  if (failure) return t("Iteration {k} stops: {failure}", { k: steps.length + 1, failure });
+  const period = periodOf(steps);
+  const sets = steps.map(({ inContact }) => contactInWords(inContact));
+  const settled = () => sets.findLastIndex((set) => set !== sets.at(-1)) + 2;
+  if (variant === "corrected" && steps.length < ITERATIONS) return t("It ends with iteration {k}, whose shape has the contact that its equations have.", { k: steps.length });
+  if (period === 1) return t("The contact state is settled from iteration {k} on: {state}.", { k: settled(), state: sets.at(-1) });
+  if (period === 2) return t("The contact state does not settle: two states alternate ({one}; {other}).", { one: sets.at(-2), other: sets.at(-1) });
+  return period ? t("The contact state does not settle: it comes back after {period} iterations.", { period }) : t("The contact state has not settled.");
+}
+
+/** How many times displacements are drawn: the largest of all iterations comes to an eighth of the scene. */
+function magnification(mesh, steps, size) {
+  const most = steps.reduce((most, { u }) => u.reduce((most, x) => Math.max(most, Math.abs(x)), most), 0);
+  return most > 0 ? roundAtMost(size / 8 / most) : 1;
+}
+
+/** Draws the shape after the iteration, over the initial one. */
+function drawShape(mesh, { steps, at }) {
+  const canvas = byId("shape");
+  const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
+  const [low, high] = [Math.min, Math.max].map((end) => [0, 1].map((j) => end(...points.map((p) => p[j]))));
+  const times = magnification(mesh, steps, Math.max(high[0] - low[0], high[1] - low[1]));
+  const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
+  const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
+  const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
+  const { to } = view([...points, ...corners], width, height, 26, false);
+  const drawn = (at, isInitial) => {
+    const colours = (nodes, body) => (isInitial ? { stroke: colour("rule") } : { stroke: colour(body === mesh.target ? "target-ink" : "stamp-ink"), fill: nodes.length > 2 && colour(body === mesh.target ? "target" : "stamp") });
+    const parts = chapter().recorded?.rim.map((nodes) => [nodes]) ?? mesh.triangles;
+    for (const [nodes, body] of parts) path(context, nodes.map((n) => to(at(n))), { ...colours(nodes, body), width: 0.8, close: true });
+  };
+  const [now, inContact] = [moved(steps[at - 1]?.u), steps[at - 1]?.inContact];
+  drawn(mesh.at, true);
+  drawn(now, false);
+  for (const n of mesh.contact) {
+    status(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
+    if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
+  }
+  byId("shape-caption").textContent = `${t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times })}`;
+  canvas.setAttribute("aria-label", stateInWords({ steps, at, errors: [] }));
+}
+
+/** Which contact nodes are in contact, by iteration, and the errors. */
+function statesTable(mesh, { steps, errors, at }) {
+  const nodes = mesh.contact.length <= 12 ? mesh.contact : mesh.contact.filter((n) => steps.some(({ inContact }) => inContact.includes(n)));
+  const now = (k) => (k === at - 1 ? "written" : undefined);
+  const row = (head, cells) => make("tr", {}, make("th", { scope: "row" }, head), ...cells.map((text, k) => make("td", { class: now(k) }, text)));
+  const rows = nodes.map((n) => row(mesh.name(n), steps.map(({ inContact }) => (inContact.includes(n) ? "●" : "○"))));
+  const share = (error) => (error === undefined ? "–" : short(Number((100 * error).toPrecision(3))));
+  const head = make("tr", {}, make("th", { scope: "col" }, t("node")), ...steps.map((_, k) => make("th", { scope: "col" }, String(k + 1))));
+  const caption = make("caption", {}, t("By iteration: ● in contact, ○ apart"));
+  return make("table", {}, caption, make("thead", {}, head), make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
+}
+
+/** Draws the errors over the iterations, by powers of ten. */
+function drawErrors({ errors, at }) {
+  const canvas = byId("errors");
+  const known = errors.filter((error) => error > 0 && Number.isFinite(error)).map(Math.log10);
+  byId("errors-caption").textContent = known.length
+    ? t("Energy norm of the difference from the reference solution (unilateral with mortar, without friction) over that of the reference solution, by iteration; the axis has powers of ten.") +
+      (page.variant === "stepped" ? ` ${t("Before the last iteration of stepped a part of the load is missing.")}` : "")
+    : t("No error can be drawn: the reference solution is of the scene as it was given, under contact that holds it and a load.");
+  canvas.hidden = known.length === 0;
+  if (canvas.hidden) return;
+  const { context, width, height } = prepared(canvas, 150);
+  const [low, high] = [Math.floor(Math.min(...known)), Math.max(Math.ceil(Math.max(...known)), Math.floor(Math.min(...known)) + 1)];
+  const to = (k, power) => [64 + (k / Math.max(1, errors.length - 1)) * (width - 84), 14 + ((high - power) / (high - low)) * (height - 42)];
+  for (let power = low; power <= high; power += Math.ceil((high - low) / 4)) {
+    path(context, [to(0, power), to(errors.length - 1, power)], { stroke: colour("rule") });
+    label(context, percent(10 ** power), [56, to(0, power)[1] + 4], colour("muted"), "right");
+  }
+  const points = errors.map((error, k) => to(k, error > 0 ? Math.log10(error) : low));
+  path(context, points, { stroke: colour("accent"), width: 2 });
+  points.forEach((point, k) => status(context, point, k === at - 1 ? 1 : undefined, k === at - 1));
+  for (const k of new Set([0, errors.length - 1])) label(context, String(k + 1), [points[k][0], height - 8], colour("muted"));
+  canvas.setAttribute("aria-label", t("Error after the last iteration: {error}", { error: percent(errors.at(-1)) }));
+}
+
+/** Shows the iterations as far as they were gone through. */
+function showIterations() {
+  const { machine, mesh } = page;
+  byId("state").textContent = stateInWords(machine);
+  const isRecorded = chapter().recorded && (isChanged() || page.run > 0);
+  byId("course").textContent = courseInWords(machine, page.variant) + (isRecorded ? ` ${t("Recorded: the listings as printed, on the scene as given.")}` : "");
+  drawShape(mesh, machine);
+  byId("states").replaceChildren(statesTable(mesh, machine));
+  roving(byId("states"), "td", () => machine.steps.length);
+  drawErrors(machine);
+}
+
+/** Lists the variants of a chapter, and chooses the scene's own. */
+function fillVariants({ variant, recorded }) {
+  const words = {
+    printed: t("Km as printed"),
+    tied: t("eq. (1) on total displacements"),
+    stepped: t("eq. (1) on increments, the load in equal steps"),
+    corrected: t("both listings with what the findings ask for"),
+  };
+  const names = VARIANTS.filter((name) => !recorded || recorded.variants[name]);
+  byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, `${name}: ${words[name]}`)));
+  page.variant = byId("variant").value = names.includes(variant) ? variant : "tied";
+}
+
+/** Plays the steps or the iterations to their end, or stops. */
+function play(isOn) {
+  clearInterval(page.playing);
+  page.playing = null;
+  byId("play").textContent = isOn ? t("pause") : t("play");
+  if (!isOn) return;
+  if (page.machine.at === page.machine.steps.length) go(0);
+  const pause = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1500 : 600;
+  page.playing = setInterval(() => {
+    go(page.machine.at + 1);
+    if (page.machine.at === page.machine.steps.length) play(false);
+  }, pause);
+}

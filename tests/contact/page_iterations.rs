@@ -1,0 +1,128 @@
+//! The iterations that the page of a lesson makes (JavaScript, run by node) are the engine's: `printed`, `tied`
+//! and `stepped` find the same contact nodes in every iteration, and so do the corrected programs.
+
+use std::path::Path;
+use std::process::Command;
+
+use nalgebra::DVector;
+use plane_contact::engine::{Request, Session};
+use plane_contact::mathcad::unsupported;
+use plane_contact::paper::corrected::{Bound, iterate};
+use plane_contact::paper::listings::Which;
+use plane_contact::problem::model::NodeId;
+use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::page::{INTERPRETER, lesson};
+use plane_contact::studies::lesson::{ITERATIONS, Iterations, Recorded, Switch, recorded};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::common::tolerances::{PAGE_ITERATIONS, assert_near};
+use crate::common::tools::is_there;
+use crate::corners::Writing;
+use crate::drawn::scenes;
+
+/// The number of random scenes.
+const DRAWN: usize = 40;
+
+/// The scenes, each with its name.
+fn small() -> Vec<Scene> {
+    let named = ["fig1", "two-blocks", "findings/C6", "findings/K5", "findings/K6", "findings/K9"];
+    let drawn = scenes(46, DRAWN).map(|drawn| {
+        let scene = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
+        scene.build().unwrap()
+    });
+    named.into_iter().map(|name| Scene::open(name).unwrap()).chain(drawn).collect()
+}
+
+/// The engine's iterations of the variants of the paper, and those of the corrected programs.
+fn engine(scene: &Scene) -> Vec<(&'static str, Vec<(Vec<NodeId>, DVector<f64>)>)> {
+    let session = Session::default();
+    let states = |run: Recorded| run.states.into_iter().map(|s| (s.in_contact, s.u)).collect();
+    let published = Variant::OF_THE_PAPER
+        .iter()
+        .map(|variant| (variant.name(), states(recorded(scene, *variant, &session, None))));
+    let after = |steps: usize| {
+        let ending = iterate(&scene.model, Bound::Normal, &[], steps).ok()?;
+        let nodes = ending.in_contact.into_iter().map(|(node, _)| node).collect();
+        (ending.iterations == steps).then(|| (nodes, DVector::from_vec(ending.u)))
+    };
+    published.chain([("corrected", (1..=ITERATIONS).map_while(after).collect())]).collect()
+}
+
+/// What the page has of a scene.
+fn given(scene: &Scene) -> Value {
+    let switch = Switch::as_printed();
+    let texts = |which: Which| switch.listing(which).to_string();
+    json!({
+        "mesh": lesson::mesh(&scene.model),
+        "plane": scene.model.plane,
+        "settings": switch.settings(),
+        "readsRestraintOfY": switch.reads_restraint_of_y(),
+        "c_tll": scene.model.contact.tolerance,
+        "c_cnt": texts(Which::CCnt),
+        "Km": texts(Which::Km),
+    })
+}
+
+#[test]
+fn the_page_s_iterations_are_the_engine_s() {
+    let mut node = Command::new("node");
+    node.arg("--version");
+    if !is_there(node, "REQUIRE_BROWSER") {
+        eprintln!("node is not installed: the page's iterations are not made");
+        return;
+    }
+    let scenes = small();
+    let folder = TempDir::new().expect("a folder");
+    let file = folder.path().join("given.json");
+    let script = [&INTERPRETER[..], &lesson::ITERATE].concat().join("\n");
+    let given = json!({
+        "script": script,
+        "data": {
+            "known": { "functions": unsupported::FUNCTIONS, "units": unsupported::UNITS },
+            "corrected": lesson::corrected(),
+        },
+        "scenes": scenes.iter().map(given).collect::<Vec<_>>(),
+    });
+    std::fs::write(&file, given.to_string()).expect("a file");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/contact/page_iterations.cjs");
+    let output = Command::new("node").arg(script).arg(&file).output().expect("node starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let mut compared = 0;
+    for (k, scene) in scenes.iter().enumerate() {
+        for (variant, states) in engine(scene) {
+            let what = format!("scene {k} ({}), {variant}", scene.name);
+            let own = page[k][variant]["states"].as_array().expect("states");
+            if !states.is_empty() {
+                assert_eq!(own.len(), states.len(), "{what}: {}", page[k][variant]["failure"]);
+            }
+            let size = states.iter().map(|(_, u)| u.amax()).fold(0.0, f64::max);
+            for (own, (nodes, u)) in own.iter().zip(&states) {
+                assert_eq!(own["inContact"], json!(nodes), "{what}");
+                let theirs: Vec<f64> = serde_json::from_value(own["u"].clone()).expect("numbers");
+                let difference = (DVector::from_vec(theirs) - u).amax();
+                assert_near(&what, difference, 0.0, size, &PAGE_ITERATIONS);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 20 * DRAWN, "{compared}");
+}
+
+/// What is recorded of a large scene ends with the displacements that the engine ends with.
+#[test]
+fn recorded_iterations_are_those_of_the_variants() {
+    let scene = Scene::open("strand").unwrap();
+    let iterations = Iterations::new(&scene, &scene.model);
+    let recorded = iterations.recorded.expect("a large scene is recorded");
+    for Recorded { variant, states, failure } in recorded {
+        let request = Request::new(&scene).variant(variant);
+        let solution = Session::default().solve(&request, &mut |_| ()).expect("it runs");
+        assert_eq!((states.len(), failure), (ITERATIONS, None));
+        assert_eq!(states.last().expect("states").u, solution.u);
+        let error = states.last().and_then(|state| state.error).expect("it has a reference");
+        assert!(error > 0.0 && error.is_finite(), "{variant}: {error}");
+    }
+}
