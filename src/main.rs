@@ -62,7 +62,8 @@ fn main() -> ExitCode {
     let parsed = grammar.try_get_matches_from_mut(std::env::args_os());
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(why) if why.use_stderr() => {
+        Err(mut why) if why.use_stderr() => {
+            commands::name_subcommands(&mut why, &grammar);
             let renamed = commands::renamed(&why);
             if json {
                 let _ = commands::print(&failure(&usage(&why, renamed.as_deref())));

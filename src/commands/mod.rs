@@ -145,6 +145,23 @@ pub fn renamed(why: &clap::Error) -> Option<String> {
     (!is_mistyped).then(|| format!("`{old}` is now `{new}`"))
 }
 
+/// Adds to the error about a command that is not there the names of those that are, where none of
+/// them is similar.
+pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
+    let is_unlike = why.kind() == ErrorKind::InvalidSubcommand
+        && why.get(ContextKind::SuggestedSubcommand).is_none();
+    if !is_unlike {
+        return;
+    }
+    let group = std::env::args()
+        .skip(1)
+        .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
+    let names = group.get_subcommands().map(clap::Command::get_name);
+    let names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    let tip = format!("there are {}", names.join(", "));
+    why.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+}
+
 /// The option of the commands that execute or mirror a listing.
 #[derive(clap::Args)]
 pub struct ReadingArg {

@@ -14,7 +14,7 @@ const LEFT: f64 = 78.0;
 /// The colour of the lines across the area.
 const GRID: &str = "#dddddd";
 
-/// The most series of a chart: no more colours can be told apart.
+/// The number of colours that can be told apart: a chart of more series has them again, in thin lines.
 pub const SERIES: usize = 8;
 
 /// The least distance between the base lines of two names, pixels.
@@ -64,7 +64,7 @@ impl Style {
     }
 }
 
-/// Draws a chart of `series`, beside rings at most [`SERIES`], with paragraphs under it.
+/// Draws a chart of `series`, with paragraphs under it.
 pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[String]) -> String {
     let mut page = Page::new(title);
     page.paragraph(y.label);
@@ -74,7 +74,7 @@ pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[Stri
     let plot = Plot { scales, top: page.y + 6.0, width: INNER - LEFT - names.fold(0.0, f64::max) };
     page.put(plot.grid());
     for (k, series) in series.iter().enumerate() {
-        page.put(plot.series(series, colour(k, series.style)));
+        page.put(plot.series(k, series));
     }
     page.put(plot.names(series));
     let under = [MARGIN + LEFT + plot.width / 2.0, plot.top + HEIGHT + 40.0];
@@ -87,7 +87,7 @@ pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[Stri
 
 /// Returns the colour of the series at place `k`; rings have that of text.
 fn colour(k: usize, style: Style) -> &'static str {
-    if style == Style::Rings { DARK } else { COLOURS[k] }
+    if style == Style::Rings { DARK } else { COLOURS[k % SERIES] }
 }
 
 /// Returns the signs of the series without a line, whose names stand under the chart.
@@ -194,7 +194,11 @@ impl Plot {
     fn names(&self, series: &[Series]) -> Element {
         let mut ends: Vec<(Pixel, &str, &str)> = Vec::new();
         for (k, series) in series.iter().enumerate().filter(|(_, s)| s.style.is_curve()) {
-            ends.extend(self.points(series).last().map(|end| (*end, &*series.name, COLOURS[k])));
+            ends.extend(
+                self.points(series)
+                    .last()
+                    .map(|end| (*end, &*series.name, colour(k, series.style))),
+            );
         }
         // As they are written: of ends that rounding parts, the first curve's name comes first.
         ends.sort_by_key(|(end, ..)| (100.0 * end[1]).round() as i64);
@@ -211,7 +215,10 @@ impl Plot {
         names
     }
 
-    fn series(&self, series: &Series, colour: &str) -> Element {
+    /// Draws the series at place `k`.
+    fn series(&self, k: usize, series: &Series) -> Element {
+        let colour = colour(k, series.style);
+        let width = if k < SERIES { 2.0 } else { 1.0 };
         let points = self.points(series);
         let mut drawn = group();
         if series.style == Style::Rings {
@@ -219,7 +226,7 @@ impl Plot {
             return drawn.with_all(rings);
         }
         if series.style != Style::Dots && points.len() > 1 {
-            drawn.push(path([points.as_slice()]).stroke(colour, 2.0));
+            drawn.push(path([points.as_slice()]).stroke(colour, width));
         }
         if series.style != Style::Line {
             drawn.push(group().fill(colour).with_all(points.iter().map(|p| circle(*p, 3.0))));
