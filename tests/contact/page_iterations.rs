@@ -7,6 +7,7 @@ use std::process::Command;
 use nalgebra::DVector;
 use plane_contact::engine::{Request, Session};
 use plane_contact::mathcad::unsupported;
+use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::corrected::{Bound, iterate};
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;
@@ -35,13 +36,25 @@ fn small() -> Vec<Scene> {
     named.into_iter().map(|name| Scene::open(name).unwrap()).chain(drawn).collect()
 }
 
-/// The engine's iterations of the variants of the paper, and those of the corrected programs.
+/// The number of iterations before the first whose contact is left to rounding.
+fn certain(scene: &Scene, variant: Variant) -> usize {
+    let arithmetic = Arithmetic { scalar: ScalarName::Bounded, ..Arithmetic::default() };
+    let mut request = Request::new(scene).variant(variant).arithmetic(arithmetic);
+    request.iterations = ITERATIONS;
+    let mut steps = vec![];
+    let _ = Session::default().solve(&request, &mut |step| steps.push(step.is_certain()));
+    steps.into_iter().take_while(|is_certain| *is_certain).count()
+}
+
+/// The engine's iterations of the variants of the paper, as far as rounding decides nothing, and those of the
+/// corrected programs.
 fn engine(scene: &Scene) -> Vec<(&'static str, Vec<(Vec<NodeId>, DVector<f64>)>)> {
     let session = Session::default();
-    let states = |run: Recorded| run.states.into_iter().map(|s| (s.in_contact, s.u)).collect();
-    let published = Variant::OF_THE_PAPER
-        .iter()
-        .map(|variant| (variant.name(), states(recorded(scene, *variant, &session, None))));
+    let published = Variant::OF_THE_PAPER.iter().map(|variant| {
+        let Recorded { states, .. } = recorded(scene, *variant, &session, None);
+        let states = states.into_iter().take(certain(scene, *variant));
+        (variant.name(), states.map(|s| (s.in_contact, s.u)).collect())
+    });
     let after = |steps: usize| {
         let ending = iterate(&scene.model, Bound::Normal, &[], steps).ok()?;
         let nodes = ending.in_contact.into_iter().map(|(node, _)| node).collect();
@@ -95,9 +108,7 @@ fn the_page_s_iterations_are_the_engine_s() {
         for (variant, states) in engine(scene) {
             let what = format!("scene {k} ({}), {variant}", scene.name);
             let own = page[k][variant]["states"].as_array().expect("states");
-            if !states.is_empty() {
-                assert_eq!(own.len(), states.len(), "{what}: {}", page[k][variant]["failure"]);
-            }
+            assert!(own.len() >= states.len(), "{what}: {}", page[k][variant]["failure"]);
             let size = states.iter().map(|(_, u)| u.amax()).fold(0.0, f64::max);
             for (own, (nodes, u)) in own.iter().zip(&states) {
                 assert_eq!(own["inContact"], json!(nodes), "{what}");
@@ -108,6 +119,7 @@ fn the_page_s_iterations_are_the_engine_s() {
             }
         }
     }
+    println!("{compared} iterations are the same");
     assert!(compared > 20 * DRAWN, "{compared}");
 }
 

@@ -61,9 +61,13 @@ function fillTurns() {
   byId("turns").replaceChildren(make("option", { value: 0 }, t("the start")), ...options);
 }
 
-function go(at) {
+/** Goes to a place; what a button or a key brings into MJS on the way flies. */
+function go(at, isFlying = false) {
+  const from = page.machine.at;
   page.machine.goTo(at);
+  if (page.which === "Km") page.map.brought = broughtIn(page.machine, from);
   show();
+  if (page.which === "Km") showAssembly(page.map.brought, page.map, isFlying);
 }
 
 /** Shows the state after the steps or the iterations that were made. */
@@ -121,14 +125,14 @@ const moves = {
 };
 
 function watch() {
-  for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine)));
+  for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine), true));
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
     if (event.key === "p") play(!page.playing);
     const move = Object.values(moves).find(([key]) => key === event.key || key === event.key.toLowerCase());
     if (!move) return;
     event.preventDefault();
-    go(move[1](page.machine));
+    go(move[1](page.machine), true);
   });
   byId("play").addEventListener("click", () => play(!page.playing));
   byId("variant").addEventListener("change", (event) => choose({ variant: event.target.value, at: 0 }));

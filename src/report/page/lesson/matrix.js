@@ -22,6 +22,21 @@ class MatrixMap {
     this.cursor = [0, 0];
     this.joins = machine.lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
     this.places = new Map(this.equations.map((e, k) => [e, k]));
+    this.brought = [];
+    const bodies = new Map(mesh.triangles.flatMap(([nodes, body]) => nodes.map((n) => [n, body])));
+    this.body = this.equations.map((e) => bodies.get(Math.ceil(e / 2)));
+  }
+
+  /** Whether the entry in a row and a column of the map would join the two bodies. */
+  isJoint(row, column) {
+    return this.body[row] !== this.body[column];
+  }
+
+  /** Where the middle of an entry, such as `MJS[3,4]`, is in the window; nothing for one that is not shown. */
+  placeOf(name) {
+    const [row, column] = name.match(/\d+/g).map((e) => this.places.get(Number(e)));
+    const { left, top } = byId("mjs").getBoundingClientRect();
+    return row === undefined || column === undefined ? undefined : [left + 22 + (column + 0.5) * this.cell, top + 22 + (row + 0.5) * this.cell];
   }
 
   entry(i, j) {
@@ -45,13 +60,20 @@ class MatrixMap {
     context.fillRect(22, 22, this.cell * count, this.cell * count);
     this.tint("V", "V", "lit");
     if (this.vector("W").length) this.tint("W", "W", "written");
-    const written = new Set((this.machine.last?.writes ?? []).map(({ name }) => name));
+    const written = new Set([...(this.machine.last?.writes ?? []).map(({ name }) => name), ...this.brought.map(({ to }) => to)]);
+    const joints = { all: 0, filled: 0 };
     let most = 1;
     for (const i of this.equations) for (const j of this.equations) most = Math.max(most, Math.abs(this.entry(i, j) ?? 0));
     this.equations.forEach((i, row) =>
       this.equations.forEach((j, column) => {
         const value = this.entry(i, j);
         const now = written.has(`MJS[${i},${j}]`);
+        if (this.isJoint(row, column)) {
+          joints.all += 1;
+          joints.filled += value ? 1 : 0;
+          context.fillStyle = colour("joint");
+          context.fillRect(22 + column * this.cell, 22 + row * this.cell, this.cell, this.cell);
+        }
         if (!value && !now) return;
         const weight = value ? 0.25 + 0.75 * Math.max(0, 1 + Math.log10(Math.abs(value) / most) / 6) : 0;
         context.globalAlpha = weight;
@@ -67,6 +89,7 @@ class MatrixMap {
     byId("matrix-caption").textContent = [
       t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
       this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
+      joints.all ? t("Grey: the entries between the two bodies, {filled} of {all} filled.", joints) : "",
     ].join(" ");
     canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
     this.say();

@@ -192,7 +192,7 @@ function play(isOn) {
   if (page.machine.at === page.machine.steps.length) go(0);
   const pause = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1500 : 600;
   page.playing = setInterval(() => {
-    go(page.machine.at + 1);
+    go(page.machine.at + 1, true);
     if (page.machine.at === page.machine.steps.length) play(false);
   }, pause);
 }

@@ -57,8 +57,9 @@ function stiffnessTables(machine) {
   ];
 }
 
-/** The element's stiffness. */
+/** The element's stiffness; each row and column with its equation in MJS. */
 function elementTable(machine) {
   const six = [1, 2, 3, 4, 5, 6];
-  return table(machine, "K", [t("row"), ...six.map(String)], six.map((i) => [String(i), six.map((j) => `K[${i},${j}]`)]));
+  const equation = (k) => `${k} → ${machine.get(`V[${k}]`) ?? "·"}`;
+  return table(machine, t("K, each row and column with its equation in MJS"), [t("row"), ...six.map(equation)], six.map((i) => [equation(i), six.map((j) => `K[${i},${j}]`)]));
 }
