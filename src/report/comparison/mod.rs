@@ -101,7 +101,15 @@ fn differences(compared: &Compared) -> Table {
     let corners = model.corners(s.largest.at);
     let centre = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
     Table::new(
-        ["of", "largest difference", "over CalculiX's", "which is", "at", "at x, y", "rms"],
+        [
+            "quantity",
+            "largest difference",
+            "over CalculiX's largest",
+            "CalculiX's largest",
+            "at",
+            "at x, y",
+            "rms difference",
+        ],
         [
             row(
                 quantity("displacement", &scene.units.length),
