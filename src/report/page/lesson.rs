@@ -68,6 +68,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("lesson/tables.js"),
         include_str!("lesson/play.js"),
         include_str!("lesson/assembly.js"),
+        include_str!("lesson/tour.js"),
         include_str!("lesson/questions.js"),
         include_str!("lesson/chapters.js"),
         include_str!("lesson/drag.js"),

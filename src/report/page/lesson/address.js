@@ -42,8 +42,5 @@ function openAddress() {
     edits: new Map(edits.map((name) => [chapter().runs[chosen][name], fields.get(name)])),
     moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
   });
-  byId("chapter").value = page.chapter;
-  byId("run").value = page.run;
   byId("variant").value = page.variant;
-  for (const radio of document.getElementsByName("which")) radio.checked = radio.value === which;
 }

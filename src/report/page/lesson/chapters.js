@@ -57,6 +57,30 @@ function showChanges(run, programs) {
   roving(place, "td", () => 2);
 }
 
+/** What to try in a chapter, each a button. */
+function trials({ lines, listing, edit }, { contact, load }) {
+  const trial = (isThere, text, act) => {
+    if (!isThere) return [];
+    const button = make("button", {}, text);
+    button.addEventListener("click", act);
+    return [button, " "];
+  };
+  const [line] = lines;
+  const runToLine = () => {
+    choose({ run: 0, which: listing });
+    go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)), true);
+  };
+  const playIterations = () => {
+    choose({ run: 0, which: "iterations" });
+    play(true);
+  };
+  return [
+    ...trial(lines.length, t("run to line {line}", { line }), runToLine),
+    ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, at: Infinity })),
+    ...trial(contact.length && load.some((f) => f !== 0), t("play the iterations"), playIterations),
+  ];
+}
+
 /** Shows what a finding's chapter says; nothing of a scene that is not a finding's. */
 function showFinding(chapter) {
   const place = byId("finding");
@@ -64,12 +88,14 @@ function showFinding(chapter) {
   if (!chapter.finding) return;
   const row = chapter.finding;
   const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");
-  const part = (term, text) => [make("dt", {}, term), make("dd", {}, text)];
+  const part = (term, ...content) => [make("dt", {}, term), make("dd", {}, ...content)];
   place.replaceChildren(
     make("h2", {}, `${row.id} (${lines}): ${row.title}`),
     make(
       "dl",
       {},
+      ...part(t("Goal"), row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.")),
+      ...part(t("Try it"), ...trials(row, data.meshes[chapter.runs[0].mesh])),
       ...part(t("On this scene"), `${row.verdict}: ${inProse(row.number)} ${row.of}. ${row.detail}`),
       ...part(t("Why it matters"), row.why),
       ...part(t("A repair"), row.repair),

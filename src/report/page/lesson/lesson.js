@@ -1,5 +1,8 @@
 // The page: what is chosen, and what is shown after each step.
 
+/** The title of the page, which is that of its first chapter. */
+const LESSON = document.title;
+
 const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), edits: new Map() };
 
 const chapter = () => data.scenes[page.chapter];
@@ -36,6 +39,9 @@ function choose(change) {
   page.map = isIterating() ? null : new MatrixMap(page.mesh, page.machine);
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
+  byId("chapter").value = page.chapter;
+  byId("run").value = page.run;
+  for (const radio of document.getElementsByName("which")) radio.checked = radio.value === page.which;
   byId("about").textContent = t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() });
   byId("tolerance").value = Math.log10(page.factor);
   byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
@@ -109,6 +115,7 @@ function showSteps() {
   const ended = machine.at === machine.steps.length;
   byId("failure").textContent = ended && machine.failure ? t("The listing stops: {failure}", machine) : "";
   ask(machine, mesh);
+  if (machine.at === 0 && !inKm && byId("question").hidden) askWhichTouch(mesh);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
   return line;
 }
@@ -145,6 +152,7 @@ function watch() {
   byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), edits: new Map() }));
   window.addEventListener("hashchange", openAddress);
   watchDrag();
+  watchMeanings();
   watchEditor();
   for (const radio of document.getElementsByName("which")) {
     radio.addEventListener("change", () => choose({ which: radio.value }));
@@ -157,6 +165,8 @@ function watch() {
 function openChapter(chapter) {
   const runs = data.scenes[chapter].runs.map(({ label }, k) => make("option", { value: k }, label));
   byId("run").replaceChildren(...runs);
+  const { finding, title } = data.scenes[chapter];
+  document.title = byId("title").textContent = finding ? `${finding.id}: ${title}` : LESSON;
   showFinding(data.scenes[chapter]);
   fillVariants(data.scenes[chapter]);
   const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
@@ -164,13 +174,11 @@ function openChapter(chapter) {
   const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
   const which = inKm ? "Km" : "c_cnt";
   for (const radio of document.getElementsByName("which")) {
-    radio.checked = radio.value === which;
     radio.disabled = contact.length === 0 && radio.value !== "Km";
   }
   choose({ chapter, run: 0, which, factor: 1, moved: new Map(), edits: new Map() });
 }
 
-byId("title").textContent = document.title;
 byId("chapter").replaceChildren(
   ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : t("scene {name}", { name }))),
 );

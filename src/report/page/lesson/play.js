@@ -145,11 +145,14 @@ function drawErrors({ errors, at }) {
   canvas.hidden = known.length === 0;
   if (canvas.hidden) return;
   const { context, width, height } = prepared(canvas, 150);
-  const [low, high] = [Math.floor(Math.min(...known)), Math.max(Math.ceil(Math.max(...known)), Math.floor(Math.min(...known)) + 1)];
+  // No error stands at the foot of the axis, as far below the least as a power of ten.
+  const least = Math.floor(Math.min(...known));
+  const low = errors.includes(0) ? least - 1 : least;
+  const high = Math.max(Math.ceil(Math.max(...known)), low + 1);
   const to = (k, power) => [64 + (k / Math.max(1, errors.length - 1)) * (width - 84), 14 + ((high - power) / (high - low)) * (height - 42)];
   for (let power = low; power <= high; power += Math.ceil((high - low) / 4)) {
     path(context, [to(0, power), to(errors.length - 1, power)], { stroke: colour("rule") });
-    label(context, percent(10 ** power), [56, to(0, power)[1] + 4], colour("muted"), "right");
+    label(context, percent(power < least ? 0 : 10 ** power), [56, to(0, power)[1] + 4], colour("muted"), "right");
   }
   const points = errors.map((error, k) => to(k, error > 0 ? Math.log10(error) : low));
   path(context, points, { stroke: colour("accent"), width: 2 });

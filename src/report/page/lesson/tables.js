@@ -16,16 +16,16 @@ function cell(machine, marked, name) {
   const value = machine.get(name);
   const full = value === undefined ? t("{name} has no value yet", { name }) : `${name} = ${exact(value)}`;
   const text = value === undefined ? "·" : brief(value);
-  return make("td", { class: marked.get(name), "data-name": name, "data-exact": full }, text);
+  return make("td", { class: marked.get(name), "data-name": name, "data-exact": full, "aria-describedby": "meaning" }, text);
 }
 
 /** A table of entries with a heading a column; each row has its heading and its names. */
 function table(machine, caption, heads, rows, current) {
   const marked = marks(machine);
   const body = rows.map(([head, names], k) =>
-    make("tr", { class: k === current ? "current" : undefined }, make("th", { scope: "row" }, head), ...names.map((name) => cell(machine, marked, name))),
+    make("tr", { class: k === current ? "current" : undefined }, make("th", { scope: "row", "data-name": head === names[0] ? head : undefined }, head), ...names.map((name) => cell(machine, marked, name))),
   );
-  const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
+  const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col", "data-name": meaningOf(text) && text }, text)));
   const result = make("table", {}, make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...body));
   const box = make("div", { class: "scroll" }, result);
   roving(box, "td", () => heads.length - 1);

@@ -1,0 +1,95 @@
+// The first minute: the question with which a page opens, a tour of five steps, and what each array is.
+
+/** Asks, before any step, which contact nodes touch; what is marked is held against what c_cnt finds. */
+function askWhichTouch(mesh) {
+  const boxes = mesh.contact.map((n) => make("input", { type: "checkbox", value: n }));
+  const verdict = make("p", { role: "status" });
+  const check = make("button", {}, t("check"));
+  check.addEventListener("click", () => {
+    const end = new Machine(page.programs.c_cnt);
+    end.goTo(end.steps.length);
+    const found = contactNodes(mesh, end).filter(({ dy }) => dy === 1).map(({ node }) => node);
+    const isRight = boxes.every((box, k) => box.checked === found.includes(mesh.contact[k]));
+    const words = { state: contactInWords(found) };
+    verdict.textContent = end.failure ? t("The listing stops: {failure}", end) : isRight ? t("Right. c_cnt finds, {state}. Step through it to see why.", words) : t("No. c_cnt finds, {state}. Step through it to see why.", words);
+  });
+  const tour = make("button", {}, t("tour: five steps"));
+  tour.addEventListener("click", () => showTour(0));
+  const nodes = boxes.map((box, k) => make("label", {}, box, ` ${mesh.name(mesh.contact[k])}`));
+  byId("question").hidden = false;
+  byId("question").replaceChildren(
+    make("h3", {}, t("Which nodes touch?")),
+    make("p", {}, t("A contact node touches that is nearer than c_tll = {c_tll} to its target edge, or beside which the two surfaces cross. Mark the nodes that c_cnt will find.", { c_tll: page.programs.c_tll })),
+    make("p", { class: "answers" }, ...nodes, check, tour),
+    verdict,
+  );
+}
+
+/** The steps of the tour: what is looked at, and what is said of it. */
+const tourSteps = () => [
+  ["#pictures", t("The stamp stands above the target, heights magnified. The green band is c_tll wide. Which nodes touch?")],
+  ["#listing-box", t("c_cnt answers line by line, as the paper prints it. The key → makes a step, ← takes it back, N runs to the next node.")],
+  ["#values", t("What the lines write stands here: ct, yt, dy, k_cnt. Pointer or focus on a value says what its array is.")],
+  ["#tolerance", t("Change something: move c_tll, drag a node, choose a reading, edit the listing. Everything follows at once.")],
+  ["fieldset", t("Km assembles the stiffness matrix, the iterations make all twenty of them. Each chapter shows what goes wrong at one place.")],
+];
+
+/** Shows a step of the tour, at its side; nothing behind the last. */
+function showTour(k) {
+  byId("tour")?.remove();
+  document.querySelector(".toured")?.classList.remove("toured");
+  const [selector, words] = tourSteps()[k] ?? [];
+  if (!selector) return;
+  const place = document.querySelector(selector);
+  place.classList.add("toured");
+  place.scrollIntoView({ block: "nearest" });
+  const button = (text, to) => {
+    const made = make("button", { disabled: to < 0 }, text);
+    made.addEventListener("click", () => showTour(to));
+    return made;
+  };
+  const isLast = k === tourSteps().length - 1;
+  const next = button(isLast ? t("close") : t("next"), k + 1);
+  const close = isLast ? [] : [button(t("close"), Infinity)];
+  const head = make("h2", { id: "tour-title" }, t("Tour, {k} of {count}", { k: k + 1, count: tourSteps().length }));
+  document.querySelector("main").append(make("section", { id: "tour", "aria-labelledby": "tour-title" }, head, make("p", { id: "tour-words" }, words), make("p", { class: "answers" }, button(t("back"), k - 1), next, ...close)));
+  next.setAttribute("aria-describedby", "tour-words");
+  next.focus();
+}
+
+/** What an array or a name of the listings is; nothing of a name that an edit brought in. */
+function meaningOf(name) {
+  const turn = t("the turn of a loop");
+  return {
+    ct: t("the number of each contact node's target edge, 0 for none"),
+    yt: t("the vertical distance of each contact node from its target line"),
+    dy: t("1 for a contact node in contact, else 0"),
+    k_cnt: t("of each node its master node, weight, master node, weight"),
+    ntx: t("the ends of the search box along x: the edge's nodes, with c_tll"),
+    nty: t("the ends of the search box along y: the edge's nodes, with c_tll"),
+    k1: t("the weight of the edge's first node"),
+    k2: t("the weight of the edge's second node"),
+    V: t("the equations of the element's nodes: 2n − 1 for x of node n, 2n for y"),
+    W: t("the equations of the nodes that are linked to the element's"),
+    cx: t("0 for an equation that is restrained, else 1"),
+    fl: t("the weight with which K is added for the linked node"),
+    K: t("the stiffness matrix of the element, force over length"),
+    MJS: t("the stiffness matrix of the whole, force over length"),
+    n: t("the number of the element"),
+    i1: turn,
+    i2: turn,
+    i: turn,
+    j: turn,
+  }[name];
+}
+
+/** Says in a line what the array is that has the pointer or the focus. */
+function watchMeanings() {
+  const say = ({ target }) => {
+    const name = target.closest?.("#arrays [data-name]")?.dataset.name.split("[")[0];
+    const meaning = meaningOf(name);
+    if (meaning) byId("meaning").textContent = `${name}: ${meaning}.`;
+  };
+  for (const event of ["pointerover", "focusin"]) document.addEventListener(event, say);
+  document.addEventListener("keydown", ({ key }) => key === "Escape" && showTour(Infinity));
+}
