@@ -110,7 +110,7 @@ fn the_lesson_shows_what_the_trace_has() {
     });
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "lesson.cjs", &[&page, &pictures, &c_cnt, &km]);
-    assert_pictures(folder.path(), 8);
+    assert_pictures(folder.path(), 12);
 }
 
 #[test]

@@ -118,6 +118,10 @@ impl Shared {
             .finding
             .as_ref()
             .map(|(finding, measured)| language.say_all(json!(FindingRow::new(finding, measured))));
+        let Iterations { reference, recorded } = &chapter.iterations;
+        // The errors of what is recorded are recorded too.
+        let reference = reference.as_ref().filter(|_| recorded.is_none());
+        let recorded = recorded.as_deref().map(|runs| of_rims(&chapter.runs[0].1, runs));
         json!({
             "name": chapter.scene.name,
             "title": language.say(&chapter.scene.title),
@@ -125,8 +129,8 @@ impl Shared {
             "runs": runs.collect::<Vec<_>>(),
             "nodes": chapter.nodes,
             "variant": chapter.scene.variant,
-            "reference": chapter.iterations.reference.as_ref().map(|u| u.as_slice()),
-            "recorded": chapter.iterations.recorded.as_deref().map(|runs| recorded(&chapter.runs[0].1, runs)),
+            "reference": reference.map(|u| u.as_slice()),
+            "recorded": recorded,
             "finding": finding,
         })
     }
@@ -155,7 +159,7 @@ impl Shared {
 
 /// Returns the recorded iterations, what repeats once. Of displacements the page draws those of the bodies'
 /// rims, in whole thousandths of the largest, `unit`.
-fn recorded(model: &Model, runs: &[Recorded]) -> Value {
+fn of_rims(model: &Model, runs: &[Recorded]) -> Value {
     let triangles: Vec<_> =
         model.triangles.iter().map(|t| t.nodes.map(|node| node.index())).collect();
     let rim = boundary_edges(&triangles);

@@ -1,5 +1,5 @@
 // The lesson of fig. 1 in a browser: node lesson.cjs PAGE FOLDER TRACE_OF_C_CNT TRACE_OF_KM. The
-// folder receives a picture of each of eight views.
+// folder receives a picture of each of twelve views.
 
 const assert = require("node:assert");
 const fs = require("node:fs");
@@ -275,10 +275,83 @@ async function chapters(browser) {
   assert.deepEqual(said, []);
 }
 
+/** The iterations by their keys and played to the end: the words, and the columns of the table. K5 alternates. */
+async function iterations(browser) {
+  const { page, said } = await open(browser, file);
+  await chosen(page, "iterations");
+  const variants = await page.locator("#variant option").evaluateAll((all) => all.map(({ value }) => value));
+  assert.deepEqual(variants, ["printed", "tied", "stepped", "corrected"]);
+  for (const variant of variants) {
+    await page.selectOption("#variant", variant);
+    await page.click("#end");
+    assert.match(await page.textContent("#course"), variant === "corrected" ? /^It ends with iteration 3/ : /settled from iteration 1 on: in contact: 2\.1 \(5\), 2\.2/);
+    assert.match(await page.textContent("#state"), /^Iteration \d+ of \d+, in contact: .* Error [\d.]+ %\.$/);
+    assert.match(await page.textContent("#shape-caption"), /^Displacements are drawn \d+ times/);
+  }
+  await page.selectOption("#chapter", { label: (await page.locator("#chapter option").allTextContents()).find((name) => name.startsWith("K5")) });
+  assert.equal(await page.textContent("#title"), "K5: closing a gap opens it again");
+  await page.click("#finding button:text-is('play the iterations')");
+  await page.locator("#status", { hasText: "iteration 3 of 20" }).waitFor();
+  await page.keyboard.press("p");
+  assert.match(await page.textContent("#course"), /two states alternate \(no node in contact; in contact: 2\.1 \(4\)\)/);
+  const cells = await page.locator("#states tbody tr").first().locator("td").allTextContents();
+  assert.equal(cells.join(""), "○●".repeat(10));
+  await page.waitForURL(/listing=iterations.*variant=tied/);
+  const again = await page.context().newPage();
+  await again.goto(page.url());
+  assert.equal(await again.textContent("#course"), await page.textContent("#course"), "the address opens the iterations");
+  assert.deepEqual(said, []);
+}
+
+/** The numbers of K fly to MJS when a button leads over an element; where motion is not wanted they are marked only. */
+async function assembly(browser) {
+  const { page, said } = await open(browser, file);
+  await chosen(page, "Km");
+  const flying = () => page.locator(".flying").count();
+  await page.click("#turn");
+  await page.click("#turn");
+  assert.ok((await flying()) >= 36, "those of the element, and those of its linked nodes");
+  await page.locator(".flying").first().waitFor({ state: "detached" });
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.click("#turn");
+  assert.deepEqual([await flying(), await page.locator("#block td.read").count()], [0, 36]);
+  await page.click("#end");
+  assert.match(await page.textContent("#matrix-caption"), /Grey: the entries between the two bodies, 0 of \d+ filled\.$/);
+  assert.deepEqual(said, []);
+}
+
+/** The page opens with a question; the tour goes on by keyboard alone; what has the focus is explained. */
+async function opening(browser) {
+  const { page, said } = await open(browser, file);
+  assert.equal(await page.textContent("#question h3"), "Which nodes touch?");
+  const verdict = () => page.textContent("#question [role=status]");
+  await page.click("#question button:text-is('check')");
+  assert.match(await verdict(), /^No\. c_cnt finds, in contact: 2\.1 \(5\), 2\.2/);
+  for (const n of [5, 6, 7, 9]) await page.check(`#question input[value="${n}"]`);
+  await page.click("#question button:text-is('check')");
+  assert.match(await verdict(), /^Right\./);
+  await page.focus("#question button:text-is('tour: five steps')");
+  await page.keyboard.press("Enter");
+  for (let k = 1; k <= 5; k += 1) {
+    assert.equal(await page.textContent("#tour h2"), `Tour, ${k} of 5`);
+    assert.deepEqual(await violations(page), []);
+    await page.keyboard.press("Enter");
+  }
+  assert.equal(await page.locator("#tour").count(), 0, "the last step closes it");
+  await page.click("#question button:text-is('tour: five steps')");
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator("#tour").count(), 0);
+  await page.focus("td[data-name='ct[1]']");
+  assert.match(await page.textContent("#meaning"), /^ct: the number of each contact node's target edge/);
+  await page.hover("th[data-name='dy']");
+  assert.match(await page.textContent("#meaning"), /^dy: 1 for a contact node in contact/);
+  assert.deepEqual(said, []);
+}
+
 /** Both widths and both schemes: nothing is cut off, axe-core finds nothing, a picture of each. */
 async function views(browser) {
   await inAllViews(browser, file, async ({ page, check, view }) => {
-    for (const [which, at] of [["c_cnt", 230], ["Km", 1000]]) {
+    for (const [which, at] of [["c_cnt", 230], ["Km", 1000], ["iterations", 20]]) {
       await chosen(page, which);
       await page.locator("#slider").fill(String(at));
       await page.evaluate(() => window.scrollTo(0, 0));
@@ -288,5 +361,5 @@ async function views(browser) {
   });
 }
 
-const tests = [walk, runs, keyboard, hover, readings, questions, changed, edited, unforeseen, chapters, views];
+const tests = [walk, runs, keyboard, hover, readings, questions, changed, edited, unforeseen, chapters, iterations, assembly, opening, views];
 runAll(tests);
