@@ -296,7 +296,10 @@ pub const FINDINGS: &[Finding] = &[
             reason: "what is restrained is the scene's choice, not a listing's; solve findings/K6, whose \
                      stamp's axis is held, runs",
         },
-        before: Preparation::AsPrinted,
+        before: Preparation::Model(
+            "the stamp released and its second node out of contact",
+            release_stamp,
+        ),
         number: "most linked nodes, of one and two, with which the released stamp is singular",
         measure: stiffness::hinge,
     },
@@ -349,6 +352,14 @@ fn turn_target(model: &mut Model) {
     for edge in &model.contact.target {
         model.edges[edge.index()].nodes.reverse();
     }
+}
+
+/// Takes every restraint from the stamp, and all but its first contact node.
+fn release_stamp(model: &mut Model) {
+    model.contact.nodes.truncate(1);
+    let stamp = model.body_of(model.contact.nodes[0]).expect("a contact node is of a body");
+    let dofs: Vec<_> = stamp.nodes.iter().flat_map(|node| node.dofs()).collect();
+    dofs.iter().for_each(|dof| model.restrained[dof.index()] = false);
 }
 
 fn add_orphan(model: &mut Model) {
