@@ -43,9 +43,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    /// What to vary: arithmetic, solver, mesh, c_tll, iterations, status, coupling, symmetry,
-    /// geometry [default: all].
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help = format!("What to vary: {} [default: all]", Varied::help()))]
     only: Vec<Varied>,
     /// The edges of the finest mesh of a scene that mesh strand makes: 0.2, 0.1, 0.05, 0.025 or 0.0125.
     #[arg(long, value_name = "LENGTH", default_value_t = FINEST, value_parser = finest)]

@@ -123,7 +123,7 @@ type Change = fn(&mut Value);
 
 #[test]
 fn each_finding_vanishes_where_its_cause_does() {
-    let changes: [(&str, Change); 22] = [
+    let changes: &[(&str, Change)] = &[
         // Over the middle of the edge both boxes hold the node.
         ("C1", |s| at(s, 4, 0.5, 0.0)),
         // Over the first edge alone.

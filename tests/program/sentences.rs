@@ -233,7 +233,8 @@ fn of_variant(parameter: &str, sentence: &str, json: &Value) {
     match parameter {
         "c_tll" => tolerance(words, &section),
         "iterations" => iterations(words, &section),
-        _ => nearest(words, &section),
+        "status" | "coupling" => nearest(words, &section),
+        other => panic!("no sentences are known of {other}"),
     }
 }
 

@@ -156,7 +156,14 @@ fn judged(parameter: Varied, run: Run) -> Run {
 
 /// Whether a parameter is one of the paper's, whose verdict must not rest on rounding.
 fn judges(parameter: Varied) -> bool {
-    matches!(parameter, Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling)
+    match parameter {
+        Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling => true,
+        Varied::Arithmetic
+        | Varied::Solver
+        | Varied::Mesh
+        | Varied::Symmetry
+        | Varied::Geometry => false,
+    }
 }
 
 /// A solution without all steps but the last.
@@ -235,10 +242,10 @@ impl Bench<'_> {
 
     /// `best`, or where it failed the last trial before it that did not.
     fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
-        match self.trials[place].parameter {
-            Varied::Symmetry => Some(best),
-            _ => (place..=best).rev().find(|k| self.runs[*k].solution.is_ok()),
+        if self.trials[place].parameter == Varied::Symmetry {
+            return Some(best);
         }
+        (place..=best).rev().find(|k| self.runs[*k].solution.is_ok())
     }
 
     /// The trial of the same variant where the scene has the parameter; parameters that change the mesh have

@@ -143,6 +143,17 @@ pub fn find(request: &Request, name: &str, finest: f64) -> Option<Trial> {
 /// length.
 pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
+    let needs_contact = match parameter {
+        Varied::Arithmetic | Varied::Solver | Varied::Mesh | Varied::Symmetry => false,
+        Varied::Tolerance
+        | Varied::Iterations
+        | Varied::Status
+        | Varied::Coupling
+        | Varied::Geometry => true,
+    };
+    if needs_contact && !contact {
+        return Vec::new();
+    }
     match parameter {
         Varied::Arithmetic => arithmetic(request),
         Varied::Solver => solvers(request),
@@ -152,7 +163,6 @@ pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
         },
         Varied::Symmetry => halves(request, contact),
         Varied::Geometry => Vec::new(),
-        _ if !contact => Vec::new(),
         Varied::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));

@@ -23,7 +23,13 @@ pub fn against(parameter: Varied, arcs_are_true: bool) -> &'static str {
         Varied::Solver => "f64x2",
         Varied::Mesh => "the reference solution on the finest mesh that ran",
         Varied::Symmetry => "the whole scene under the same variant",
-        _ => "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)",
+        Varied::Tolerance
+        | Varied::Iterations
+        | Varied::Status
+        | Varied::Coupling
+        | Varied::Geometry => {
+            "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)"
+        }
     }
 }
 

@@ -10,7 +10,7 @@ macro_rules! edit {
     };
 }
 
-/// All findings: C1 to C15, K1 to K9.
+/// All findings, in the order of their ids.
 pub const FINDINGS: &[Finding] = &[
     Finding {
         id: "C1",
