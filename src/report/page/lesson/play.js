@@ -59,7 +59,7 @@ function errorsFrom(K, reference) {
   };
 }
 
-const percent = (error) => `${short(Number((100 * error).toPrecision(3)))} %`;
+const percent = (error) => `${inProse(Number((100 * error).toPrecision(3)))} %`;
 
 const listed = (nodes) => nodes.map((n) => page.mesh.name(n)).join(", ");
 const contactInWords = (nodes) => (nodes.length ? t("in contact: {nodes}", { nodes: listed(nodes) }) : t("no node in contact"));
