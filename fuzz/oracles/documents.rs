@@ -30,9 +30,14 @@ pub fn hold(data: &[u8]) {
     }
     let result = |data: &[u8]| ResultFile::from_json(&String::from_utf8_lossy(data));
     reads_back(result, data, ResultFile::to_json);
-    if let Ok(answers) = serde_json::from_str::<Answers>(text) {
-        let marked = [MarkedAnswers { file: "fuzz".into(), marks: answers.marks(), answers }];
-        assert!(!answers::json(&marked).is_empty() && !answers::report(&marked).blocks.is_empty());
+    let Ok(answers) = serde_json::from_str::<Answers>(text) else { return };
+    match answers.marks() {
+        Ok(marks) => {
+            let marked = [MarkedAnswers { file: "fuzz".into(), marks, answers }];
+            assert!(!answers::json(&marked).is_empty());
+            assert!(!answers::report(&marked).blocks.is_empty());
+        }
+        Err(error) => sound::input_error(&error),
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::json;
 use super::layout::listed;
-use super::model::{Report, Table};
+use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
 use studies::lesson::exercise::{Answers, Mark};
 
@@ -22,30 +22,51 @@ pub struct MarkedAnswers {
 impl MarkedAnswers {
     /// Returns whether every answer is right.
     pub fn is_right(&self) -> bool {
-        self.right() == self.marks.len()
+        self.marks.iter().all(|mark| mark.right)
     }
 
-    fn right(&self) -> usize {
-        self.marks.iter().filter(|mark| mark.right).count()
+    /// Returns what the right answers count.
+    fn points(&self) -> usize {
+        self.marks.iter().filter(|mark| mark.right).map(|mark| mark.points).sum()
     }
-}
 
-/// Reports a row for each file: who answered, how many answers are right, and what is wrong.
-pub fn report(marked: &[MarkedAnswers]) -> Report {
-    let wrong = |marked: &&MarkedAnswers| {
-        let wrong = marked.marks.iter().filter(|mark| !mark.right);
+    fn possible(&self) -> usize {
+        self.marks.iter().map(|mark| mark.points).sum()
+    }
+
+    /// Returns how many answers to a question are right, such as `3 of 4`.
+    fn right_of(&self, question: &str) -> String {
+        let marks = self.marks.iter().filter(|mark| mark.of == question);
+        let (right, wrong): (Vec<_>, Vec<_>) = marks.partition(|mark| mark.right);
+        format!("{} of {}", right.len(), right.len() + wrong.len())
+    }
+
+    fn wrong(&self) -> String {
+        let wrong = self.marks.iter().filter(|mark| !mark.right);
         listed(wrong.map(|Mark { node, of, said, found, .. }| {
             format!("node {node}: {of} is {}, not {}", short(*found), or_dash(*said, short))
         }))
-    };
+    }
+}
+
+/// Reports the marks of a class, a row for each file.
+pub fn report(marked: &[MarkedAnswers]) -> Report {
     let table = Table::from_rows(marked)
-        .column("file", |marked| marked.file.clone())
         .column("student", |marked| marked.answers.student.clone())
         .column("exercise", |marked| marked.answers.exercise)
-        .column("right", |marked| marked.right())
-        .column("questions", |marked| marked.marks.len())
-        .column("wrong", wrong);
-    Report::default().table("", table)
+        .column("seed", |marked| marked.answers.seed)
+        .column("score", |marked| Cell::Percent {
+            part: marked.points() as f64 / marked.possible() as f64,
+            decimals: 0,
+        })
+        .column("points", |marked| marked.points())
+        .column("of", |marked| marked.possible())
+        .column("ct", |marked| marked.right_of("ct"))
+        .column("dy", |marked| marked.right_of("dy"))
+        .column("k1", |marked| marked.right_of("k1"))
+        .column("file", |marked| marked.file.clone())
+        .column("wrong", |marked| marked.wrong());
+    Report::default().table("Marks: ct and dy count 1 each, k1 of a node in contact 2", table)
 }
 
 /// The marks of files of answers.
@@ -61,9 +82,9 @@ struct Row<'a> {
     student: &'a str,
     exercise: u64,
     seed: u64,
-    /// The number of right answers.
-    right: usize,
-    /// The number of questions.
+    /// What the right answers count.
+    points: usize,
+    /// What all answers count.
     of: usize,
     marks: &'a [Mark],
 }
@@ -75,8 +96,8 @@ pub fn json(marked: &[MarkedAnswers]) -> String {
         student: &marked.answers.student,
         exercise: marked.answers.exercise,
         seed: marked.answers.seed,
-        right: marked.right(),
-        of: marked.marks.len(),
+        points: marked.points(),
+        of: marked.possible(),
         marks: &marked.marks,
     });
     json::line(None, &Document { answers: rows.collect() })

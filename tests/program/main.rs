@@ -24,6 +24,7 @@ mod document;
 mod drawing;
 mod edited;
 mod examples;
+mod exercises;
 mod explained;
 mod factors;
 mod faults;

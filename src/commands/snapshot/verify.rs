@@ -11,7 +11,7 @@ use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{self, Snapshot, Verified};
 
 use super::answers;
-use crate::commands::{print_either, progress, report_error, waiting, within};
+use crate::commands::{TablesArgs, print_either, progress, report_error, waiting, within};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -25,14 +25,14 @@ A difference is explained: its first cause, and how that is known. The exit stat
 difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
 all the same.
 
-Files that the page of an exercise saved (`lesson --exercise`) are marked: how many answers are right,
-and what the others should be.
+Files that the page of an exercise saved (`lesson --exercise`) are marked: each student's score, how
+many answers to each question are right, and what the others should be.
 
 Examples:
   plane-contact snapshot verify out/fig1.snapshot.json
   plane-contact snapshot verify my/*.json --junit verify.xml --report summary.markdown
   plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today
-  plane-contact snapshot verify answers/*.json                            a class")]
+  plane-contact snapshot verify answers/*.json --csv marks                a class")]
 pub struct Args {
     /// Snapshots; or answers to exercises.
     #[arg(value_name = "FILE", required = true)]
@@ -43,6 +43,8 @@ pub struct Args {
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
     /// Write a file of JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -55,9 +57,9 @@ pub fn run(args: &Args) -> Result<u8> {
     // Each is read once: it may be a pipe.
     let texts: Vec<_> = args.files.iter().map(|file| files::read(file)).collect();
     if texts.iter().flatten().any(|text| answers::are_in(text)) {
-        let all_right = answers::verify(&args.files, texts, args.json)?;
-        return Ok(if all_right { 0 } else { DIFFERS });
+        return answers::verify(&args.files, texts, args.json, &args.tables);
     }
+    args.tables.refuse("snapshots have no table; answers to exercises do")?;
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let snapshots = args.files.iter().zip(texts).map(|(file, text)| snapshot_of(file, text));
     let checked = check(&args.files, snapshots.collect(), scene.as_ref());

@@ -1,5 +1,5 @@
 //! The page of an exercise: a scene in tables, the listing, and a form whose answers are exported.
-//! Nothing of the answers is in it.
+//! Nothing of the answers is in it, nor in the picture.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -10,6 +10,7 @@ use crate::language::Language;
 use crate::picture::{self, Drawing};
 use paper::door;
 use paper::listings::Which;
+use paper::mirror::Reading;
 use studies::lesson::exercise::{ANSWERS, Exercise};
 
 /// Returns the page of a student's exercise.
@@ -22,12 +23,16 @@ pub fn html(exercise: Exercise, language: Language) -> String {
     nodes.dedup();
     let node = |n: &problem::model::NodeId| (n.number(), scene.model.coordinates(*n));
     let edges = scene.model.target_edges().map(|edge| (edge.number, edge.nodes));
-    let picture = BASE64_STANDARD.encode(picture::mesh(&Drawing::new(&scene, "")));
+    // The boxes and the arrows of the search are the answer.
+    let drawing = Drawing { search: None, ..Drawing::new(&scene, "") };
+    let picture = BASE64_STANDARD.encode(picture::mesh(&drawing));
+    let listing = Which::CCnt.under(&Reading::default());
+    let lines = listing.lines().iter().map(|line| (line.printed, line.level, &line.text));
     let data = json!({
         "kind": ANSWERS,
         "exercise": exercise.exercise,
         "seed": exercise.seed,
-        "listing": Which::CCnt.text(),
+        "listing": lines.collect::<Vec<_>>(),
         "c_tll": sheet.c_tll,
         "nodes": nodes.iter().map(node).collect::<Vec<_>>(),
         "edges": edges.collect::<Vec<_>>(),

@@ -1,11 +1,13 @@
 //! An exercise: a scene of its own for each student, what `c_cnt` finds on it, and the marks of the
 //! answers.
 
+mod drawn;
+
 use fastrand::Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::audit::statuses::{Kind, draw};
+use base::error::{InputError, Result};
 use paper::door::Call;
 use paper::mirror::Reading;
 use problem::model::NodeId;
@@ -14,11 +16,11 @@ use problem::scene::Scene;
 /// The kind of file that the page of an exercise exports.
 pub const ANSWERS: &str = "plane-contact answers";
 
-/// The scenes of exercises: a target of four edges, and a stamp that jumped twice c_tll deep.
-const KIND: Kind = Kind { edges: 4, depth: 2.0, above: false };
-
 /// How far an answered weight may be from the listing's: two digits are asked for.
 const WEIGHT: f64 = 0.0051;
+
+/// What a right weight counts; a right edge or status counts 1.
+const WEIGHT_POINTS: usize = 2;
 
 /// The exercise of a student: a number, and the seed of the class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -73,14 +75,17 @@ pub struct Mark {
     pub found: f64,
     /// Whether that is the same.
     pub right: bool,
+    /// What it counts where it is right.
+    pub points: usize,
 }
 
 impl Exercise {
-    /// Draws the scene.
+    /// Draws the scene, whose coordinates have two decimals: at least one node is in contact, one not,
+    /// and one by the sign rule alone.
     pub fn scene(self) -> Scene {
         let mut seeds = Rng::with_seed(self.seed);
         let own = seeds.u64(..).wrapping_add(self.exercise);
-        draw(&mut Rng::with_seed(own), KIND).scene
+        drawn::draw(&mut Rng::with_seed(own))
     }
 
     /// Returns what `c_cnt` finds on the scene, by contact node.
@@ -98,23 +103,49 @@ impl Exercise {
 }
 
 impl Answers {
-    /// Marks the answers.
-    pub fn marks(&self) -> Vec<Mark> {
+    /// Marks the answers: of each contact node its edge and its status, and of one in contact its weight.
+    ///
+    /// # Errors
+    /// They name a node that is no contact node of the exercise, or one twice.
+    pub fn marks(&self) -> Result<Vec<Mark>> {
         let found = Exercise { exercise: self.exercise, seed: self.seed }.found();
+        self.check(&found)?;
         let of_node = |[node, ct, dy, k1]: [f64; 4]| {
             let node = node as usize;
             let own = self.answers.iter().find(|answer| answer.node == node);
-            let said = |of: fn(&Answer) -> Option<f64>| own.and_then(of);
-            [
-                mark(node, "ct", said(|answer| answer.ct), ct, 0.0),
-                mark(node, "dy", said(|answer| answer.dy), dy, 0.0),
-                mark(node, "k1", said(|answer| answer.k1), k1, WEIGHT),
-            ]
+            let mark = |of, said: fn(&Answer) -> Option<f64>, found: f64, within, points| {
+                let said = own.and_then(said);
+                let right = said.is_some_and(|x| (x - found).abs() <= within);
+                Mark { node, of, said, found, right, points }
+            };
+            let weight = mark("k1", |answer| answer.k1, k1, WEIGHT, WEIGHT_POINTS);
+            let mut marks = vec![
+                mark("ct", |answer| answer.ct, ct, 0.0, 1),
+                mark("dy", |answer| answer.dy, dy, 0.0, 1),
+            ];
+            marks.extend((dy == 1.0).then_some(weight));
+            marks
         };
-        found.into_iter().flat_map(of_node).collect()
+        Ok(found.into_iter().flat_map(of_node).collect())
     }
-}
 
-fn mark(node: usize, of: &'static str, said: Option<f64>, found: f64, within: f64) -> Mark {
-    Mark { node, of, said, found, right: said.is_some_and(|x| (x - found).abs() <= within) }
+    fn check(&self, found: &[[f64; 4]]) -> Result<()> {
+        let Answers { exercise, seed, .. } = self;
+        let fix = format!(
+            "save them from the page that `plane-contact lesson --exercise {exercise} --seed {seed}` \
+             makes"
+        );
+        let refused = |what: String| Err(InputError::new("field answers", what, fix.clone()));
+        for (k, Answer { node, .. }) in self.answers.iter().enumerate() {
+            if !found.iter().any(|[own, ..]| *own == *node as f64) {
+                return refused(format!(
+                    "node {node} is no contact node of exercise {exercise} under seed {seed}"
+                ));
+            }
+            if self.answers[..k].iter().any(|answer| answer.node == *node) {
+                return refused(format!("node {node} is answered twice"));
+            }
+        }
+        Ok(())
+    }
 }

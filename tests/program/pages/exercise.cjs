@@ -12,6 +12,12 @@ run(async (browser) => {
   assert.deepEqual(await violations(phone.page), []);
   assert.equal(await overflows(phone.page), false);
   const { page, said } = await open(browser, file);
+  // Nothing of the answers is shown: no boxes, arrows or statuses; coordinates have two decimals.
+  const picture = await page.evaluate(() => atob(document.getElementById("picture").src.split("base64,")[1]));
+  for (const sign of ["dash", "filled nodes", "arrow"]) assert.ok(!picture.includes(sign), sign);
+  const [nodes] = await page.locator("#scene table").all();
+  for (const text of await nodes.locator("td:not(:first-child)").allTextContents()) assert.match(text, /^-?\d\.\d\d$/);
+  assert.deepEqual((await page.locator("#listing li span").allTextContents()).slice(0, 3), ["1", "2", "3"]);
   assert.deepEqual(await violations(page), []);
   await page.fill("#student", student);
   for (const { node, ...values } of answers) {

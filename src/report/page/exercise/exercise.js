@@ -25,11 +25,13 @@ function save(event) {
 }
 
 byId("title").textContent = document.title;
-byId("listing").textContent = data.listing;
+byId("listing").append(
+  ...data.listing.map(([number, level, text]) => make("li", {}, make("span", {}, String(number)), make("code", { style: `--level: ${level}` }, text))),
+);
 byId("picture").src = `data:image/svg+xml;base64,${data.picture}`;
 byId("scene").append(
   make("p", {}, `c_tll = ${data.c_tll}; cnt = (${data.contact.join("  ")}); trg = (${data.edges.map(([number]) => number).join("  ")})`),
-  tableOf("node", [[t("node"), ([n]) => n], ["x", ([, [x]]) => String(x)], ["y", ([, [, y]]) => String(y)]], data.nodes),
+  tableOf("node", [[t("node"), ([n]) => n], ["x", ([, [x]]) => x.toFixed(2)], ["y", ([, [, y]]) => y.toFixed(2)]], data.nodes),
   tableOf(t("elem: the target edges"), [[t("number"), ([n]) => n], [t("column {n}", { n: 6 }), ([, [a]]) => a], [t("column {n}", { n: 7 }), ([, [, b]]) => b]], data.edges),
 );
 const heads = [t("node"), ...ASKED].map((text) => make("th", { scope: "col" }, text));

@@ -18,8 +18,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use counted::{Counted, counting};
-use drawn::DrawnScene;
-pub use drawn::{Kind, draw};
+use drawn::{DrawnScene, Kind, draw};
 use engine::contact::status::statuses;
 use numbers::scalar::Scalar;
 use paper::door;
