@@ -3,61 +3,17 @@
 // first case differs, or how many are the same.
 
 const fs = require("node:fs");
+const digests = require("./page_digest.cjs");
 
 const [source, known, cases, texts] = process.argv.slice(2).map((path) => JSON.parse(fs.readFileSync(path, "utf8")));
 const names = "Grid, ParseError, executed, isArray, isNumber, lineOf, linesOf, readListing, share, unexpected, valueOf, worksheetOf";
 const page = new Function(`"use strict";\n${source}\nreturn { ${names} };`)();
 
+const Digest = digests(page);
+
 const words = (text) => new Set(text.split(/\s+/).filter(Boolean));
 const mathcad = { functions: words(known.functions), units: words(known.units) };
 const limits = { steps: 400_000, entries: 1 << 20, calls: 60 };
-
-const double = new Float64Array(1);
-const halves = new Uint32Array(double.buffer);
-
-/** The digest of page_interpreter.rs. */
-class Digest {
-  constructor() {
-    this.state = 0;
-  }
-  word(word) {
-    this.state = Math.imul(this.state ^ word, 0x01000193);
-    return this;
-  }
-  text(text) {
-    this.word(text.length);
-    for (let k = 0; k < text.length; k += 1) this.word(text.charCodeAt(k));
-    return this;
-  }
-  value(value) {
-    if (typeof value === "string") return this.text(value);
-    if (page.isArray(value)) {
-      this.word(value.rows).word(value.cols);
-      for (const entry of value.entries) this.value(entry);
-      return this;
-    }
-    double[0] = value;
-    return this.word(halves[1]).word(halves[0]);
-  }
-  named(list) {
-    this.word(list.length);
-    for (const { name, subscripts, value } of list) {
-      this.text(name).word(subscripts.length);
-      for (const k of subscripts) this.word(k);
-      this.value(value);
-    }
-    return this;
-  }
-  executed(line, { held, operands, reads, writes }) {
-    const truth = (held) => (held === null ? 2 : Number(held));
-    this.word(line.number).word(line.inFile).word(truth(held));
-    for (const [text, held] of operands) this.text(text).word(truth(held));
-    return this.named(reads).named(writes);
-  }
-  get result() {
-    return this.state >>> 0;
-  }
-}
 
 /** Numbers that JSON does not have, by their names. */
 const NUMBERS = { inf: Infinity, "-inf": -Infinity, NaN };

@@ -2,10 +2,12 @@
 //! readings, repairs and settings, on the corrected programs, and on listings with one character changed, each
 //! statement reads, decides and writes the same, and what fails does so at the same place in the same words.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use fastrand::Rng;
 use plane_contact::mathcad::array::Table;
@@ -15,10 +17,16 @@ use plane_contact::mathcad::{
     Value, unsupported,
 };
 use plane_contact::paper::corrected::{Bound, FAULTS, Program, program};
+use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, edited, elasticity, settings, tables};
 use plane_contact::paper::mirror::{Reading, Worksheet};
+use plane_contact::problem::model::Model;
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::language::Language;
 use plane_contact::report::page::INTERPRETER;
+use plane_contact::report::page::lesson::{self, Chapter};
 use plane_contact::studies::audit::findings::{FINDINGS, Repair};
+use plane_contact::studies::lesson::{Iterations, Switch, switches};
 use proptest::strategy::{Strategy, ValueTree};
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
@@ -30,6 +38,8 @@ use crate::common::tools::is_there;
 
 const SCENES: usize = 1_000;
 const EDITED: usize = 800;
+/// How many situations of a page are compared, with some 17 steps in each.
+const MOVED: usize = 600;
 
 /// An execution of a listing.
 struct Case {
@@ -394,6 +404,106 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
     assert!(count("refused") > EDITED as u64 && count("limited") < 20, "{said}");
     // The functions and powers that the page does not have.
     assert!(count("beyond") < 120, "{said}");
+}
+
+/// What a page of `fig1` shows: a run, nodes that were dragged, a tolerance over the run's, listings that
+/// were edited.
+#[derive(Clone)]
+struct Situation {
+    run: usize,
+    moved: BTreeMap<usize, [f64; 2]>,
+    factor: f64,
+    edits: BTreeMap<&'static str, String>,
+}
+
+impl Situation {
+    const FIRST: Situation =
+        Situation { run: 0, moved: BTreeMap::new(), factor: 1.0, edits: BTreeMap::new() };
+
+    /// Drags a node, switches the run, moves the tolerance, or edits a listing by one character.
+    fn change(&mut self, rng: &mut Rng, runs: usize, nodes: &[[f64; 2]]) {
+        match rng.u8(..10) {
+            0..4 => {
+                let n = rng.usize(..nodes.len());
+                let mut near = |x: f64, by: f64| x + by * (rng.f64() - 0.5);
+                let [x, y] = nodes[n];
+                self.moved.insert(n + 1, [near(x, 1.0), near(y, 0.1)]);
+            }
+            4..6 => self.run = rng.usize(..runs),
+            6 => self.factor = one_of(rng, &[0.1, 0.5, 1.0, 3.0, 30.0]),
+            7..9 => {
+                let which = one_of(rng, Which::ALL);
+                let text = changed(which.text(), rng);
+                if Listing::parse(which.name(), &text).is_ok() {
+                    self.edits.insert(which.name(), text);
+                }
+            }
+            _ => *self = Situation::FIRST,
+        }
+    }
+
+    /// Writes the situation, and what both listings do in it.
+    fn json(&self, runs: &[(Switch, Arc<Model>)]) -> Json {
+        let (switch, model) = &runs[self.run];
+        let mut model = Model::clone(model);
+        self.moved.iter().for_each(|(n, at)| model.nodes[n - 1] = *at);
+        model.contact.tolerance *= self.factor;
+        let sheet = Rc::new(door::worksheet(&model, |x| x));
+        let case = |which: Which, argument: Value| Case {
+            listing: match self.edits.get(which.name()) {
+                Some(text) => Listing::parse(which.name(), text).expect("it was read"),
+                None => switch.listing(which),
+            },
+            around: Around::Scene(sheet.clone()),
+            settings: switch.settings(),
+            arguments: vec![argument],
+        };
+        let c_cnt = case(Which::CCnt, Value::from(&sheet.node));
+        let km = c_cnt.execute(|_| ()).ok().map(|(pairs, _)| case(Which::Km, pairs).json());
+        let moved: Vec<_> = self.moved.iter().collect();
+        json!({ "run": self.run, "moved": moved, "factor": self.factor, "edits": self.edits,
+            "c_cnt": c_cnt.json(), "km": km })
+    }
+}
+
+/// Over 10,000 moves in the page's own scripts: nodes are dragged, listings edited, readings switched, and steps
+/// taken in both listings; every statement is that of this interpreter, and stepping forwards and backwards
+/// leads to the same values.
+#[test]
+fn ten_thousand_moves_leave_the_page_where_this_interpreter_is() {
+    let mut node = Command::new("node");
+    node.arg("--version");
+    if !is_there(node, "REQUIRE_BROWSER") {
+        return;
+    }
+    let scene = Scene::open("fig1").expect("an embedded scene");
+    let models = switches(&scene).into_iter();
+    let models = models.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
+    let runs: Vec<(Switch, Arc<Model>)> = models.collect();
+    let mut rng = Rng::with_seed(46);
+    let mut now = Situation::FIRST;
+    let mut situations = vec![];
+    for _ in 0..MOVED {
+        now.change(&mut rng, runs.len(), &scene.model.nodes);
+        situations.push(now.json(&runs));
+    }
+    let iterations = Iterations::new(&scene, &runs[0].1);
+    let chapter =
+        Chapter { scene: scene.clone(), runs, nodes: vec![], finding: None, iterations };
+    let folder = TempDir::new().expect("a folder");
+    let page = folder.path().join("lesson.html");
+    std::fs::write(&page, lesson::html(&[chapter], Language::En)).expect("a file");
+    let situations = written(folder.path(), "situations", &json!(situations));
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fidelity/page_moves.cjs");
+    let output =
+        Command::new("node").arg(script).arg(page).arg(situations).output().expect("node starts");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    let counts: Json = serde_json::from_str(&said).expect("JSON");
+    assert_eq!(counts["differs"], Json::Null, "{said}");
+    println!("{said}");
+    let count = |name: &str| counts[name].as_u64().expect("a number");
+    assert!(count("moves") > 10_000 && count("failed") > 20 && count("limited") < 50, "{said}");
 }
 
 /// Says where the page's interpreter differs, and what this one has there.

@@ -47,16 +47,23 @@ function inProse(value) {
   return data.messages ? short(value).replace(".", ",") : short(value);
 }
 
+/** Writes a text where another one stands. */
+function say(id, text) {
+  if (byId(id).textContent !== text) byId(id).textContent = text;
+}
+
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 
-/** Clears a canvas for its size on the page, in CSS pixels; returns its context. */
-function prepared(canvas, height) {
+/** Clears a canvas for its size on the page, in CSS pixels; returns its context. A size that stays is not
+ * set again, for the whole page would be laid out anew. */
+function prepared(canvas, height, width = canvas.clientWidth) {
   const ratio = window.devicePixelRatio || 1;
-  const width = canvas.clientWidth;
-  canvas.style.height = height + "px";
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
+  const size = [width, height].map((x) => Math.round(x * ratio));
+  if (canvas.style.height !== height + "px") canvas.style.height = height + "px";
+  if (String([canvas.width, canvas.height]) !== String(size)) [canvas.width, canvas.height] = size;
   const context = canvas.getContext("2d");
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, ...size);
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.font = "13px system-ui, sans-serif";
   return { context, width, height };

@@ -12,16 +12,17 @@ const modules = createRequire(process.env.BROWSER_MODULES + "/");
 const { chromium } = modules("playwright-core");
 const axe = fs.readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
 
-/** The two widths of the tests, a phone's and a screen's, with their heights. */
-const WIDTHS = { 390: 844, 1440: 900 };
+/** The widths of the tests, a phone's, a tablet's and a screen's, with their heights. */
+const WIDTHS = { 390: 844, 1024: 768, 1440: 900 };
 
 /** Opens a page from its file; whatever it says on the console or asks of the network is kept in
  * `said`. */
-async function open(browser, file, { width = 1440, scheme = "light", scale = 1 } = {}) {
+async function open(browser, file, { width = 1440, scheme = "light", scale = 1, ...others } = {}) {
   const context = await browser.newContext({
     viewport: { width, height: WIDTHS[width] },
     colorScheme: scheme,
     deviceScaleFactor: scale,
+    ...others,
   });
   const page = await context.newPage();
   const said = [];
@@ -45,7 +46,7 @@ async function violations(page) {
 /** Whether a page is wider than its window. */
 const overflows = (page) => page.evaluate(() => document.documentElement.scrollWidth > window.innerWidth);
 
-/** Looks at a page in both widths and both schemes: `look` gets it, a function that checks that
+/** Looks at a page in all widths and both schemes: `look` gets it, a function that checks that
  * nothing is cut off and that axe-core finds nothing, and what a picture is named after. */
 async function inAllViews(browser, file, look) {
   for (const width of Object.keys(WIDTHS).map(Number)) {
@@ -94,4 +95,4 @@ function drawn(seed) {
   return () => ((state = (state * 48271) % 2147483647), state / 2147483647);
 }
 
-module.exports = { open, violations, overflows, inAllViews, run, runAll, drawn };
+module.exports = { WIDTHS, open, violations, overflows, inAllViews, run, runAll, drawn };

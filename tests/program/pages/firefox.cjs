@@ -68,6 +68,31 @@ async function steps(page) {
   assert.match(await text(page, "#failure"), /The listing stops: .*line 18/);
 }
 
+/** The listing edited in place, and a node moved by the arrow keys. */
+async function edited(page) {
+  const cells = () => page.$$eval("td[data-name]", (all) => all.map((cell) => cell.dataset.exact));
+  await set(page, "#run", "0");
+  await page.click("#end");
+  const printed = await cells();
+  await page.click("#edit");
+  const listing = await page.$eval("#text", (area) => area.value);
+  const typed = async (to, wanted) => {
+    await set(page, "#text", listing.replace("|yt[i1]| < c_tll ∧", to));
+    await page.waitForFunction(wanted);
+  };
+  await typed("|yt[i1]| < ∧", () => document.getElementById("text-error").textContent.startsWith("Line 16, column 30: found"));
+  await typed("|yt[i1]| ≤ 20 · c_tll ∧", () => document.getElementById("listing-title").textContent === "The listing, edited");
+  assert.ok((await cells()).includes("dy[4] = 1"), "node 2.4 comes into contact");
+  await page.click("#edit");
+  await page.$eval("#reset", (button) => button.click());
+  assert.deepEqual(await cells(), printed);
+  await page.focus("#nodes button[aria-label^='node 2.4']");
+  for (let k = 0; k < 10; k += 1) await page.keyboard.press("ArrowDown");
+  assert.notDeepEqual(await cells(), printed);
+  await page.keyboard.press("Home");
+  assert.match(await text(page, "#status"), /^step 0 /);
+}
+
 /** The field under the pointer, probes, and every field in turn. */
 async function fields(page) {
   for (const value of await page.$$eval("#field option", (all) => all.map((option) => option.value))) await set(page, "#field", value);
@@ -97,6 +122,7 @@ async function fields(page) {
   try {
     for (const width of [1440, 390]) {
       await visit(browser, lesson, width, steps);
+      await visit(browser, lesson, width, edited);
       await visit(browser, report, width, fields);
     }
   } catch (error) {

@@ -3,7 +3,7 @@
 
 const assert = require("node:assert");
 const fs = require("node:fs");
-const { open, violations, inAllViews, runAll, drawn } = require("./browser.cjs");
+const { WIDTHS, open, violations, overflows, inAllViews, runAll, drawn } = require("./browser.cjs");
 const { comparing, read } = require("./traced.cjs");
 
 const [file, folder, ofContact, ofStiffness] = process.argv.slice(2);
@@ -12,7 +12,13 @@ const traces = { c_cnt: read(ofContact), Km: read(ofStiffness) };
 const compare = comparing(traces);
 
 const cellsOf = (page) => page.locator("td[data-name]").evaluateAll((all) => all.map((cell) => cell.dataset.exact));
-const chosen = (page, which) => page.check(`input[value=${which}]`);
+const chosen = (page, which) => page.locator(`input[value=${which}]`).evaluate((radio) => radio.click());
+const select = (page, id, index) =>
+  page.locator(id).evaluate((list, index) => {
+    list.selectedIndex = index;
+    list.dispatchEvent(new Event("change", { bubbles: true }));
+  }, index);
+const stepsDone = async (page) => Number(/^step (\d+)/.exec(await page.textContent("#status"))[1]);
 
 /** 200 moves drawn at random, each compared with the trace. */
 async function walk(browser) {
@@ -142,15 +148,10 @@ async function changed(browser) {
   assert.ok((await cellsOf(page)).includes("dy[4] = 1"), "node 2.4 lies within 0.01");
   await page.click("#reset");
   assert.deepEqual(await cellsOf(page), printed);
-  const box = await page.locator("#zone").boundingBox();
-  const places = Array.from({ length: 40 * 40 }, (_, k) => [box.x + ((k % 40) / 40) * box.width, box.y + (Math.floor(k / 40) / 40) * box.height]);
-  for (const place of places) {
-    await page.mouse.move(...place);
-    if ((await page.locator("#zone").evaluate((zone) => zone.style.cursor)) === "grab") break;
-  }
-  const [x, y] = places[0];
+  const box = await page.locator("#nodes button").nth(2).boundingBox();
+  await page.mouse.move(box.x + 12, box.y + 12);
   await page.mouse.down();
-  for (let k = 1; k <= 5; k += 1) await page.mouse.move(x + box.width / 2 + 5 * k, y + box.height / 2 + k);
+  for (let k = 1; k <= 5; k += 1) await page.mouse.move(box.x + 12 + 5 * k, box.y + 12 + k);
   await page.mouse.up();
   const moved = await cellsOf(page);
   assert.notDeepEqual(moved, printed);
@@ -348,7 +349,177 @@ async function opening(browser) {
   assert.deepEqual(said, []);
 }
 
-/** Both widths and both schemes: nothing is cut off, axe-core finds nothing, a picture of each. */
+/** Whether an element is in the window, above the bar of controls, and in each box that scrolls around it;
+ * of what is higher than such a box, its top. */
+const isSeen = (page, selector) =>
+  page.locator(selector).first().evaluate((element) => {
+    const { left, top, right, bottom } = element.getBoundingClientRect();
+    let seen = { top: 0, bottom: document.querySelector(".controls").getBoundingClientRect().top, left: 0, right: window.innerWidth };
+    for (let box = element.parentElement; box; box = box.parentElement) {
+      if (getComputedStyle(box).overflow === "visible") continue;
+      const own = box.getBoundingClientRect();
+      seen = { top: Math.max(seen.top, own.top), bottom: Math.min(seen.bottom, own.bottom), left: Math.max(seen.left, own.left), right: Math.min(seen.right, own.right) };
+    }
+    const isIn = left >= seen.left - 1 && right <= seen.right + 1 && top >= seen.top - 1 && (bottom <= seen.bottom + 1 || bottom - top > seen.bottom - seen.top);
+    const middle = document.elementFromPoint((left + right) / 2, (Math.max(top, seen.top) + Math.min(bottom, seen.bottom)) / 2);
+    return bottom > top && isIn && (element.contains(middle) || element.parentElement.contains(middle));
+  });
+
+/** Figure, current line and question are seen together at each size, in chapters and steps drawn at random. */
+async function together(browser) {
+  const random = drawn(46);
+  for (const width of Object.keys(WIDTHS).map(Number)) {
+    const { page, said } = await open(browser, file, { width });
+    await page.locator("#ask").evaluate((ask) => ask.click());
+    let asked = 0;
+    for (const [chapter, which] of [[0, "c_cnt"], [0, "Km"], [2, "c_cnt"], [4, "c_cnt"], [9, "c_cnt"], [16, "Km"]]) {
+      await select(page, "#chapter", chapter);
+      await chosen(page, which);
+      const last = Number(await page.getAttribute("#slider", "max"));
+      for (let k = 0; k < 12; k += 1) {
+        await page.locator("#slider").fill(String(Math.floor(random() * last)));
+        await page.click("#decision");
+        await page.click("#back");
+        const at = `${width}, chapter ${chapter}, ${await page.textContent("#status")}`;
+        for (const seen of [which === "Km" ? "#whole" : "#zone", "#listing li[aria-current]"]) assert.ok(await isSeen(page, seen), `${at}: ${seen}`);
+        if (await page.isHidden("#question")) continue;
+        assert.ok(await isSeen(page, "#question"), `${at}: the question`);
+        await page.click("#question button");
+        assert.ok(await isSeen(page, "#question [role=status]"), `${at}: the verdict`);
+        assert.ok(await isSeen(page, "#listing li[aria-current]"), `${at}: the line beside the verdict`);
+        asked += 1;
+      }
+      assert.equal(await overflows(page), false);
+    }
+    assert.ok(asked > 40, `${asked} questions at ${width}`);
+    assert.deepEqual(said, []);
+  }
+}
+
+/** The keys step whatever has the focus, but in a text; what Tab has reached keeps the space bar. */
+async function keys(browser) {
+  const { page, said } = await open(browser, file);
+  const steps = async (why) => {
+    for (const [key, to] of [["Home", 0], ["ArrowRight", 1], ["ArrowRight", 2], [" ", 3], ["ArrowLeft", 2], ["End", Infinity]]) {
+      await page.keyboard.press(key);
+      assert.equal(await stepsDone(page), Math.min(to, Number(await page.getAttribute("#slider", "max"))), `${key} after ${why}`);
+    }
+  };
+  await steps("opening");
+  for (const clicked of ["input[value=Km]", "#ask", "#decision", "#values td", "#tolerance", "#slider", "#mjs", "input[value=c_cnt]", "#nodes button", "h1", "#finding", "#listing button", "#edit", "#edit"]) {
+    if (await page.isHidden(clicked)) continue;
+    await page.click(clicked);
+    if (await page.isHidden("#editor")) await steps(clicked);
+  }
+  await page.selectOption("#run", { index: 2 });
+  await steps("a reading");
+  for (const focused of ["#run", "#tolerance", "#ask", "input[value=c_cnt]", "#turns", "#edit", "summary"]) {
+    await page.locator(focused).first().evaluate((element) => element.focus());
+    await page.keyboard.press("Home");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await stepsDone(page), 1, focused);
+  }
+  await page.focus("#ask");
+  await page.keyboard.press(" ");
+  assert.equal(await page.isChecked("#ask"), true);
+  await page.focus("#tolerance");
+  await page.keyboard.press("ArrowUp");
+  assert.notEqual(await page.textContent("#tolerance-label"), "c_tll 0.001");
+  assert.deepEqual(said, []);
+}
+
+/** A node is moved by the arrow keys and by a finger; each step is said. */
+async function moved(browser) {
+  const { page, said } = await open(browser, file);
+  const { steps } = traces.c_cnt;
+  const at = steps.findIndex(({ line, writes }) => line === 16 && writes.some(({ name, value }) => name === "dy[3]" || value === 1)) + 1;
+  await page.locator("#slider").fill(String(at));
+  assert.match(await page.textContent("#said[aria-live=polite]"), /^line 16: the condition is true, dy \d becomes 1$/);
+  await page.click("#end");
+  const printed = await cellsOf(page);
+  await page.focus("#nodes button[aria-label^='node 2.4']");
+  for (let k = 0; k < 10; k += 1) await page.keyboard.press("Shift+ArrowDown");
+  assert.match(await page.textContent("#said"), /^node 2\.4 \(8\): x 2\.3, y −?0\.\d+$/);
+  assert.notDeepEqual(await cellsOf(page), printed);
+  await page.click("#reset");
+  assert.deepEqual(await cellsOf(page), printed);
+  const phone = await open(browser, file, { width: 390, hasTouch: true, isMobile: true });
+  await phone.page.click("#end");
+  const finger = await phone.page.context().newCDPSession(phone.page);
+  const { x, y } = await phone.page.locator("#nodes button").nth(3).boundingBox();
+  const touch = (type, by) => finger.send("Input.dispatchTouchEvent", { type, touchPoints: type === "touchEnd" ? [] : [{ x: x + 12, y: y + 12 + by }] });
+  await touch("touchStart", 0);
+  for (const by of [10, 20, 30]) await touch("touchMove", by);
+  await touch("touchEnd");
+  assert.notDeepEqual(await cellsOf(phone.page), printed);
+  assert.deepEqual([...said, ...phone.said], []);
+}
+
+/** Printed, nothing is cut off, and no control is there; what moves stands still where that is wished. */
+async function printed(browser) {
+  const { page, said } = await open(browser, file, { scheme: "dark", reducedMotion: "reduce" });
+  await page.click("#end");
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await page.isHidden(".controls"), true);
+  const cut = await page.evaluate(() =>
+    [...document.querySelectorAll("main *")].filter((element) => getComputedStyle(element).overflowY !== "visible" && element.scrollHeight > element.clientHeight + 1 && element.clientHeight > 1).map((element) => element.id || element.outerHTML.slice(0, 60)),
+  );
+  assert.deepEqual(cut, []);
+  assert.equal(await page.evaluate(() => document.getAnimations().length), 0);
+  assert.deepEqual(said, []);
+}
+
+/** 2,000 moves by events drawn at random leave the page whole: it says nothing, and shows what a page shows
+ * that opens the same address. */
+async function soak(browser) {
+  const { page, said } = await open(browser, file);
+  await page.evaluate(async () => {
+    let state = 46;
+    const below = (n) => (state = (state * 48271) % 2147483647) % n;
+    const byId = (id) => document.getElementById(id);
+    const change = (input, value) => {
+      input.value = value;
+      for (const name of ["input", "change"]) input.dispatchEvent(new Event(name, { bubbles: true }));
+    };
+    const press = (target, key) => target.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, shiftKey: below(2) === 0 }));
+    const arrows = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
+    const edit = () => {
+      if (byId("editor").hidden) byId("edit").click();
+      const text = [...byId("text").value];
+      text[below(text.length)] = "cky01+=".charAt(below(7));
+      change(byId("text"), text.join(""));
+      byId("edit").click();
+      if (below(3)) byId("reset").click();
+    };
+    const node = () => {
+      const nodes = byId("nodes").children;
+      if (nodes.length) press(nodes[below(nodes.length)], arrows[below(4)]);
+    };
+    const list = (id) => change(byId(id), byId(id).options[below(byId(id).options.length)].value);
+    const started = performance.now();
+    for (let k = 0; k < 2000 && performance.now() - started < 20_000; k += 1) {
+      const kind = below(40);
+      if (kind < 24) press(document.body, ["ArrowRight", "ArrowLeft", "o", "d", "n", " ", "Home", "End"][below(8)]);
+      else if (kind < 28) change(byId("slider"), below(Number(byId("slider").max) + 1));
+      else if (kind < 34) node();
+      else if (kind < 35) edit();
+      else if (kind < 36) list("run");
+      else if (kind < 37) list("chapter");
+      else if (kind < 38) document.querySelectorAll("[name=which]")[below(2)].click();
+      else if (kind < 39) change(byId("tolerance"), below(5) - 2);
+      else byId("ask").click();
+      if (k % 50 === 0) await new Promise(requestAnimationFrame);
+    }
+    if (!byId("editor").hidden) byId("reset").click();
+  });
+  await page.waitForTimeout(600);
+  const again = await page.context().newPage();
+  await again.goto(page.url());
+  assert.deepEqual(await cellsOf(again), await cellsOf(page));
+  assert.deepEqual(said, []);
+}
+
+/** All widths and both schemes: nothing is cut off, axe-core finds nothing, a picture of each. */
 async function views(browser) {
   await inAllViews(browser, file, async ({ page, check, view }) => {
     for (const [which, at] of [["c_cnt", 230], ["Km", 1000], ["iterations", 20]]) {
@@ -358,8 +529,14 @@ async function views(browser) {
       await check();
       await page.screenshot({ path: `${folder}/lesson-${which}-${view}.png` });
     }
+    await page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
+    await page.check("#ask");
+    await page.click("#end");
+    await check();
+    await page.click("#edit");
+    await check();
   });
 }
 
-const tests = [walk, runs, keyboard, hover, readings, questions, changed, edited, unforeseen, chapters, iterations, assembly, opening, views];
+const tests = [walk, runs, keyboard, hover, readings, questions, changed, edited, unforeseen, chapters, iterations, assembly, opening, together, keys, moved, printed, soak, views];
 runAll(tests);

@@ -90,7 +90,7 @@ function showFinding(chapter) {
   const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");
   const part = (term, ...content) => [make("dt", {}, term), make("dd", {}, ...content)];
   place.replaceChildren(
-    make("h2", {}, `${row.id} (${lines}): ${row.title}`),
+    make("summary", {}, make("h2", {}, `${row.id} (${lines}): ${row.title}`)),
     make(
       "dl",
       {},

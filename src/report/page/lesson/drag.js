@@ -1,33 +1,61 @@
-// Nodes that are dragged in the contact zone: the listings run again while the pointer moves.
+// Nodes that are dragged in the contact zone, by the pointer or by the arrow keys: the listings run again
+// once a frame.
 
 /** The most nodes of a scene that runs again in the time of a frame. */
 const MOST_DRAGGED = 100;
 
-/** The node of the zone under the pointer; nothing where there is none. */
-function nodeAt({ offsetX, offsetY }) {
-  const { mesh, zone, view } = page;
-  const nodes = mesh.count > MOST_DRAGGED || !view ? [] : [...zone.nodes, ...zone.edges.flatMap(([, ends]) => ends)];
-  const distance = (n) => Math.hypot(...view.to(mesh.at(n)).map((x, k) => x - [offsetX, offsetY][k]));
-  return nodes.filter((n) => distance(n) < 12).sort((a, b) => distance(a) - distance(b))[0];
+/** How far an arrow key moves a node, in pixels, and with Shift. */
+const [NUDGE, FAR_NUDGE] = [2, 20];
+
+/** Puts a button over each node that can be dragged. */
+function placeNodes({ nodes, edges }) {
+  const place = byId("nodes");
+  const all = page.mesh.count > MOST_DRAGGED ? [] : [...new Set([...nodes, ...edges.flatMap(([, ends]) => ends)])];
+  if (String([...place.children].map(({ value }) => value)) !== String(all)) {
+    place.replaceChildren(...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })));
+  }
+  for (const button of place.children) {
+    const [x, y] = page.view.to(page.mesh.at(Number(button.value)));
+    Object.assign(button.style, { left: `${x}px`, top: `${y}px` });
+  }
+}
+
+/** Moves a node to a pixel of the zone. */
+function moveNode(n, pixel) {
+  const at = page.view.from(pixel).map((x) => Number(x.toPrecision(6)));
+  choose({ moved: new Map(page.moved).set(n, at) });
 }
 
 function watchDrag() {
-  const canvas = byId("zone");
-  canvas.addEventListener("pointerdown", (event) => {
-    page.dragged = nodeAt(event);
-    if (page.dragged) canvas.setPointerCapture(event.pointerId);
+  const place = byId("nodes");
+  let frame;
+  place.addEventListener("pointerdown", ({ target, pointerId }) => {
+    if (!target.value) return;
+    page.dragged = Number(target.value);
+    target.setPointerCapture(pointerId);
   });
-  canvas.addEventListener("pointermove", (event) => {
-    canvas.style.cursor = page.dragged || nodeAt(event) ? "grab" : "";
+  place.addEventListener("pointermove", ({ clientX, clientY }) => {
     if (!page.dragged) return;
-    const at = page.view.from([event.offsetX, event.offsetY]).map((x) => Number(x.toPrecision(6)));
-    choose({ moved: new Map(page.moved).set(page.dragged, at) });
+    const { left, top } = place.getBoundingClientRect();
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(() => page.dragged && moveNode(page.dragged, [clientX - left, clientY - top]));
   });
   for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, () => {
+    place.addEventListener(name, () => {
       if (!page.dragged) return;
       page.dragged = undefined;
       choose({});
     });
   }
+  place.addEventListener("keydown", (event) => {
+    const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    if (!by) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const n = Number(event.target.value);
+    const far = event.shiftKey ? FAR_NUDGE : NUDGE;
+    moveNode(n, page.view.to(page.mesh.at(n)).map((x, k) => x + far * by[k]));
+    const [x, y] = page.mesh.at(n);
+    say("said", t("node {name}: x {x}, y {y}", { name: page.mesh.name(n), x, y }));
+  });
 }

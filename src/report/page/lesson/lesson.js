@@ -36,24 +36,28 @@ function choose(change) {
   page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, page.pairs);
-  page.map = isIterating() ? null : new MatrixMap(page.mesh, page.machine);
+  page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine) : null;
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("chapter").value = page.chapter;
   byId("run").value = page.run;
   for (const radio of document.getElementsByName("which")) radio.checked = radio.value === page.which;
-  byId("about").textContent = t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() });
+  say("about", t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() }));
   byId("tolerance").value = Math.log10(page.factor);
-  byId("tolerance-label").textContent = `c_tll ${short(page.programs.c_tll)}`;
+  say("tolerance-label", `c_tll ${short(page.programs.c_tll)}`);
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
-  if (!isIterating() && ["run", "which", "edits"].some((name) => name in change)) showText();
+  if (!isIterating() && ["run", "which", "edits"].some((name) => name in change)) {
+    showText();
+    showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
+    byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
+    byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
+  }
   showReset();
-  byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
-  byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
-  if (!isIterating()) showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
-  fillTurns();
-  // Beside the arrays it would take half of a move's time.
-  if (!page.dragged) showChanges(run(), page.programs);
+  // Beside the arrays these would take half of a move's time.
+  if (!page.dragged) {
+    fillTurns();
+    showChanges(run(), page.programs);
+  }
   show();
 }
 
@@ -83,7 +87,7 @@ function show() {
   const line = isIterating() ? showIterations() : showSteps();
   const { at, steps } = page.machine;
   byId("slider").value = at;
-  byId("status").textContent = isIterating() ? t("iteration {at} of {count}", { at, count: steps.length }) : [t("step {at} of {count}", { at, count: steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", ");
+  say("status", isIterating() ? t("iteration {at} of {count}", { at, count: steps.length }) : [t("step {at} of {count}", { at, count: steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", "));
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
@@ -96,26 +100,28 @@ function showSteps() {
   const { machine, mesh, pairs, zone } = page;
   const turn = machine.turnAt(machine.at - 1);
   const inKm = page.which === "Km";
-  lightLine(machine);
-  showStep(machine);
-  const node = inKm ? null : turn;
   const line = machine.last ? machine.lines[machine.last.line].number : 0;
-  const boxed = !inKm && (line === 6 || line === 7);
+  // Read before anything is written, else the page is laid out anew.
+  page.width = byId("pictures").clientWidth;
   if (mesh.contact.length) {
-    drawZone(mesh, pairs, zone, page.programs.c_tll, node, boxed);
+    const node = inKm ? null : turn;
+    drawZone(mesh, pairs, zone, page.programs.c_tll, node, !inKm && (line === 6 || line === 7));
     drawGaps(mesh, pairs, zone, page.programs.c_tll, node);
   }
   const linked = inKm ? page.map.vector("W").map((e) => Math.ceil(e / 2)) : [];
   drawWhole(mesh, pairs, inKm ? turn : null, linked);
-  byId("values").replaceChildren(...(inKm ? stiffnessTables(machine) : contactTables(mesh, machine, turn)));
   byId("matrix").hidden = !inKm;
   byId("pictures").classList.toggle("stiffness", inKm);
-  byId("block").replaceChildren(...(inKm ? [elementTable(machine)] : []));
   if (inKm) page.map.draw();
+  showStep(machine);
+  showTables(byId("values"), machine, inKm ? stiffnessTables() : contactTables(mesh, machine), inKm ? -1 : turn - 1);
+  if (inKm) showTables(byId("block"), machine, [elementTable(machine)], -1);
   const ended = machine.at === machine.steps.length;
-  byId("failure").textContent = ended && machine.failure ? t("The listing stops: {failure}", machine) : "";
+  say("failure", ended && machine.failure ? t("The listing stops: {failure}", machine) : "");
   ask(machine, mesh);
   if (machine.at === 0 && !inKm && byId("question").hidden) askWhichTouch(mesh);
+  // The box is as high as the question leaves it.
+  lightLine(machine);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
   return line;
 }
@@ -134,9 +140,12 @@ const moves = {
 function watch() {
   for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine), true));
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("textarea")) return;
+    // What Tab has reached keeps the keys that it needs: the space bar, ↑ and ↓.
+    if (event.key === " " && event.target.closest("button, select, input, summary")) return;
     if (event.key === "p") play(!page.playing);
-    const move = Object.values(moves).find(([key]) => key === event.key || key === event.key.toLowerCase());
+    const pressed = event.key === " " ? "ArrowRight" : event.key;
+    const move = Object.values(moves).find(([key]) => key === pressed || key === pressed.toLowerCase());
     if (!move) return;
     event.preventDefault();
     go(move[1](page.machine), true);
@@ -151,6 +160,7 @@ function watch() {
   byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
   byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), edits: new Map() }));
   window.addEventListener("hashchange", openAddress);
+  releaseFocus();
   watchDrag();
   watchMeanings();
   watchEditor();
@@ -160,6 +170,17 @@ function watch() {
   window.addEventListener("resize", show);
   matchMedia("screen and (prefers-color-scheme: dark)").addEventListener("change", show);
   watchMatrix(() => page.map);
+}
+
+/** What the pointer has chosen gives the focus back, so that the keys step; a text keeps it. */
+function releaseFocus() {
+  let pointed = null;
+  document.addEventListener("pointerdown", ({ target }) => (pointed = target), true);
+  document.addEventListener("keydown", () => (pointed = null), true);
+  const release = () => pointed && !document.activeElement.matches("textarea") && document.activeElement.blur();
+  document.addEventListener("change", release);
+  // The click that opens a list is not yet the choice.
+  document.addEventListener("click", ({ target }) => target.closest("select") || release());
 }
 
 function openChapter(chapter) {
@@ -179,6 +200,8 @@ function openChapter(chapter) {
   choose({ chapter, run: 0, which, factor: 1, moved: new Map(), edits: new Map() });
 }
 
+document.querySelector(".choices").open = window.innerWidth >= 700;
+byId("finding").open = window.innerWidth >= 1100;
 byId("chapter").replaceChildren(
   ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : t("scene {name}", { name }))),
 );

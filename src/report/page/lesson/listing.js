@@ -45,9 +45,18 @@ function accesses(list, sign) {
 
 const truth = (held) => make("span", { class: String(held) }, held === null ? t("not evaluated") : held ? t("true") : t("false"));
 
+/** The last step in words: "line 16: dy 3 becomes 1". */
+function stepInWords({ lines, last }) {
+  if (!last) return "";
+  const written = last.writes.map(({ name, value }) => t("{name} becomes {value}", { name: name.replace(/[[\],]+/g, " ").trim(), value: brief(value) }));
+  const decided = last.held === null ? [] : [t("the condition is {held}", { held: last.held ? t("true") : t("false") })];
+  return t("line {line}: {what}", { line: lines[last.line].number, what: [...decided, ...written].join(", ") || t("nothing is written") });
+}
+
 /** Writes what the last step did. */
 function showStep(machine) {
   const step = machine.last;
+  say("said", stepInWords(machine));
   const rows = [];
   const row = (term, ...content) => rows.push(make("dt", {}, term), make("dd", {}, ...content));
   if (!step) {

@@ -67,5 +67,6 @@ function ask(machine, mesh) {
     return button;
   });
   const given = asked.given.length ? [make("p", {}, t("Given:") + " ", ...accesses(asked.given, "="))] : [];
-  place.replaceChildren(make("h3", {}, t("What comes next?")), make("p", {}, asked.words), ...given, make("p", { class: "answers" }, ...buttons), verdict);
+  byId("below").scrollTop = 0;
+  place.replaceChildren(make("h3", {}, t("What comes next?")), make("p", {}, asked.words), make("p", { class: "answers" }, ...buttons), verdict, ...given);
 }

@@ -142,10 +142,13 @@ function zoneOf(mesh, machine) {
   return { nodes, edges: nodes.length === mesh.contact.length ? mesh.edges : near };
 }
 
+/** The height of a picture: figure, current line and question have room in one window. */
+const pictureHeight = () => Math.max(150, Math.min(340, 0.55 * page.width, 0.3 * window.innerHeight));
+
 /** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. */
 function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const canvas = byId("zone");
-  const { context, width, height } = prepared(canvas, Math.max(230, Math.min(340, canvas.clientWidth * 0.6)));
+  const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
   const points = [...zone.nodes, ...zone.edges.flatMap(([, ends]) => ends)].map(mesh.at);
   // While a node is dragged the view stays.
   page.view = page.dragged ? page.view : view(points, width, height, 42, true);
@@ -185,12 +188,13 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     label(context, mesh.name(node), [x, Math.max(14, y - 15)], colour("stamp-ink"));
   }
   const size = factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor });
-  byId("zone-caption").textContent = [
+  say("zone-caption", [
     size,
     t("Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
     t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
     ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged.")]),
-  ].join(" ");
+  ].join(" "));
+  placeNodes(zone);
   canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));
 }
 
@@ -208,7 +212,7 @@ function drawBox(context, to, pairs, boxed) {
 /** Draws each contact node at its height over its edge's line, the line drawn straight. */
 function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const canvas = byId("gaps");
-  const { context, width, height } = prepared(canvas, 170);
+  const { context, width, height } = prepared(canvas, 170, page.width);
   const known = contactNodes(mesh, pairs).filter((n) => zone.nodes.includes(n.node) && n.ct > 0 && n.yt !== undefined);
   const most = Math.max(tolerance, ...known.map(({ yt }) => Math.abs(yt)));
   const xs = zone.nodes.map((n) => mesh.at(n)[0]);
@@ -232,9 +236,9 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
     label(context, mesh.figure.get(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"));
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
-  byId("gaps-caption").textContent = known.length
+  say("gaps-caption", known.length
     ? [...scale, t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
-    : t("No gap is known yet: line 10 computes them.");
+    : t("No gap is known yet: line 10 computes them."));
   canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }
 
@@ -242,7 +246,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
 function drawWhole(mesh, pairs, element, linked) {
   const canvas = byId("whole");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
-  const { context, width, height } = prepared(canvas, Math.min(340, canvas.clientWidth * 0.75));
+  const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
   const { to } = view(points, width, height, 26, false);
   drawBodies(context, mesh, to, element);
   const numbered = mesh.count <= 60;
@@ -266,10 +270,10 @@ function drawWhole(mesh, pairs, element, linked) {
   }
   const fixed = mesh.restrained.flatMap(([x, y], k) => (x || y ? [`${k + 1} (${[x && "x", y && "y"].filter(Boolean).join(", ")})`] : []));
   const restrained = fixed.slice(0, 12).join(", ");
-  byId("whole-caption").textContent = [
+  say("whole-caption", [
     t("Triangles and nodes with their numbers."),
     fixed.length > 12 ? t("Restrained: {restrained} and others.", { restrained }) : t("Restrained: {restrained}.", { restrained }),
     ...(element ? [t("Lit: triangle {element}, which Km adds. Red: the linked nodes of W.", { element })] : []),
-  ].join(" ");
+  ].join(" "));
   canvas.setAttribute("aria-label", t("The scene: {nodes} nodes, {triangles} triangles", { nodes: mesh.count, triangles: mesh.triangles.length }));
 }

@@ -12,18 +12,24 @@ function marks(machine) {
   return found;
 }
 
-function cell(machine, marked, name) {
+/** Writes a cell's value, where another one stands. */
+function fill(cell, machine, marked) {
+  const { name } = cell.dataset;
   const value = machine.get(name);
   const full = value === undefined ? t("{name} has no value yet", { name }) : `${name} = ${exact(value)}`;
-  const text = value === undefined ? "·" : brief(value);
-  return make("td", { class: marked.get(name), "data-name": name, "data-exact": full, "aria-describedby": "meaning" }, text);
+  if (cell.dataset.exact !== full) {
+    cell.dataset.exact = full;
+    cell.textContent = value === undefined ? "·" : brief(value);
+  }
+  const mark = marked.get(name) ?? "";
+  if (cell.className !== mark) cell.className = mark;
 }
 
 /** A table of entries with a heading a column; each row has its heading and its names. */
-function table(machine, caption, heads, rows, current) {
-  const marked = marks(machine);
-  const body = rows.map(([head, names], k) =>
-    make("tr", { class: k === current ? "current" : undefined }, make("th", { scope: "row", "data-name": head === names[0] ? head : undefined }, head), ...names.map((name) => cell(machine, marked, name))),
+function table(caption, heads, rows) {
+  const cell = (name) => make("td", { "data-name": name, "aria-describedby": "meaning" });
+  const body = rows.map(([head, names]) =>
+    make("tr", {}, make("th", { scope: "row", "data-name": head === names[0] ? head : undefined }, head), ...names.map(cell)),
   );
   const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col", "data-name": meaningOf(text) && text }, text)));
   const result = make("table", {}, make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...body));
@@ -32,28 +38,41 @@ function table(machine, caption, heads, rows, current) {
   return box;
 }
 
+/** Shows tables, made anew where their names are others: to write cells takes a tenth of the time. The row at
+ * `current` of the first is lit. */
+function showTables(place, machine, tables, current) {
+  const names = JSON.stringify(tables);
+  if (place.dataset.names !== names) {
+    place.dataset.names = names;
+    place.replaceChildren(...tables.map((parts) => table(...parts)));
+  }
+  const marked = marks(machine);
+  for (const cell of place.querySelectorAll("td")) fill(cell, machine, marked);
+  [...place.querySelector("tbody").rows].forEach((row, k) => row.classList.toggle("current", k === current));
+}
+
 const rowsOf = (rows, names) => rows.map(([head, index]) => [head, names.map((name) => `${name}[${index}]`)]);
 
 /** The tables of c_cnt: contact nodes, k_cnt, and the names of one value. */
-function contactTables(mesh, machine, turn) {
+function contactTables(mesh, machine) {
   const contact = mesh.contact.map((n, k) => [mesh.name(n), k + 1]);
   const nodes = Array.from({ length: mesh.count }, (_, k) => k + 1);
   const touched = (n) => [1, 2, 3, 4].some((j) => machine.get(`k_cnt[${n},${j}]`));
   const shown = mesh.count <= 40 ? nodes : nodes.filter(touched);
   const k_cnt = shown.map((n) => [mesh.name(n), [1, 2, 3, 4].map((j) => `k_cnt[${n},${j}]`)]);
   return [
-    table(machine, t("by contact node"), [t("node"), "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"]), turn - 1),
-    table(machine, t("now"), [t("name"), t("value")], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])),
-    table(machine, "k_cnt", [t("node"), t("1: mate"), t("2: weight"), t("3: mate"), t("4: weight")], k_cnt),
+    [t("by contact node"), [t("node"), "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"])],
+    [t("now"), [t("name"), t("value")], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])],
+    ["k_cnt", [t("node"), t("1: mate"), t("2: weight"), t("3: mate"), t("4: weight")], k_cnt],
   ];
 }
 
 /** The tables of Km: the element's equations and the names of one value. */
-function stiffnessTables(machine) {
+function stiffnessTables() {
   const six = [1, 2, 3, 4, 5, 6];
   return [
-    table(machine, t("by equation of the element"), [t("equation"), "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])),
-    table(machine, t("now"), [t("name"), t("value")], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])),
+    [t("by equation of the element"), [t("equation"), "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])],
+    [t("now"), [t("name"), t("value")], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])],
   ];
 }
 
@@ -61,5 +80,5 @@ function stiffnessTables(machine) {
 function elementTable(machine) {
   const six = [1, 2, 3, 4, 5, 6];
   const equation = (k) => `${k} → ${machine.get(`V[${k}]`) ?? "·"}`;
-  return table(machine, t("K, each row and column with its equation in MJS"), [t("row"), ...six.map(equation)], six.map((i) => [equation(i), six.map((j) => `K[${i},${j}]`)]));
+  return [t("K, each row and column with its equation in MJS"), [t("row"), ...six.map(equation)], six.map((i) => [equation(i), six.map((j) => `K[${i},${j}]`)])];
 }

@@ -82,6 +82,14 @@ function linesAt(place, edits = new Map()) {
   return data.listings[place].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
 }
 
+/** The listings that were read, by their lines: to read one takes as long as to execute it. */
+const READ = new Map();
+function listingOf(name, lines) {
+  const key = JSON.stringify(lines);
+  if (!READ.has(key)) READ.set(key, readListing(name, lines));
+  return READ.get(key);
+}
+
 /** The two listings of a run, each executed when it is first asked for; `edits` has the texts of those that are
  * edited, by their place. */
 class Programs {
@@ -108,7 +116,7 @@ class Programs {
 
   execute(name, argument) {
     const lines = linesAt(this.run[name], this.edits);
-    const listing = readListing(name, lines);
+    const listing = listingOf(name, lines);
     const recorder = new TurnRecorder(listing, this.turns(name), name === "Km" ? this.mesh.triangles.length : this.mesh.contact.length);
     const done = executed(listing, this.worksheet, this.run.settings, [argument], MOST_SHOWN, recorder);
     recorder.finish();
