@@ -110,7 +110,7 @@ fn the_lesson_shows_what_the_trace_has() {
     });
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "lesson.cjs", &[&page, &pictures, &c_cnt, &km]);
-    assert_pictures(folder.path(), 12);
+    assert_pictures(folder.path(), 18);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn the_report_shows_what_solve_and_audit_have() {
     let audit = made(folder.path(), "audit.json", &["audit", "--json"]);
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
-    assert_pictures(folder.path(), 4);
+    assert_pictures(folder.path(), 6);
     in_browser(&modules, "large.cjs", &[&page, "2014"]);
 }
 

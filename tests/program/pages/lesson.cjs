@@ -1,5 +1,5 @@
 // The lesson of fig. 1 in a browser: node lesson.cjs PAGE FOLDER TRACE_OF_C_CNT TRACE_OF_KM. The
-// folder receives a picture of each of twelve views.
+// folder receives a picture of each of 18 views.
 
 const assert = require("node:assert");
 const fs = require("node:fs");
@@ -379,7 +379,6 @@ async function together(browser) {
       for (let k = 0; k < 12; k += 1) {
         await page.locator("#slider").fill(String(Math.floor(random() * last)));
         await page.click("#decision");
-        await page.click("#back");
         const at = `${width}, chapter ${chapter}, ${await page.textContent("#status")}`;
         for (const seen of [which === "Km" ? "#whole" : "#zone", "#listing li[aria-current]"]) assert.ok(await isSeen(page, seen), `${at}: ${seen}`);
         if (await page.isHidden("#question")) continue;
@@ -408,6 +407,7 @@ async function keys(browser) {
   await steps("opening");
   for (const clicked of ["input[value=Km]", "#ask", "#decision", "#values td", "#tolerance", "#slider", "#mjs", "input[value=c_cnt]", "#nodes button", "h1", "#finding", "#listing button", "#edit", "#edit"]) {
     if (await page.isHidden(clicked)) continue;
+    if (await page.isHidden("#editor")) await page.keyboard.press("Home");
     await page.click(clicked);
     if (await page.isHidden("#editor")) await steps(clicked);
   }
@@ -419,9 +419,10 @@ async function keys(browser) {
     await page.keyboard.press("ArrowRight");
     assert.equal(await stepsDone(page), 1, focused);
   }
+  const isAsking = await page.isChecked("#ask");
   await page.focus("#ask");
   await page.keyboard.press(" ");
-  assert.equal(await page.isChecked("#ask"), true);
+  assert.equal(await page.isChecked("#ask"), !isAsking);
   await page.focus("#tolerance");
   await page.keyboard.press("ArrowUp");
   assert.notEqual(await page.textContent("#tolerance-label"), "c_tll 0.001");
@@ -469,7 +470,7 @@ async function printed(browser) {
   assert.deepEqual(said, []);
 }
 
-/** 2,000 moves by events drawn at random leave the page whole: it says nothing, and shows what a page shows
+/** 500 moves by events drawn at random leave the page whole: it says nothing, and shows what a page shows
  * that opens the same address. */
 async function soak(browser) {
   const { page, said } = await open(browser, file);
@@ -493,11 +494,10 @@ async function soak(browser) {
     };
     const node = () => {
       const nodes = byId("nodes").children;
-      if (nodes.length) press(nodes[below(nodes.length)], arrows[below(4)]);
+      if (nodes.length && byId("nodes").offsetParent) press(nodes[below(nodes.length)], arrows[below(4)]);
     };
     const list = (id) => change(byId(id), byId(id).options[below(byId(id).options.length)].value);
-    const started = performance.now();
-    for (let k = 0; k < 2000 && performance.now() - started < 20_000; k += 1) {
+    for (let k = 0; k < 500; k += 1) {
       const kind = below(40);
       if (kind < 24) press(document.body, ["ArrowRight", "ArrowLeft", "o", "d", "n", " ", "Home", "End"][below(8)]);
       else if (kind < 28) change(byId("slider"), below(Number(byId("slider").max) + 1));
@@ -515,7 +515,8 @@ async function soak(browser) {
   await page.waitForTimeout(600);
   const again = await page.context().newPage();
   await again.goto(page.url());
-  assert.deepEqual(await cellsOf(again), await cellsOf(page));
+  const [shown, opened] = [await cellsOf(page), await cellsOf(again)];
+  assert.deepEqual(opened.filter((cell, k) => cell !== shown[k]), [], page.url());
   assert.deepEqual(said, []);
 }
 

@@ -63,6 +63,8 @@ function ask(machine, mesh) {
       score.right += isRight ? 1 : 0;
       for (const other of buttons) other.disabled = true;
       verdict.textContent = `${isRight ? t("Right.") : t("No: {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}`;
+      lightLine(machine);
+      verdict.scrollIntoView({ block: "nearest" });
     });
     return button;
   });

@@ -143,7 +143,7 @@ function zoneOf(mesh, machine) {
 }
 
 /** The height of a picture: figure, current line and question have room in one window. */
-const pictureHeight = () => Math.max(150, Math.min(340, 0.55 * page.width, 0.3 * window.innerHeight));
+const pictureHeight = () => Math.max(150, Math.min(340, 0.5 * page.width, 0.3 * window.innerHeight));
 
 /** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. */
 function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
