@@ -28,7 +28,7 @@ impl Report {
 /// Returns a file's name of the first words of a title.
 pub fn file_name(title: &str) -> String {
     let end = title.find([':', '(', ',']).unwrap_or(title.len());
-    let words = title[..end].split(|c: char| !c.is_ascii_alphanumeric());
+    let words = title[..end].split(|c: char| !c.is_alphanumeric());
     let words: Vec<_> = words.filter(|word| !word.is_empty()).map(str::to_lowercase).collect();
     if words.is_empty() { "table".into() } else { words.join("-") }
 }

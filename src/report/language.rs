@@ -11,6 +11,8 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
+use super::model::{Block, Cell, Report, Table};
+
 base::choices! {
     /// The language of a page or a report.
     Language {
@@ -19,6 +21,15 @@ base::choices! {
         /// Russian; numbers in sentences have a decimal comma, data in tables a point.
         Ru = "ru",
     }
+}
+
+/// How the numbers of a text are written in Russian.
+#[derive(Clone, Copy)]
+enum Numbers {
+    /// With a decimal comma.
+    OfSentence,
+    /// With a point.
+    OfData,
 }
 
 /// What joins two texts.
@@ -79,7 +90,15 @@ impl Language {
     pub fn say(self, english: &str) -> String {
         match self {
             Language::En => english.to_string(),
-            Language::Ru => said(english).unwrap_or_else(|| english.to_string()),
+            Language::Ru => Numbers::OfSentence.said_or_kept(english),
+        }
+    }
+
+    /// Says a report, but for its code and the words within its figures; in tables, numbers stay as they are.
+    pub fn say_report(self, report: Report) -> Report {
+        match self {
+            Language::En => report,
+            Language::Ru => Report { blocks: report.blocks.into_iter().map(block).collect() },
         }
     }
 
@@ -140,100 +159,140 @@ impl Language {
     }
 }
 
-/// Returns a text in Russian; nothing where a part of it is not in the table.
-fn said(english: &str) -> Option<String> {
-    if let Some(russian) = SENTENCES.get(english) {
-        return Some(russian.to_string());
+fn block(block: Block) -> Block {
+    let sentence = |text: String| Numbers::OfSentence.said_or_kept(&text);
+    match block {
+        Block::Heading { level, text } => Block::Heading { level, text: sentence(text) },
+        Block::Line { level, text } => Block::Line { level, text: sentence(text) },
+        Block::Code(lines) => Block::Code(lines),
+        Block::Table { title, table } => {
+            let headings = table.headings.into_iter().map(sentence);
+            let rows = table.cells.into_iter().map(|row| row.into_iter().map(cell).collect());
+            Block::Table { title: sentence(title), table: Table::new(headings, rows) }
+        }
+        Block::Figure { title, svg } => Block::Figure { title: sentence(title), svg },
     }
-    let templates = TEMPLATES.iter();
-    let whole = templates
-        .filter_map(|template| filled(template, &template.english, english, &mut Vec::new()));
-    let parts = || JOINTS.iter().filter_map(|joint| divided(english, joint));
-    let found = whole.chain(std::iter::once_with(parts).flatten()).next();
-    found.or_else(|| is_data(english).then(|| with_comma(english)))
 }
 
-/// Returns a template's Russian for a text whose rest is that of the template's `parts`, each way in which the
-/// text can be divided being tried.
-fn filled<'a>(
-    template: &Template,
-    parts: &[Part],
-    text: &'a str,
-    values: &mut Vec<(&'static str, &'a str)>,
-) -> Option<String> {
-    match parts {
-        [] => text.is_empty().then(|| in_russian(template, values))?,
-        [Part::Text(start), rest @ ..] => filled(template, rest, text.strip_prefix(start)?, values),
-        [Part::Value(name), rest @ ..] => {
-            let ends: Vec<usize> = match rest {
-                [] => vec![text.len()],
-                [Part::Text(next), ..] => text.match_indices(next).map(|(end, _)| end).collect(),
-                [Part::Value(_), ..] => Vec::new(),
-            };
-            ends.into_iter().find_map(|end| {
-                values.push((name, &text[..end]));
-                let found = filled(template, rest, &text[end..], values);
-                values.pop();
-                found
-            })
+fn cell(cell: Cell) -> Cell {
+    match cell {
+        Cell::Text(text) => Cell::Text(Numbers::OfData.said_or_kept(&text)),
+        Cell::Missing(Some(why)) => Cell::Missing(Some(SENTENCES.get(why).unwrap_or(&why))),
+        Cell::Empty
+        | Cell::Missing(None)
+        | Cell::Integer(_)
+        | Cell::Number { .. }
+        | Cell::Percent { .. } => cell,
+    }
+}
+
+impl Numbers {
+    fn said_or_kept(self, english: &str) -> String {
+        self.said(english).unwrap_or_else(|| english.to_string())
+    }
+
+    /// Returns a text in Russian; nothing where a part of it is not in the table.
+    fn said(self, english: &str) -> Option<String> {
+        if let Some(russian) = SENTENCES.get(english) {
+            return Some(russian.to_string());
+        }
+        let whole = |template| self.filled(template, &template.english, english, &mut Vec::new());
+        let found = TEMPLATES.iter().find_map(whole);
+        let found = found.or_else(|| JOINTS.iter().find_map(|joint| self.divided(english, joint)));
+        found.or_else(|| is_data(english).then(|| self.written(english)))
+    }
+
+    /// Returns the Russian of a template for a text whose rest has the template's `parts`: the first way to
+    /// divide it in which every value can be said.
+    fn filled<'a>(
+        self,
+        template: &Template,
+        parts: &[Part],
+        text: &'a str,
+        values: &mut Vec<(&'static str, &'a str)>,
+    ) -> Option<String> {
+        match parts {
+            [] => text.is_empty().then(|| self.in_russian(template, values))?,
+            [Part::Text(start), rest @ ..] => {
+                self.filled(template, rest, text.strip_prefix(start)?, values)
+            }
+            [Part::Value(name), rest @ ..] => {
+                let ends: Vec<usize> = match rest {
+                    [] => vec![text.len()],
+                    [Part::Text(next), ..] => {
+                        text.match_indices(next).map(|(end, _)| end).collect()
+                    }
+                    [Part::Value(_), ..] => {
+                        text.char_indices().map(|(end, _)| end).chain([text.len()]).collect()
+                    }
+                };
+                ends.into_iter().find_map(|end| {
+                    values.push((name, &text[..end]));
+                    let found = self.filled(template, rest, &text[end..], values);
+                    values.pop();
+                    found
+                })
+            }
         }
     }
-}
 
-/// Fills the values in; nothing where one cannot be said in Russian.
-fn in_russian(template: &Template, values: &[(&str, &str)]) -> Option<String> {
-    let part = |part: &Part| match *part {
-        Part::Text(text) => Some(text.to_string()),
-        Part::Value(name) => {
-            let value =
-                |name: &str| values.iter().find(|(own, _)| *own == name).map(|(_, value)| *value);
-            match name.strip_suffix('!') {
+    /// Fills the values in; nothing where one cannot be said.
+    fn in_russian(self, template: &Template, values: &[(&str, &str)]) -> Option<String> {
+        let value = |name| values.iter().find(|(own, _)| *own == name).map(|(_, value)| *value);
+        let part = |part: &Part| match *part {
+            Part::Text(text) => Some(text.to_string()),
+            Part::Value(name) => match name.strip_suffix('!') {
                 Some(name) => value(name).map(str::to_string),
-                None => said(value(name)?),
+                None => self.said(value(name)?),
+            },
+        };
+        template.russian.iter().map(part).collect()
+    }
+
+    /// Says both sides of a joint; between two numbers with a decimal comma stands a semicolon.
+    fn divided(self, english: &str, joint: &str) -> Option<String> {
+        let end = if joint == " (" { ")" } else { "" };
+        english.match_indices(joint).filter(|(at, _)| *at > 0).find_map(|(at, _)| {
+            let (before, after) = (&english[..at], &english[at + joint.len()..]);
+            let (before, after) = (self.said(before)?, after.strip_suffix(end)?);
+            if after.is_empty() {
+                return Some(before + joint.trim_end());
             }
+            let is_number = before.contains(',') && before.ends_with(|c: char| c.is_ascii_digit());
+            let joint = if joint == ", " && is_number { "; " } else { joint };
+            Some([&before, joint, &self.said(after)?, end].concat())
+        })
+    }
+
+    /// Writes what is no words.
+    fn written(self, data: &str) -> String {
+        match self {
+            Numbers::OfSentence => with_comma(data),
+            Numbers::OfData => data.to_string(),
         }
-    };
-    template.russian.iter().map(part).collect()
+    }
 }
 
-/// Says both sides of a joint; in a sentence with a decimal comma a semicolon stands between two numbers.
-fn divided(english: &str, joint: &str) -> Option<String> {
-    let sides = english.match_indices(joint).map(|(at, _)| english.split_at(at));
-    let mut sides = sides.filter(|(before, _)| !before.is_empty());
-    sides.find_map(|(before, after)| {
-        let (before, after) = (said(before)?, &after[joint.len()..]);
-        let is_number = |text: &str| text.ends_with(|c: char| c.is_ascii_digit());
-        match (joint, after) {
-            (_, "") => Some(before + joint.trim_end()),
-            (", ", after) if is_number(&before) && before.contains(',') => {
-                Some(format!("{before}; {}", said(after)?))
-            }
-            (_, after) => Some(format!("{before}{joint}{}", said(after)?)),
-        }
-    })
-}
-
-/// Whether a text has no English in it: names, numbers, units and signs.
+/// Whether a text has no English in it: one name, or numbers with units, signs, and words that Russian has too.
 fn is_data(text: &str) -> bool {
-    let is_letter = |c: char| c.is_ascii_lowercase();
-    let is_plain = |word: &str| {
-        word.contains(is_letter)
-            && !word.contains(|c: char| c.is_ascii_digit() || "_[]^".contains(c))
+    let words: Vec<&str> = text.split(' ').collect();
+    let is_english = |k: usize| {
+        let word = words[k].trim_matches(|c: char| !c.is_alphanumeric());
+        let is_name = word.contains(|c: char| c.is_ascii_digit() || "_[]^".contains(c));
+        let is_unit = k > 0 && words[k - 1].ends_with(|c: char| c.is_ascii_digit());
+        let is_kept = SENTENCES.get(word).is_some_and(|russian| *russian == word);
+        word.contains(|c: char| c.is_ascii_lowercase()) && !is_name && !is_unit && !is_kept
     };
-    let words = text.split(' ').filter(|word| is_plain(word)).count();
-    words == 0 || !text.contains(' ')
+    words.len() == 1 || !(0..words.len()).any(is_english)
 }
 
 /// Writes the numbers of a text with a decimal comma.
 fn with_comma(text: &str) -> String {
-    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let mut before = None;
-    let mut rest = text.chars().peekable();
-    let mut result = String::new();
-    while let Some(c) = rest.next() {
-        let is_point = c == '.' && digit(before) && digit(rest.peek().copied());
-        result.push(if is_point { ',' } else { c });
-        before = Some(c);
-    }
-    result
+    let is_digit = |c: Option<&char>| c.is_some_and(char::is_ascii_digit);
+    let letters: Vec<char> = text.chars().collect();
+    let letter = |(k, c): (usize, &char)| match c {
+        '.' if k > 0 && is_digit(letters.get(k - 1)) && is_digit(letters.get(k + 1)) => ',',
+        c => *c,
+    };
+    letters.iter().enumerate().map(letter).collect()
 }

@@ -4,7 +4,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use plane_contact::report::language::messages;
+use plane_contact::paper::mirror::READINGS;
+use plane_contact::report::language::{Language, messages};
+use plane_contact::studies::audit::claims::CLAIMS;
+use plane_contact::studies::audit::findings::{FINDINGS, Preparation, Repair};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -76,4 +79,78 @@ fn a_message_stands_once_and_has_the_values_of_its_english() {
         };
         assert_eq!(values(english), values(russian), "{english}");
     }
+}
+
+/// Every text of the registers, and of the glossary.
+fn in_registers() -> Vec<String> {
+    let findings = FINDINGS.iter().flat_map(|finding| {
+        let before = match finding.before {
+            Preparation::AsPrinted => None,
+            Preparation::Reading(words, _) | Preparation::Model(words, _) => Some(words),
+        };
+        let reason = match finding.edit {
+            Repair::None { reason } => Some(reason),
+            Repair::Edit { .. } => None,
+        };
+        let texts = [finding.title, finding.why, finding.repair, finding.number];
+        texts.into_iter().chain(before).chain(reason).map(str::to_string).collect::<Vec<_>>()
+    });
+    let claims = CLAIMS.iter().flat_map(|claim| {
+        [claim.place, claim.says, claim.condition, claim.threshold, claim.number]
+            .map(str::to_string)
+    });
+    let readings = READINGS.iter().flat_map(|reading| {
+        reading.values.iter().map(|value| value.words.to_string()).chain([reading.what.to_string()])
+    });
+    let glossary = include_str!("../../src/guide/glossary.md").lines();
+    let rows = glossary.filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |")).skip(1);
+    let glossary = rows.flat_map(|row| row.split(" | ").map(str::to_string).collect::<Vec<_>>());
+    let scenes = texts("golden", "scene.json").into_iter().filter_map(|scene| {
+        let (_, rest) = scene.split_once("\"title\": \"")?;
+        Some(rest.split('"').next()?.to_string())
+    });
+    findings.chain(claims).chain(readings).chain(glossary).chain(scenes).collect()
+}
+
+#[test]
+fn every_text_of_the_registers_is_in_the_table_of_messages() {
+    let is_russian = |text: &str| text.contains(|c: char| ('а'..='я').contains(&c));
+    let is_name = |text: &str| !text.contains(' ');
+    let missing: Vec<String> = in_registers()
+        .into_iter()
+        .filter(|text| !is_name(text) && !is_russian(&Language::Ru.say(text)))
+        .collect();
+    assert!(missing.is_empty(), "without Russian in src/report/messages.tsv: {missing:#?}");
+}
+
+/// The texts of the program on one line, without what joins the lines of one text.
+fn sources() -> String {
+    let folders = [
+        ("src", ".rs"),
+        ("src", ".js"),
+        ("src", ".html"),
+        ("src", ".md"),
+        ("golden", "scene.json"),
+        ("listings", ".edit"),
+    ];
+    let all = folders.iter().flat_map(|(folder, ending)| texts(folder, ending));
+    let joined =
+        all.map(|text| text.replace("\\\n", " ").replace("\\\"", "\"").replace("\n#", " "));
+    joined.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
+}
+
+#[test]
+fn every_message_is_said_somewhere() {
+    let sources = sources();
+    let is_said = |english: &str| {
+        let pieces =
+            english.split('{').map(|piece| piece.split_once('}').map_or(piece, |(_, text)| text));
+        pieces
+            .map(str::trim)
+            .filter(|piece| piece.contains(char::is_alphabetic))
+            .all(|piece| sources.contains(piece))
+    };
+    let unused: Vec<&str> =
+        messages().map(|(english, _)| english).filter(|english| !is_said(english)).collect();
+    assert!(unused.is_empty(), "said nowhere, yet in src/report/messages.tsv: {unused:#?}");
 }

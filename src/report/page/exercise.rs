@@ -42,7 +42,7 @@ pub fn html(exercise: Exercise, language: Language) -> String {
     Page {
         language,
         title: &language.say(&format!("Exercise {}", exercise.exercise)),
-        body: include_str!("exercise/body.html"),
+        body: &language.say_html(include_str!("exercise/body.html")),
         style: include_str!("exercise/exercise.css"),
         script: &[include_str!("table.js"), include_str!("exercise/exercise.js")],
         data,

@@ -78,7 +78,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
     Page {
         language,
         title: &language.say(&format!("Lesson: {}", scene.title)),
-        body: include_str!("lesson/body.html"),
+        body: &language.say_html(include_str!("lesson/body.html")),
         style: include_str!("lesson/lesson.css"),
         script: &[&INTERPRETER[..], &ITERATE, &script].concat(),
         data: document(Some(scene), &own),

@@ -32,7 +32,7 @@ pub const INTERPRETER: [&str; 6] = [
 struct Page<'a> {
     language: Language,
     title: &'a str,
-    /// The content of `body`, in English but for what is put into it.
+    /// The content of `body`.
     body: &'a str,
     style: &'static str,
     script: &'a [&'static str],
@@ -57,7 +57,7 @@ impl Page<'_> {
             self.language,
             escape(self.title),
             self.style,
-            self.language.say_html(self.body),
+            self.body,
             in_script(&self.data),
         )
     }

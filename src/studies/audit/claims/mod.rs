@@ -149,7 +149,7 @@ impl Evidence {
     /// Returns the verdict in words, with its condition.
     pub fn words(&self) -> String {
         match self.verdict {
-            Verdict::TrueOnlyIf => format!("{} {}", self.verdict, self.detail),
+            Verdict::TrueOnlyIf => format!("true only if {}", self.detail),
             Verdict::True | Verdict::False | Verdict::NotCheckable => self.verdict.to_string(),
         }
     }
