@@ -188,56 +188,73 @@ fn cell(cell: Cell) -> Cell {
 
 impl Numbers {
     fn said_or_kept(self, english: &str) -> String {
-        self.said(english).unwrap_or_else(|| english.to_string())
+        let mut translator = Translator { numbers: self, known: HashMap::new() };
+        translator.said(english).unwrap_or_else(|| english.to_string())
     }
 
-    /// Returns a text in Russian; nothing where a part of it is not in the table.
-    fn said(self, english: &str) -> Option<String> {
-        if let Some(russian) = SENTENCES.get(english) {
-            return Some(russian.to_string());
+    /// Writes what is no words.
+    fn written(self, data: &str) -> String {
+        match self {
+            Numbers::OfSentence => with_comma(data),
+            Numbers::OfData => data.to_string(),
         }
-        let whole = |template| self.filled(template, &template.english, english, &mut Vec::new());
-        let found = TEMPLATES.iter().find_map(whole);
-        let found = found.or_else(|| JOINTS.iter().find_map(|joint| self.divided(english, joint)));
-        found.or_else(|| is_data(english).then(|| self.written(english)))
+    }
+}
+
+/// What says a text in Russian.
+struct Translator {
+    numbers: Numbers,
+    /// What was tried of the text. Else each part that cannot be said is tried anew from every joint before
+    /// it: 2^18 times in a list of 18 findings.
+    known: HashMap<String, Option<String>>,
+}
+
+impl Translator {
+    /// Returns a text in Russian; nothing where a part of it is not in the table.
+    fn said(&mut self, english: &str) -> Option<String> {
+        if let Some(known) = self.known.get(english) {
+            return known.clone();
+        }
+        let exact = SENTENCES.get(english).map(|russian| russian.to_string());
+        let said = exact
+            .or_else(|| TEMPLATES.iter().find_map(|template| self.made_with(template, english)))
+            .or_else(|| JOINTS.iter().find_map(|joint| self.divided(english, joint)))
+            .or_else(|| is_data(english).then(|| self.numbers.written(english)));
+        self.known.insert(english.to_string(), said.clone());
+        said
+    }
+
+    /// Returns the Russian of a text that is made with a template.
+    fn made_with(&mut self, template: &Template, english: &str) -> Option<String> {
+        self.filled(template, &template.english, english, &mut Vec::new())
     }
 
     /// Returns the Russian of a template for a text whose rest has the template's `parts`: the first way to
     /// divide it in which every value can be said.
     fn filled<'a>(
-        self,
+        &mut self,
         template: &Template,
         parts: &[Part],
         text: &'a str,
         values: &mut Vec<(&'static str, &'a str)>,
     ) -> Option<String> {
         match parts {
-            [] => text.is_empty().then(|| self.in_russian(template, values))?,
+            [] if text.is_empty() => self.in_russian(template, values),
+            [] => None,
             [Part::Text(start), rest @ ..] => {
                 self.filled(template, rest, text.strip_prefix(start)?, values)
             }
-            [Part::Value(name), rest @ ..] => {
-                let ends: Vec<usize> = match rest {
-                    [] => vec![text.len()],
-                    [Part::Text(next), ..] => {
-                        text.match_indices(next).map(|(end, _)| end).collect()
-                    }
-                    [Part::Value(_), ..] => {
-                        text.char_indices().map(|(end, _)| end).chain([text.len()]).collect()
-                    }
-                };
-                ends.into_iter().find_map(|end| {
-                    values.push((name, &text[..end]));
-                    let found = self.filled(template, rest, &text[end..], values);
-                    values.pop();
-                    found
-                })
-            }
+            [Part::Value(name), rest @ ..] => ends(text, rest).into_iter().find_map(|end| {
+                values.push((name, &text[..end]));
+                let found = self.filled(template, rest, &text[end..], values);
+                values.pop();
+                found
+            }),
         }
     }
 
     /// Fills the values in; nothing where one cannot be said.
-    fn in_russian(self, template: &Template, values: &[(&str, &str)]) -> Option<String> {
+    fn in_russian(&mut self, template: &Template, values: &[(&str, &str)]) -> Option<String> {
         let value = |name| values.iter().find(|(own, _)| *own == name).map(|(_, value)| *value);
         let part = |part: &Part| match *part {
             Part::Text(text) => Some(text.to_string()),
@@ -250,25 +267,30 @@ impl Numbers {
     }
 
     /// Says both sides of a joint; between two numbers with a decimal comma stands a semicolon.
-    fn divided(self, english: &str, joint: &str) -> Option<String> {
+    fn divided(&mut self, english: &str, joint: &str) -> Option<String> {
         let end = if joint == " (" { ")" } else { "" };
         english.match_indices(joint).filter(|(at, _)| *at > 0).find_map(|(at, _)| {
             let (before, after) = (&english[..at], &english[at + joint.len()..]);
             let (before, after) = (self.said(before)?, after.strip_suffix(end)?);
-            if after.is_empty() {
-                return Some(before + joint.trim_end());
+            match (joint, after) {
+                (_, "") => return Some(before + joint.trim_end()),
+                (".", _) => return None,
+                _ => (),
             }
             let is_number = before.contains(',') && before.ends_with(|c: char| c.is_ascii_digit());
             let joint = if joint == ", " && is_number { "; " } else { joint };
             Some([&before, joint, &self.said(after)?, end].concat())
         })
     }
+}
 
-    /// Writes what is no words.
-    fn written(self, data: &str) -> String {
-        match self {
-            Numbers::OfSentence => with_comma(data),
-            Numbers::OfData => data.to_string(),
+/// Returns where a value may end that stands before the rest of a template.
+fn ends(text: &str, rest: &[Part]) -> Vec<usize> {
+    match rest {
+        [] => vec![text.len()],
+        [Part::Text(next), ..] => text.match_indices(next).map(|(end, _)| end).collect(),
+        [Part::Value(_), ..] => {
+            text.char_indices().map(|(end, _)| end).chain([text.len()]).collect()
         }
     }
 }

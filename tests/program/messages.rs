@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use plane_contact::paper::mirror::READINGS;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::report::language::{Language, messages};
 use plane_contact::studies::audit::claims::CLAIMS;
 use plane_contact::studies::audit::findings::{FINDINGS, Preparation, Repair};
@@ -136,7 +137,9 @@ fn sources() -> String {
     let all = folders.iter().flat_map(|(folder, ending)| texts(folder, ending));
     let joined =
         all.map(|text| text.replace("\\\n", " ").replace("\\\"", "\"").replace("\n#", " "));
-    joined.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
+    let joined = joined.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "));
+    // A variant is explained by its doc comment.
+    joined.chain([Variant::help()]).collect()
 }
 
 #[test]
