@@ -134,13 +134,13 @@ fn figures(contents: &Contents) -> Report {
         ))
         .figure("Figure 4: the mesh", picture::mesh(&drawing));
     let triangles = TriangleValues::all(solution, None);
-    let fields = [("Figure 5a", "von_mises_stress"), ("Figure 5b", "von_mises_strain")];
+    let fields = [("a", "von_mises_stress"), ("b", "von_mises_strain")];
     let report = fields.into_iter().fold(report, |report, (figure, field)| {
         let quantity = TriangleValues::QUANTITIES.iter().find(|quantity| quantity.name == field);
         let quantity = quantity.expect("it is declared");
         match triangle_array(quantity, &triangles, &scene.units) {
             Some(array) => report.figure(
-                format!("{figure}: {} of {name}", quantity.title),
+                format!("Figure 5{figure}: {} of {name}", quantity.title),
                 field_picture(&drawing, solution, quantity.title, &array),
             ),
             None => report,

@@ -32,8 +32,10 @@ enum Numbers {
     OfData,
 }
 
-/// What joins two texts.
-const JOINTS: [&str; 6] = [". ", "; ", ": ", " (", ", ", "."];
+/// What joins two sentences, and what joins two texts in one: what belongs to the first, and what stands between
+/// both.
+const END_OF_SENTENCE: (&str, &str) = (".", " ");
+const JOINTS: [(&str, &str); 5] = [("", "; "), ("", ": "), ("", " ("), ("", ", "), ("", ".")];
 
 /// The table of messages: of each its English and its Russian.
 pub fn messages() -> impl Iterator<Item = (&'static str, &'static str)> {
@@ -217,8 +219,9 @@ impl Translator {
         }
         let exact = SENTENCES.get(english).map(|russian| russian.to_string());
         let said = exact
+            .or_else(|| self.divided(english, END_OF_SENTENCE))
             .or_else(|| TEMPLATES.iter().find_map(|template| self.made_with(template, english)))
-            .or_else(|| JOINTS.iter().find_map(|joint| self.divided(english, joint)))
+            .or_else(|| JOINTS.iter().find_map(|joint| self.divided(english, *joint)))
             .or_else(|| is_data(english).then(|| self.numbers.written(english)));
         self.known.insert(english.to_string(), said.clone());
         said
@@ -267,10 +270,11 @@ impl Translator {
     }
 
     /// Says both sides of a joint; between two numbers with a decimal comma stands a semicolon.
-    fn divided(&mut self, english: &str, joint: &str) -> Option<String> {
+    fn divided(&mut self, english: &str, (own, joint): (&str, &str)) -> Option<String> {
         let end = if joint == " (" { ")" } else { "" };
-        english.match_indices(joint).filter(|(at, _)| *at > 0).find_map(|(at, _)| {
-            let (before, after) = (&english[..at], &english[at + joint.len()..]);
+        let whole = [own, joint].concat();
+        english.match_indices(&whole).filter(|(at, _)| *at > 0).find_map(|(at, _)| {
+            let (before, after) = (&english[..at + own.len()], &english[at + whole.len()..]);
             let (before, after) = (self.said(before)?, after.strip_suffix(end)?);
             match (joint, after) {
                 (_, "") => return Some(before + joint.trim_end()),
