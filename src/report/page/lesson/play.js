@@ -5,20 +5,11 @@ class Played {
   constructor({ states, failure }, error) {
     Object.assign(this, { steps: states, failure, lines: [], turns: [], at: 0 });
     this.errors = states.map((state) => state.error ?? error?.(state.u));
+    this.over = this.nextDecision = this.nextTurn = () => this.at + 1;
   }
 
   goTo(at) {
     this.at = Math.max(0, Math.min(at, this.steps.length));
-  }
-
-  over() {
-    return this.at + 1;
-  }
-  nextDecision() {
-    return this.at + 1;
-  }
-  nextTurn() {
-    return this.at + 1;
   }
 }
 
@@ -29,12 +20,15 @@ function played() {
     const { states, failure } = recorded.variants[page.variant];
     return new Played({ states: states.map((state) => ({ ...state, u: unpacked(recorded, state) })), failure });
   }
-  const { mesh, programs } = page;
-  const first = chapter().runs[0];
-  const listings = (run, edits) => Object.fromEntries(["c_cnt", "Km"].map((name) => [name, readListing(name, linesAt(run[name], edits))]));
-  const equations = new Equations(run(), listings(run(), page.edits), mesh.own, mesh.stands, programs.c_tll);
-  const made = iterated(equations, page.variant, data.corrected);
-  return new Played(made, hasReference() ? errorsFrom(new Equations(first, listings(first), mesh.own, mesh.stands, programs.c_tll).stiffness, chapter().reference) : undefined);
+  const made = iterated(equationsOf(run(), page.edits), page.variant, data.corrected);
+  // The energy is that of the stiffness as printed, whatever is edited.
+  return new Played(made, hasReference() ? errorsFrom(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
+}
+
+/** The equations of the scene as it is now, under the listings of a run. */
+function equationsOf(run, edits) {
+  const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => readListing(name, linesAt(run[name], edits)));
+  return new Equations(run, { c_cnt, Km }, page.mesh.own, page.mesh.stands, page.programs.c_tll);
 }
 
 /** Whether the reference solution is one of the scene as it is now. */
