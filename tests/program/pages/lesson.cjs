@@ -505,7 +505,7 @@ async function soak(browser) {
       else if (kind < 35) edit();
       else if (kind < 36) list("run");
       else if (kind < 37) list("chapter");
-      else if (kind < 38) document.querySelectorAll("[name=which]")[below(2)].click();
+      else if (kind < 38) document.querySelectorAll("[name=which]")[below(3)].click();
       else if (kind < 39) change(byId("tolerance"), below(5) - 2);
       else byId("ask").click();
       if (k % 50 === 0) await new Promise(requestAnimationFrame);
@@ -531,6 +531,7 @@ async function views(browser) {
       await page.screenshot({ path: `${folder}/lesson-${which}-${view}.png` });
     }
     await page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
+    await chosen(page, "Km");
     await page.check("#ask");
     await page.click("#end");
     await check();

@@ -54,8 +54,9 @@ function showText() {
   showError(null);
 }
 
-/** Reads what is typed: the page runs it, or says what is wrong with it. */
+/** Reads what is typed: the page runs it, or says what is wrong with it. The iterations have no text. */
 function readText() {
+  if (isIterating()) return;
   const place = run()[page.which];
   const text = byId("text").value;
   const error = errorIn(page.which, text);
