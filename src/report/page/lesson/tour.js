@@ -42,6 +42,7 @@ function showTour(k) {
   if (!selector) return;
   const place = document.querySelector(selector);
   place.classList.add("toured");
+  if (place.closest("details")) place.closest("details").open = true;
   place.scrollIntoView({ block: "nearest" });
   const button = (text, to) => {
     const made = make("button", { disabled: to < 0 }, text);
