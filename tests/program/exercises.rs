@@ -85,6 +85,8 @@ fn a_class_is_marked_as_a_table() {
     let zeros: Vec<_> = found.iter().map(|[node, ..]| [*node, 0.0, 0.0, 0.0]).collect();
     let mut foreign = right.clone();
     foreign["answers"][0]["node"] = json!(1);
+    let mut other = right.clone();
+    other["kind"] = json!("a letter");
     let mut twice = right.clone();
     twice["answers"][1] = twice["answers"][0].clone();
     for (name, file) in [
@@ -92,12 +94,12 @@ fn a_class_is_marked_as_a_table() {
         ("wrong.json", &wrong),
         ("zeros.json", &answers(exercise, "C. Zeros", &zeros)),
         ("foreign.json", &foreign),
+        ("other.json", &other),
         ("twice.json", &twice),
     ] {
         write(name, &file.to_string());
     }
     write("broken.json", r#"{"kind": "plane-contact answers"}"#);
-    write("other.json", r#"{"kind": "a letter"}"#);
     let verify = |args: &[&str]| {
         let output = run(folder.path(), &[&["snapshot", "verify"], args].concat());
         let [said, errors] = [output.stdout, output.stderr].map(|text| {
@@ -127,7 +129,7 @@ fn a_class_is_marked_as_a_table() {
     for words in [
         "where: broken.json",
         "where: nowhere.json fix: give files as the page of an exercise saves them",
-        "\"a letter\" is no kind of answers where: other.json",
+        "\"a letter\" is no kind of answers where: other.json: field kind",
         "node 1 is no contact node of exercise 7 under seed 2026 where: foreign.json: field answers \
          fix: save them from the page that `plane-contact lesson --exercise 7 --seed 2026` makes",
         "is answered twice where: twice.json",
