@@ -76,11 +76,11 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range", "reading"])]
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
-    /// back, and show what each costs. It takes half a minute on strand.
+    /// back, and show what each costs. It takes some 10 seconds on strand.
     #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses", "reading"])]
     prices: bool,
-    /// Then repair the print one finding after the other, each time the one that leaves the least
-    /// error. It takes seconds on fig1, and many minutes on strand.
+    /// Then repair the print one finding after the other. The order is found from the end: faults are
+    /// put back, each time the one that leaves the least error. It takes a minute or two on strand.
     #[arg(long, requires = "prices")]
     repairs: bool,
     #[command(flatten)]

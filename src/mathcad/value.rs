@@ -36,7 +36,8 @@ pub type Array = Grid<f64>;
 impl<T: Clone + Default> Grid<T> {
     /// Makes the array whose entry in row `i` and column `j`, from 0, is `entry(i, j)`.
     pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self {
-        let entries = (0..rows * cols).map(|k| entry(k / cols, k % cols)).collect();
+        let mut entries = Vec::with_capacity(rows * cols);
+        (0..rows).for_each(|i| entries.extend((0..cols).map(|j| entry(i, j))));
         Grid { rows, cols, entries }
     }
 

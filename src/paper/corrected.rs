@@ -120,6 +120,9 @@ pub struct Ending {
     pub in_contact: Vec<(NodeId, f64)>,
     /// The number of iterations.
     pub iterations: usize,
+    /// The iterations after which the contact pairs come back: 1 where they stay, more where they
+    /// alternate for ever. Nothing where none came back.
+    pub period: Option<usize>,
     /// Whether the last iteration asked for the contact pairs that it was given, with displacements
     /// below the size of the model: rounding turns a body that is free to turn by more.
     pub is_settled: bool,
@@ -165,17 +168,21 @@ pub fn iterate(
     let outcome = runner.call(&[Value::from(steps)])?;
     let local = |name: &str| &outcome.locals[name];
     let column = |value| Column::<f64>::try_from(value).expect("a column");
-    let pairs = Table::<f64>::try_from(local("k_cnt")).expect("an array");
-    let masters = Column::from_vec((1..=pairs.rows()).map(|n| pairs[(n, 1)]).collect());
-    let last = column(local("last"));
+    let table = |name| Table::<f64>::try_from(local(name)).expect("an array");
+    let [pairs, seen] = ["k_cnt", "seen"].map(table);
+    let iterations = seen.cols();
+    let rows = || 1..=pairs.rows();
+    let comes_back = |k: &usize| rows().all(|n| pairs[(n, 1)] == seen[(n, *k)]);
+    let period = (1..=iterations).find(comes_back).map(|first| 1 + iterations - first);
     let forces = column(local("p"));
     let nodes = model.contact.nodes.iter().copied().zip(forces.as_slice().iter().copied());
     let u = column(&outcome.value).as_slice()[..model.dofs()].to_vec();
     let size = model.bounds().larger_side();
     Ok(Ending {
-        in_contact: nodes.filter(|(node, _)| last[node.number()] > 0.0).collect(),
-        iterations: local("k").number().map_or(0, |k| k as usize),
-        is_settled: last == masters && u.iter().all(|x| x.abs() < size),
+        in_contact: nodes.filter(|(node, _)| seen[(node.number(), iterations)] > 0.0).collect(),
+        iterations,
+        period,
+        is_settled: period == Some(1) && u.iter().all(|x| x.abs() < size),
         u,
     })
 }

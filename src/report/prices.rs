@@ -64,8 +64,13 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     }
     report
         .table(
-            "2. From the print, repair by repair: each time the one that leaves the least error",
+            "2. From the print, repair by repair",
             outcomes(repaired(), |(_, price)| &price.outcome),
+        )
+        .line(
+            "The order is found from the end: into the corrected algorithm the faults are put back one at \
+             a time, each time the one that leaves the least error. The last to be put back is the first \
+             to be repaired.",
         )
         .line(way(repairs))
 }
@@ -87,22 +92,21 @@ fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) ->
         .column("error of largest von Mises stress, %", move |row| share(row, 2))
 }
 
-/// Says how many repairs the way from the print takes, and which of all gain nothing in this order.
+/// Says how many repairs the way from the print takes, and which are not needed.
 fn way(repairs: &[Price]) -> String {
-    let error = |price: &Price| price.outcome.error();
-    let exact = repairs.iter().rposition(|price| error(price) != 0.0).map_or(0, |k| k + 1);
-    if exact == repairs.len() {
+    let needed = repairs.iter().rposition(|price| price.outcome.error() != 0.0);
+    let needed = needed.map_or(0, |k| k + 1);
+    if needed == repairs.len() {
         return "The repairs do not lead to the solution on this scene.".into();
     }
-    let gains_nothing = |pair: &&[Price]| error(&pair[1]) >= error(&pair[0]) - NOTHING;
-    let idle = repairs.windows(2).filter(gains_nothing).filter_map(|pair| pair[1].finding);
-    let idle: Vec<&str> = idle.collect();
-    let idle = match &idle[..] {
-        [] => "Each of them gains something.".into(),
-        idle => format!("Without gain in this order: {}.", listed(idle)),
+    let others: Vec<&str> =
+        repairs[needed + 1..].iter().filter_map(|price| price.finding).collect();
+    let others = match &others[..] {
+        [] => "All are needed.".into(),
+        others => format!("Not needed here: {}.", listed(others)),
     };
-    let exact = counted(exact, "repair", "repairs");
-    format!("The solution is reached after {exact}. {idle}")
+    let needed = counted(needed, "repair", "repairs");
+    format!("The solution is reached after {needed}. {others}")
 }
 
 /// Draws the error in energy against the number of repairs.
@@ -130,7 +134,7 @@ fn summary(corrected: &Outcome, free: &[&str]) -> String {
         Outcome::Failure { .. } => {
             format!("The corrected algorithm itself stops on this scene ({where_not}).")
         }
-        Outcome::Result { is_settled: false, .. } => {
+        Outcome::Result { period: None | Some(2..), .. } => {
             format!("The corrected algorithm itself does not settle on this scene ({where_not}).")
         }
         Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => format!(
@@ -148,8 +152,11 @@ fn summary(corrected: &Outcome, free: &[&str]) -> String {
 /// Says how a run ended.
 fn ends(outcome: &Outcome) -> String {
     match outcome {
-        Outcome::Result { iterations, is_settled: true, .. } => format!("after {iterations}"),
-        Outcome::Result { iterations, is_settled: false, .. } => {
+        Outcome::Result { iterations, period: Some(1), .. } => format!("after {iterations}"),
+        Outcome::Result { period: Some(period), .. } => {
+            format!("alternates among {period} contact states")
+        }
+        Outcome::Result { iterations, period: None, .. } => {
             format!("not settled after {iterations}")
         }
         Outcome::Failure { .. } => "stops".into(),

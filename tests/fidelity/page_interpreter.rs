@@ -290,7 +290,9 @@ fn corrected(scene: &str) -> Vec<Case> {
             arguments,
         };
         let forces = Array::column(vec![1.0; sheet.cnt.rows()]).into();
-        let c_cnt = case(Program::CCnt, vec![Value::from(&sheet.node), forces]);
+        let normals = case(Program::Normals, vec![Value::from(&sheet.node)]);
+        let normals = normals.execute(|_| ()).expect("it has edges").0;
+        let c_cnt = case(Program::CCnt, vec![Value::from(&sheet.node), forces, normals]);
         let pairs = c_cnt.execute(|_| ()).expect("it finds pairs").0;
         cases.push(case(Program::Normals, vec![Value::from(&sheet.node)]));
         cases.push(case(Program::Km, vec![pairs.clone()]));

@@ -93,9 +93,13 @@ fn prices() {
             transmitted,
             energy_relative,
             von_mises_relative,
-            is_settled,
+            period,
         } => {
-            let settled = if is_settled { "" } else { ", not settled" };
+            let settled = match period {
+                Some(1) => String::new(),
+                Some(period) => format!(", then alternates among {period} contact states"),
+                None => ", not settled".into(),
+            };
             let [transmitted, energy, stress] =
                 [transmitted, energy_relative, von_mises_relative].map(|x| percent(x, 1));
             format!("{iterations}{settled} | {in_contact} | {transmitted} | {energy} | {stress}")
@@ -116,8 +120,10 @@ fn prices() {
     );
     let title = "What each printed fault costs on the paper's example, put back alone into the corrected \
                  algorithm: errors against the solution without friction on the same mesh.";
-    let way = "**From the print to the solution on figure 1, each time by the repair that leaves the least \
-               error.** Printed by `plane-contact audit fig1 --prices --repairs`.";
+    let way = "**From the print to the solution on figure 1. The order is found from the end: into the \
+               corrected algorithm the faults are put back one at a time, each time the one that leaves \
+               the least error; the last one is repaired first.** Printed by \
+               `plane-contact audit fig1 --prices --repairs`.";
     assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
 }
 

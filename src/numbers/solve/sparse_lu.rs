@@ -31,18 +31,23 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let columns = columns(matrix);
-        faer::set_global_parallelism(Par::Seq);
-        let symbolic = SymbolicLu::try_new(columns.symbolic()).expect("a pattern fits in memory");
-        let Ok(factors) = solvers::Lu::try_new_with_symbolic(symbolic, columns.as_ref()) else {
+        let Some(lu) = SparseLu::unjudged(matrix) else {
             return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
-        let lu = SparseLu { matrix: columns, factors };
         let motion = motion(&lu, &lu.matrix);
         if motion < DOUBTFUL * farthest(matrix.size()) {
             return Ok(lu);
         }
         judged(matrix, motion).map_or(Ok(lu), Err)
+    }
+
+    /// Factors an n x n `matrix`, however near to a singular one it is; None where a pivot is 0.
+    pub fn unjudged(matrix: &SparseSquare) -> Option<Self> {
+        let matrix = columns(matrix);
+        faer::set_global_parallelism(Par::Seq);
+        let symbolic = SymbolicLu::try_new(matrix.symbolic()).expect("a pattern fits in memory");
+        let factors = solvers::Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).ok()?;
+        Some(SparseLu { matrix, factors })
     }
 }
 

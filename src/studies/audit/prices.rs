@@ -38,8 +38,9 @@ pub enum Outcome {
     Result {
         /// The iterations until the contact pairs came back, or 20.
         iterations: usize,
-        /// Whether the contact pairs came back.
-        is_settled: bool,
+        /// The iterations after which they come back: 1 where they stay, more where they alternate
+        /// for ever; nothing where none came back.
+        period: Option<usize>,
         /// The contact nodes in contact at the end.
         in_contact: usize,
         /// The component along the load of the force that reaches the target, over the load.
@@ -101,31 +102,35 @@ impl Compared {
         runs.collect()
     }
 
-    /// Runs the corrected algorithm with all faults put back, then repairs one at a time: of those that
-    /// are left the one that leaves the least error, and the first in [`FAULTS`] of those that leave the
-    /// same. `watch` is called after each of the [`runs_of_repairs`].
+    /// Runs the corrected algorithm with all faults put back, then repairs one at a time. The order is
+    /// found from the end: into the corrected algorithm the faults are put back one at a time, of those
+    /// that are left the one that leaves the least error, and the first in [`FAULTS`] of those that
+    /// leave the same; the last one is repaired first. `watch` is called after each of the
+    /// [`runs_of_repairs`].
     pub fn repairs(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
-        let run = |faults: &mut dyn Iterator<Item = &Fault>| {
-            let outcome = self.run(faults);
+        let run = |put_back: &[usize]| {
+            let faults = (0..FAULTS.len()).filter(|k| put_back.contains(k));
+            let outcome = self.run(faults.map(|k| &FAULTS[k]));
             watch();
             outcome
         };
-        let mut left: Vec<&'static Fault> = FAULTS.iter().collect();
-        let print = run(&mut left.iter().copied());
-        let mut repaired =
-            vec![Price { finding: None, fault: "all are put back".into(), outcome: print }];
-        while !left.is_empty() {
-            let without = |k: usize| {
-                let others = left.iter().enumerate().filter(move |(other, _)| *other != k);
-                run(&mut others.map(|(_, fault)| *fault))
-            };
-            let mut outcomes: Vec<Outcome> = (0..left.len()).into_par_iter().map(without).collect();
+        let (mut put_back, mut repaired) = (Vec::new(), Vec::new());
+        let mut outcome = run(&put_back);
+        while put_back.len() < FAULTS.len() {
+            let left: Vec<usize> = (0..FAULTS.len()).filter(|k| !put_back.contains(k)).collect();
+            let with = |k: &usize| run(&[&put_back[..], &[*k]].concat());
+            let mut outcomes: Vec<Outcome> = left.par_iter().map(with).collect();
             // Rounding is not to decide which comes first.
             let error = |k: &usize| (outcomes[*k].error() / NOTHING).round();
-            let best = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
-            let best = best.expect("a fault is left");
-            repaired.push(price(Some(left.remove(best)), outcomes.swap_remove(best)));
+            let least = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
+            let least = least.expect("a fault is left");
+            put_back.push(left[least]);
+            let before = std::mem::replace(&mut outcome, outcomes.swap_remove(least));
+            repaired.push(price(Some(&FAULTS[left[least]]), before));
         }
+        let print = Price { finding: None, fault: "all are put back".into(), outcome };
+        repaired.push(print);
+        repaired.reverse();
         repaired
     }
 
@@ -175,7 +180,7 @@ fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {
     let changes = model.bodies.iter().map(|body| change(&body.triangles));
     Outcome::Result {
         iterations: ending.iterations,
-        is_settled: ending.is_settled,
+        period: ending.period,
         in_contact: ending.in_contact.len(),
         transmitted: transmitted(model, &(stiffness.times(&u) - &model.load)),
         energy_relative: over(error, scale),
