@@ -78,7 +78,7 @@ function courseInWords({ steps, failure }, variant) {
   const period = periodOf(steps);
   const sets = steps.map(({ inContact }) => contactInWords(inContact));
   const settled = () => sets.findLastIndex((set) => set !== sets.at(-1)) + 2;
-  if (variant === "corrected" && steps.length < ITERATIONS) return t("It ends with iteration {k}, whose shape has the contact that its equations have.", { k: steps.length });
+  if (variant === "corrected" && steps.length < ITERATIONS) return t("It ends with iteration {k}: the contact of its shape was there before, in its own equations or in earlier ones.", { k: steps.length });
   if (period === 1) return t("The contact state is settled from iteration {k} on: {state}.", { k: settled(), state: sets.at(-1) });
   if (period === 2) return t("The contact state does not settle: two states alternate ({one}; {other}).", { one: sets.at(-2), other: sets.at(-1) });
   return period ? t("The contact state does not settle: it comes back after {period} iterations.", { period }) : t("The contact state has not settled.");
