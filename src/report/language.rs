@@ -3,7 +3,8 @@
 //!
 //! A key is the text in the code: `{share} of the load` stands for every text that is made with it. Its
 //! Russian half has the values by their names; one without a name has its number, `{1}`. A value is said in
-//! Russian too, but `{title!}` is taken as it is: what a scene names, a command, an error. A text that is
+//! Russian too, but `{title!}` is taken as it is where the table does not have it: what a scene names, a
+//! command, an error. A text that is
 //! nowhere in the table is divided at what joins two texts: the end of a sentence, `; `, `: `, `, `.
 
 use std::collections::HashMap;
@@ -36,6 +37,9 @@ enum Numbers {
 /// both.
 const END_OF_SENTENCE: (&str, &str) = (".", " ");
 const JOINTS: [(&str, &str); 5] = [("", "; "), ("", ": "), ("", " ("), ("", ", "), ("", ".")];
+
+/// The bytes of text below which a template is short.
+const SHORT: usize = 10;
 
 /// The table of messages: of each its English and its Russian.
 pub fn messages() -> impl Iterator<Item = (&'static str, &'static str)> {
@@ -227,8 +231,13 @@ impl Translator {
         said
     }
 
-    /// Returns the Russian of a text that is made with a template.
+    /// Returns the Russian of a text that is made with a template. A short one between two values would join the
+    /// items of a list.
     fn made_with(&mut self, template: &Template, english: &str) -> Option<String> {
+        let begins_with_value = matches!(template.english[0], Part::Value(_));
+        if begins_with_value && length(&template.english) < SHORT && english.contains(", ") {
+            return None;
+        }
         self.filled(template, &template.english, english, &mut Vec::new())
     }
 
@@ -262,7 +271,9 @@ impl Translator {
         let part = |part: &Part| match *part {
             Part::Text(text) => Some(text.to_string()),
             Part::Value(name) => match name.strip_suffix('!') {
-                Some(name) => value(name).map(str::to_string),
+                Some(name) => {
+                    value(name).map(|own| (*SENTENCES.get(own).unwrap_or(&own)).to_string())
+                }
                 None => self.said(value(name)?),
             },
         };

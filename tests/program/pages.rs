@@ -113,6 +113,17 @@ fn the_lesson_shows_what_the_trace_has() {
     assert_pictures(folder.path(), 18);
 }
 
+/// Nothing but names is English, and nothing is cut off.
+#[test]
+fn the_lesson_is_in_russian() {
+    let Some(modules) = browser() else { return };
+    let folder = TempDir::new().expect("a folder");
+    let page = made(folder.path(), "lesson.html", &["lesson", "fig1", "--lang", "ru"]);
+    let pictures = folder.path().to_string_lossy().into_owned();
+    in_browser(&modules, "russian.cjs", &[&page, &pictures]);
+    assert_pictures(folder.path(), 6);
+}
+
 #[test]
 fn the_report_shows_what_solve_and_audit_have() {
     let folder = TempDir::new().expect("a folder");

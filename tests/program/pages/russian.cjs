@@ -1,0 +1,46 @@
+// The lesson in Russian: every word of it but the listings' and names, in each view and on each chapter.
+
+const assert = require("node:assert");
+const { open, inAllViews, run } = require("./browser.cjs");
+
+const [file, folder] = process.argv.slice(2);
+
+/** What has words of its own: the listings and the names in them. */
+const OWN = "#listing, #step, #editor, #question code, script, style, noscript";
+
+/** Latin words that Russian has too: names of the program, the listings, the keys and the scenes, and what the
+ * interpreter says. */
+const KEPT = /^(plane|contact|rows|node|elem|trg|cnt|printed|tied|stepped|unilateral|mortar|per|nested|eager|inside|left|right|total|stress|strain|left-to-right|corrected|ntx|nty|for|min|max|cos|Shift|Home|End|This|array|index|invalid|this|line|solve|findings|reading|variant|last)$/;
+
+/** The English words that a page shows or says. */
+const english = async (page) => {
+  const texts = await page.evaluate((own) => {
+    const body = document.body.cloneNode(true);
+    body.querySelectorAll(own).forEach((element) => element.remove());
+    const said = ["title", "alt", "aria-label", "aria-valuetext"].flatMap((name) => [...body.querySelectorAll(`[${name}]`)].map((element) => element.getAttribute(name)));
+    const walker = document.createTreeWalker(body, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) said.push(walker.currentNode.textContent);
+    return [...said, document.title];
+  }, OWN);
+  return texts.flatMap((text) => (text.match(/(?<![\w:.\/[-])[a-z]{3,}(?![\w[(])/gi) ?? []).filter((word) => /^[a-z]+$/.test(word.slice(1)) && !KEPT.test(word)).map((word) => `${word} in ${text.trim()}`));
+};
+
+run(async (browser) => {
+  const { page, said } = await open(browser, file);
+  assert.equal(await page.getAttribute("html", "lang"), "ru");
+  await page.check("#ask");
+  for (const index of (await page.locator("#chapter option").all()).keys()) {
+    await page.selectOption("#chapter", { index });
+    for (const at of ["0", "40"]) {
+      await page.locator("#slider").fill(at);
+      assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}`);
+    }
+  }
+  assert.deepEqual(said, []);
+  await inAllViews(browser, file, async ({ page, check, view }) => {
+    await page.locator("#slider").fill("230");
+    await page.evaluate(() => window.scrollTo(0, 0));
+    await check();
+    await page.screenshot({ path: `${folder}/lesson-ru-${view}.png` });
+  });
+});
