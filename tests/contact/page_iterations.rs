@@ -49,9 +49,12 @@ fn certain(scene: &Scene, variant: Variant) -> usize {
     steps.into_iter().take_while(|is_certain| *is_certain).count()
 }
 
+/// The contact nodes in contact and the displacements after an iteration.
+type State = (Vec<NodeId>, DVector<f64>);
+
 /// The engine's iterations of the variants of the paper, on a random scene as far as rounding decides nothing, and
 /// those of the corrected programs.
-fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<(Vec<NodeId>, DVector<f64>)>)> {
+fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
     let session = Session::default();
     let published = Variant::OF_THE_PAPER.iter().map(|variant| {
         let Recorded { states, .. } = recorded(scene, *variant, &session, None);

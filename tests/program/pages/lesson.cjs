@@ -138,7 +138,7 @@ async function questions(browser) {
   assert.deepEqual(said, []);
 }
 
-/** The tolerance by its slider, a node by the pointer: the listings run again; the address opens the same. */
+/** The tolerance by its slider, a node by the pointer, an edge by its name: the listings run again; the address opens the same. */
 async function changed(browser) {
   const { page, said } = await open(browser, file);
   await page.click("#end");
@@ -160,6 +160,15 @@ async function changed(browser) {
   const again = await page.context().newPage();
   await again.goto(page.url());
   assert.deepEqual(await cellsOf(again), moved, "the address opens the same situation");
+  await page.click("#reset");
+  await page.click("#nodes [data-edge='3']");
+  const turned = await cellsOf(page);
+  assert.notDeepEqual(turned, printed, "the last edge runs the other way");
+  await page.waitForURL(/turned=3/);
+  await again.goto(page.url());
+  assert.deepEqual(await cellsOf(again), turned, "the address turns the edge");
+  await page.click("#nodes [data-edge='3']");
+  assert.deepEqual(await cellsOf(page), printed);
   assert.deepEqual(said, []);
 }
 
@@ -494,7 +503,10 @@ async function soak(browser) {
     };
     const node = () => {
       const nodes = byId("nodes").children;
-      if (nodes.length && byId("nodes").offsetParent) press(nodes[below(nodes.length)], arrows[below(4)]);
+      if (!nodes.length || !byId("nodes").offsetParent) return;
+      const button = nodes[below(nodes.length)];
+      if (button.dataset.edge) button.click();
+      else press(button, arrows[below(4)]);
     };
     const list = (id) => change(byId(id), byId(id).options[below(byId(id).options.length)].value);
     for (let k = 0; k < 500; k += 1) {

@@ -1,5 +1,5 @@
 // The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved
-// nodes, and the texts of the listings that are edited.
+// nodes, edges turned round, and the texts of the listings that are edited.
 
 const LISTINGS = ["c_cnt", "Km"];
 
@@ -12,6 +12,7 @@ function keepAddress() {
   page.timer = setTimeout(() => {
     const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
     const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
+    if (page.turned.size) fields.turned = [...page.turned].join();
     if (page.which === "iterations") fields.variant = page.variant;
     for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = page.edits.get(run()[name]);
     const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !isChanged();
@@ -40,6 +41,7 @@ function openAddress() {
     at: Number(fields.get("step")) || 0,
     factor: factor >= 0.01 && factor <= 100 ? factor : 1,
     edits: new Map(edits.map((name) => [chapter().runs[chosen][name], fields.get(name)])),
+    turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),
     moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
   });
   byId("variant").value = page.variant;

@@ -1,5 +1,5 @@
 // Nodes that are dragged in the contact zone, by the pointer or by the arrow keys: the listings run again
-// once a frame.
+// once a frame. Edges are turned round by their names.
 
 /** The most nodes of a scene that runs again in the time of a frame. */
 const MOST_DRAGGED = 100;
@@ -7,17 +7,37 @@ const MOST_DRAGGED = 100;
 /** How far an arrow key moves a node, in pixels, and with Shift. */
 const [NUDGE, FAR_NUDGE] = [2, 20];
 
-/** Puts a button over each node that can be dragged. */
-function placeNodes({ nodes, edges }) {
+/** Puts a button over each node that can be dragged, and over the name of each edge. */
+function placeButtons({ nodes, edges }) {
   const place = byId("nodes");
   const all = page.mesh.count > MOST_DRAGGED ? [] : [...new Set([...nodes, ...edges.flatMap(([, ends]) => ends)])];
-  if (String([...place.children].map(({ value }) => value)) !== String(all)) {
-    place.replaceChildren(...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })));
+  const numbers = all.length ? edges.map(([number]) => number) : [];
+  const shown = [...place.children].map(({ value, dataset }) => value || `edge ${dataset.edge}`);
+  if (String(shown) !== String([...all, ...numbers.map((number) => `edge ${number}`)])) {
+    place.replaceChildren(
+      ...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })),
+      ...numbers.map((edge) => make("button", { "data-edge": edge, "aria-label": t("turn edge {edge} round", { edge }) })),
+    );
   }
   for (const button of place.children) {
-    const [x, y] = page.view.to(page.mesh.at(Number(button.value)));
+    const [x, y] = button.value ? page.view.to(page.mesh.at(Number(button.value))) : edgeName(Number(button.dataset.edge));
     Object.assign(button.style, { left: `${x}px`, top: `${y}px` });
   }
+}
+
+/** Where an edge's name is drawn. */
+function edgeName(edge) {
+  const [x, y] = besideEdge(...page.mesh.edge.get(edge).map((n) => page.view.to(page.mesh.at(n))));
+  return [x, y - 5];
+}
+
+/** Turns an edge round, or back. */
+function turnEdge(edge) {
+  const turned = new Set(page.turned);
+  if (!turned.delete(edge)) turned.add(edge);
+  choose({ turned });
+  const [a, b] = page.mesh.edge.get(edge).map((n) => page.mesh.name(n));
+  say("said", t("edge {edge} runs from node {a} to node {b}", { edge, a, b }));
 }
 
 /** Moves a node to a pixel of the zone. */
@@ -47,7 +67,9 @@ function watchDrag() {
       choose({});
     });
   }
+  place.addEventListener("click", ({ target }) => target.dataset.edge && turnEdge(Number(target.dataset.edge)));
   place.addEventListener("keydown", (event) => {
+    if (!event.target.value) return;
     const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
     if (!by) return;
     event.preventDefault();

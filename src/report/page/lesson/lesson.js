@@ -3,16 +3,16 @@
 /** The title of the page, which is that of its first chapter. */
 const LESSON = document.title;
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), edits: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), edits: new Map() };
 
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
-const meshOf = (run, moved) => new Mesh(data.meshes[run.mesh], chapter().units, moved);
+const meshOf = (run, moved, turned) => new Mesh(data.meshes[run.mesh], chapter().units, moved, turned);
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 
-/** Whether the tolerance or a node is not as the scene has it. */
-const isMoved = () => page.factor !== 1 || page.moved.size > 0;
+/** Whether the tolerance, a node or an edge is not as the scene has it. */
+const isMoved = () => page.factor !== 1 || page.moved.size > 0 || page.turned.size > 0;
 
 /** Whether a listing of the run is edited; one that other readings share is so in all of them. */
 const isEdited = () => page.edits.has(run().c_cnt) || page.edits.has(run().Km);
@@ -30,7 +30,7 @@ function choose(change) {
   const isEnded = page.machine?.at > 0 && page.machine.at === page.machine.steps.length;
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
-  page.mesh = meshOf(run(), page.moved);
+  page.mesh = meshOf(run(), page.moved, page.turned);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
   page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
@@ -158,7 +158,7 @@ function watch() {
   byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
   byId("ask").addEventListener("change", show);
   byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
-  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), edits: new Map() }));
+  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), turned: new Set(), edits: new Map() }));
   window.addEventListener("hashchange", openAddress);
   releaseFocus();
   watchDrag();
@@ -197,7 +197,7 @@ function openChapter(chapter) {
   for (const radio of document.getElementsByName("which")) {
     radio.disabled = contact.length === 0 && radio.value !== "Km";
   }
-  choose({ chapter, run: 0, which, factor: 1, moved: new Map(), edits: new Map() });
+  choose({ chapter, run: 0, which, factor: 1, moved: new Map(), turned: new Set(), edits: new Map() });
 }
 
 document.querySelector(".choices").open = window.innerWidth >= 700;

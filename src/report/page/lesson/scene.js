@@ -1,9 +1,20 @@
 // The scene: the contact zone with its heights magnified, the gaps over the target's line, and the
 // whole to scale.
 
+/** A mesh whose edges of these numbers run the other way. */
+function turnedRound(own, turned) {
+  const ends = (number, nodes) => (turned.has(number) ? [...nodes].reverse() : nodes);
+  return {
+    ...own,
+    edges: own.edges.map(([number, nodes]) => [number, ends(number, nodes)]),
+    rows: own.rows.map(([number, kind, physical, geometric, nodes]) => [number, kind, physical, geometric, ends(number, nodes)]),
+  };
+}
+
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
-  constructor(own, units, moved = new Map()) {
+  constructor(given, units, moved = new Map(), turned = new Set()) {
+    const own = turnedRound(given, turned);
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
     Object.assign(this, { own, triangles, contact, edges, target, restrained, bodies });
     this.stands = (n) => moved.get(n) ?? nodes[n - 1];
@@ -145,6 +156,9 @@ function zoneOf(mesh, machine) {
 /** The height of a picture: figure, current line and question have room in one window. */
 const pictureHeight = () => Math.max(150, Math.min(340, 0.5 * page.width, 0.3 * window.innerHeight));
 
+/** Where an edge's name stands, between and below its ends. */
+const besideEdge = (a, b) => [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22];
+
 /** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. */
 function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const canvas = byId("zone");
@@ -163,7 +177,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     context.globalAlpha = 1;
     const tried = boxed && number === mesh.edges[pairs.get("i2") - 1]?.[0];
     path(context, [a, b], { stroke: colour("target-ink"), width: tried ? 4 : 2 });
-    label(context, t("edge {edge}", { edge: number }), [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22], colour("target-ink"));
+    label(context, t("edge {edge}", { edge: number }), besideEdge(a, b), colour("target-ink"));
   }
   drawBox(context, to, pairs, boxed);
   const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node));
@@ -192,9 +206,9 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     size,
     t("Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
     t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
-    ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged.")]),
+    ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name turns the edge round.")]),
   ].join(" "));
-  placeNodes(zone);
+  placeButtons(zone);
   canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));
 }
 
