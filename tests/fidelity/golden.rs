@@ -82,9 +82,11 @@ fn every_golden_file_is_used() {
         let mut expected: Vec<String> = Variant::ALL.iter().map(by_variant).chain(once).collect();
         if scene.name == "fig1" {
             let decks = ["tied", "unilateral", "pair"].map(|deck| format!("calculix-{deck}"));
-            let own = ["MJS", "MJS-coupled-by-none", "trace-c_cnt", "trace-Km", "claim", "report"]
-                .map(String::from);
-            expected.extend(own.into_iter().chain(decks).map(|name| name + ".snap"));
+            let matrices = ["MJS", "MJS-coupled-by-none"].map(String::from);
+            let texts =
+                ["trace-c_cnt", "trace-Km", "claim", "report", "report-ru"].map(String::from);
+            let own = matrices.into_iter().chain(texts).chain(decks);
+            expected.extend(own.map(|name| name + ".snap"));
         }
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");
         for entry in std::fs::read_dir(format!("{folder}/{}", scene.name)).unwrap() {
