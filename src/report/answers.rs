@@ -7,7 +7,7 @@ use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
-use studies::lesson::exercise::{Answers, Mark};
+use studies::lesson::exercise::{Answers, Mark, WEIGHT_POINTS};
 
 /// A file of answers and its marks.
 pub struct MarkedAnswers {
@@ -66,7 +66,8 @@ pub fn report(marked: &[MarkedAnswers]) -> Report {
         .column("k1", |marked| marked.right_of("k1"))
         .column("file", |marked| marked.file.clone())
         .column("wrong", |marked| marked.wrong());
-    Report::default().table("Marks: ct and dy count 1 each, k1 of a node in contact 2", table)
+    let title = format!("Marks: ct and dy count 1 each, k1 of a node in contact {WEIGHT_POINTS}");
+    Report::default().table(title, table)
 }
 
 /// The marks of files of answers.

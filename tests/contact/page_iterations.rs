@@ -8,18 +8,18 @@ use nalgebra::DVector;
 use plane_contact::engine::{Request, Session};
 use plane_contact::mathcad::unsupported;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
-use plane_contact::paper::corrected::{Bound, iterate};
+use plane_contact::paper::corrected::{Bound, STEPS, iterate};
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::{INTERPRETER, lesson};
-use plane_contact::studies::lesson::{ITERATIONS, Iterations, Recorded, Switch, recorded};
+use plane_contact::studies::lesson::{Iterations, Recorded, Switch, recorded};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::tolerances::{PAGE_ITERATIONS, assert_near};
-use crate::common::tools::is_there;
+use crate::common::tools::has_node;
 use crate::corners::Writing;
 use crate::drawn::scenes;
 
@@ -43,7 +43,7 @@ fn small() -> Vec<Scene> {
 fn certain(scene: &Scene, variant: Variant) -> usize {
     let arithmetic = Arithmetic { scalar: ScalarName::Bounded, ..Arithmetic::default() };
     let mut request = Request::new(scene).variant(variant).arithmetic(arithmetic);
-    request.iterations = ITERATIONS;
+    request.iterations = STEPS;
     let mut steps = vec![];
     let _ = Session::default().solve(&request, &mut |step| steps.push(step.is_certain()));
     steps.into_iter().take_while(|is_certain| *is_certain).count()
@@ -67,7 +67,7 @@ fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
         let nodes = ending.in_contact.into_iter().map(|(node, _)| node).collect();
         (ending.iterations == steps).then(|| (nodes, DVector::from_vec(ending.u)))
     };
-    published.chain([("corrected", (1..=ITERATIONS).map_while(after).collect())]).collect()
+    published.chain([("corrected", (1..=STEPS).map_while(after).collect())]).collect()
 }
 
 /// What the page has of a scene.
@@ -87,9 +87,7 @@ fn given(scene: &Scene) -> Value {
 
 #[test]
 fn the_page_s_iterations_are_the_engine_s() {
-    let mut node = Command::new("node");
-    node.arg("--version");
-    if !is_there(node, "REQUIRE_BROWSER") {
+    if !has_node() {
         eprintln!("node is not installed: the page's iterations are not made");
         return;
     }
@@ -139,7 +137,7 @@ fn recorded_iterations_are_those_of_the_variants() {
     for Recorded { variant, states, failure } in recorded {
         let request = Request::new(&scene).variant(variant);
         let solution = Session::default().solve(&request, &mut |_| ()).expect("it runs");
-        assert_eq!((states.len(), failure), (ITERATIONS, None));
+        assert_eq!((states.len(), failure), (STEPS, None));
         assert_eq!(states.last().expect("states").u, solution.u);
         let error = states.last().and_then(|state| state.error).expect("it has a reference");
         assert!(error > 0.0 && error.is_finite(), "{variant}: {error}");

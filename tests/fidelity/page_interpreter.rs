@@ -34,7 +34,7 @@ use tempfile::TempDir;
 use super::bitwise::{draw, initial, reading, worksheet};
 use crate::common::draws::one_of;
 use crate::common::random::fixed;
-use crate::common::tools::is_there;
+use crate::common::tools::has_node;
 
 const SCENES: usize = 1_000;
 const EDITED: usize = 800;
@@ -334,9 +334,7 @@ fn written(folder: &Path, name: &str, json: &Json) -> String {
 
 #[test]
 fn the_page_s_interpreter_has_the_bits_of_this_one() {
-    let mut node = Command::new("node");
-    node.arg("--version");
-    if !is_there(node, "REQUIRE_BROWSER") {
+    if !has_node() {
         eprintln!("node is not installed: the page's interpreter is not run");
         return;
     }
@@ -473,9 +471,7 @@ impl Situation {
 /// leads to the same values.
 #[test]
 fn ten_thousand_moves_leave_the_page_where_this_interpreter_is() {
-    let mut node = Command::new("node");
-    node.arg("--version");
-    if !is_there(node, "REQUIRE_BROWSER") {
+    if !has_node() {
         return;
     }
     let scene = Scene::open("fig1").expect("an embedded scene");

@@ -20,7 +20,7 @@ pub const ANSWERS: &str = "plane-contact answers";
 const WEIGHT: f64 = 0.0051;
 
 /// What a right weight counts; a right edge or status counts 1.
-const WEIGHT_POINTS: usize = 2;
+pub const WEIGHT_POINTS: usize = 2;
 
 /// The exercise of a student: a number, and the seed of the class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,12 +6,10 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use engine::{Request, Session, Solution, Stiffness, over};
+use paper::corrected::STEPS;
 use problem::model::{Model, NodeId};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::Scene;
-
-/// The number of iterations, as many as the paper's.
-pub const ITERATIONS: usize = 20;
 
 /// The most nodes of a scene whose iterations the page makes itself, in some tenths of a second.
 const MOST_SOLVED: usize = 100;
@@ -72,7 +70,7 @@ pub fn recorded(
     let (coupling, status) = (Coupling::Nts, StatusRule::Signs);
     let contact = ContactModel { coupling, status, ..scene.contact };
     let mut request = Request::new(scene).variant(variant).contact(contact);
-    request.iterations = ITERATIONS;
+    request.iterations = STEPS;
     match session.solve(&request, &mut |_| ()) {
         Ok(solution) => Recorded { variant, states: states(&solution, reference), failure: None },
         Err(why) => Recorded { variant, states: vec![], failure: Some(why.to_string()) },

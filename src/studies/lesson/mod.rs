@@ -19,7 +19,7 @@ use paper::mirror::Reading;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
-pub use iterations::{ITERATIONS, Iterations, Recorded, State, recorded};
+pub use iterations::{Iterations, Recorded, State, recorded};
 pub use switches::{Switch, chapter, switches};
 
 /// The statements that a page holds at most, both listings together.

@@ -1,5 +1,5 @@
 // The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved
-// nodes, edges turned round, and the texts of the listings that are edited.
+// nodes, reversed edges, and the texts of the listings that are edited.
 
 const LISTINGS = ["c_cnt", "Km"];
 

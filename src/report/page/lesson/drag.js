@@ -1,5 +1,5 @@
 // Nodes that are dragged in the contact zone, by the pointer or by the arrow keys: the listings run again
-// once a frame. Edges are turned round by their names.
+// once a frame. Edges are reversed by their names.
 
 /** The most nodes of a scene that runs again in the time of a frame. */
 const MOST_DRAGGED = 100;
@@ -16,7 +16,7 @@ function placeButtons({ nodes, edges }) {
   if (String(shown) !== String([...all, ...numbers.map((number) => `edge ${number}`)])) {
     place.replaceChildren(
       ...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })),
-      ...numbers.map((edge) => make("button", { "data-edge": edge, "aria-label": t("turn edge {edge} round", { edge }) })),
+      ...numbers.map((edge) => make("button", { "data-edge": edge, "aria-label": t("reverse edge {edge}", { edge }) })),
     );
   }
   for (const button of place.children) {
@@ -31,8 +31,8 @@ function edgeName(edge) {
   return [x, y - 5];
 }
 
-/** Turns an edge round, or back. */
-function turnEdge(edge) {
+/** Reverses an edge. */
+function reverseEdge(edge) {
   const turned = new Set(page.turned);
   if (!turned.delete(edge)) turned.add(edge);
   choose({ turned });
@@ -67,7 +67,7 @@ function watchDrag() {
       choose({});
     });
   }
-  place.addEventListener("click", ({ target }) => target.dataset.edge && turnEdge(Number(target.dataset.edge)));
+  place.addEventListener("click", ({ target }) => target.dataset.edge && reverseEdge(Number(target.dataset.edge)));
   place.addEventListener("keydown", (event) => {
     if (!event.target.value) return;
     const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];

@@ -27,7 +27,7 @@ function played() {
 
 /** The equations of the scene as it is now, under the listings of a run. */
 function equationsOf(run, edits) {
-  const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => readListing(name, linesAt(run[name], edits)));
+  const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => listingOf(name, linesAt(run[name], edits)));
   return new Equations(run, { c_cnt, Km }, page.mesh.own, page.mesh.stands, page.programs.c_tll);
 }
 
@@ -112,7 +112,7 @@ function drawShape(mesh, { steps, at }) {
     status(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
   }
-  byId("shape-caption").textContent = `${t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times })}`;
+  byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times });
   canvas.setAttribute("aria-label", stateInWords({ steps, at, errors: [] }));
 }
 

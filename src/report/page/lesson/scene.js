@@ -2,7 +2,7 @@
 // whole to scale.
 
 /** A mesh whose edges of these numbers run the other way. */
-function turnedRound(own, turned) {
+function withReversed(own, turned) {
   const ends = (number, nodes) => (turned.has(number) ? [...nodes].reverse() : nodes);
   return {
     ...own,
@@ -14,7 +14,7 @@ function turnedRound(own, turned) {
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
   constructor(given, units, moved = new Map(), turned = new Set()) {
-    const own = turnedRound(given, turned);
+    const own = withReversed(given, turned);
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
     Object.assign(this, { own, triangles, contact, edges, target, restrained, bodies });
     this.stands = (n) => moved.get(n) ?? nodes[n - 1];
@@ -206,7 +206,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     size,
     t("Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
     t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
-    ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name turns the edge round.")]),
+    ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name reverses the edge.")]),
   ].join(" "));
   placeButtons(zone);
   canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));

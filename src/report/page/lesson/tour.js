@@ -86,11 +86,11 @@ function meaningOf(name) {
 
 /** Says in a line what the array is that has the pointer or the focus. */
 function watchMeanings() {
-  const say = ({ target }) => {
+  const explain = ({ target }) => {
     const name = target.closest?.("#arrays [data-name]")?.dataset.name.split("[")[0];
     const meaning = meaningOf(name);
-    if (meaning) byId("meaning").textContent = `${name}: ${meaning}.`;
+    if (meaning) say("meaning", `${name}: ${meaning}.`);
   };
-  for (const event of ["pointerover", "focusin"]) document.addEventListener(event, say);
+  for (const event of ["pointerover", "focusin"]) document.addEventListener(event, explain);
   document.addEventListener("keydown", ({ key }) => key === "Escape" && showTour(Infinity));
 }
