@@ -7,7 +7,6 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::memory;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
@@ -52,6 +51,7 @@ Examples:
   plane-contact audit strand --finding K1
   plane-contact audit fig1 --prices
   plane-contact audit fig1 --prices --repairs --out out/prices    prices.json, prices.svg
+  plane-contact audit --prices --range
   plane-contact audit --claim P12
   plane-contact audit --reading R1=inside,R5=node_n
   plane-contact audit --statuses --scenes 1000 --json
@@ -76,12 +76,13 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range", "reading"])]
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
-    /// back, and show what each costs. It takes some 10 seconds on strand.
-    #[arg(long, conflicts_with_all = ["finding", "claim", "range", "statuses", "reading"])]
+    /// back, and show what each costs. It takes some 10 seconds on strand. Of --reading only what
+    /// changes the model matters (R6, R8); with --range it is done over the range, in some minutes.
+    #[arg(long, conflicts_with_all = ["finding", "claim", "statuses"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
     /// put back, each time the one that leaves the least error. It takes a minute or two on strand.
-    #[arg(long, requires = "prices")]
+    #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
     #[command(flatten)]
     reading: ReadingArg,
@@ -132,15 +133,20 @@ fn statuses(args: &Args) -> Result<()> {
 
 fn prices(args: &Args) -> Result<()> {
     args.tables.check("audit")?;
+    let reading = args.reading.reading;
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
-    memory::check(scene.model.nodes.len(), 2, memory::free())?;
-    let compared = Compared::new(&scene)?;
+    let case = Case::within_memory(&scene, reading)?;
+    let places = if args.range { range(reading)? } else { Vec::new() };
+    let compared = Compared::new(&case.request(Variant::Unilateral))?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
-    let bar = progress(prices::runs() + runs_of_repairs, "run {pos} of {len} {wide_bar} {eta}");
-    let alone = compared.prices(&|| bar.inc(1));
-    let repairs = if args.repairs { compared.repairs(&|| bar.inc(1)) } else { Vec::new() };
+    let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
+    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let watch = || bar.inc(1);
+    let alone = compared.prices(&watch);
+    let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
+    let range = prices::over_range(&places, &watch);
     bar.finish_and_clear();
-    let document = price_report::Document { prices: &alone, repairs: &repairs };
+    let document = price_report::Document { prices: &alone, repairs: &repairs, range: &range };
     let json = price_report::json(&document, &scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));

@@ -11,6 +11,7 @@ use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
+use super::prices;
 use super::tables::certainty;
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
@@ -21,23 +22,25 @@ use problem::scene::Scene;
 use studies::audit::claims::{JudgedClaim, UnderReading};
 use studies::audit::conclusion::Conclusion;
 use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
+use studies::audit::prices::Price;
 use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
 use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 
-/// Reports the conclusion, the claims, the readings, the findings, the variants side by side, and who sticks and
+/// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants side by side, and who sticks and
 /// slides under each coefficient of friction.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
-    opening(conclusion, scene)
+    opening(audit, conclusion, scene)
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
+        .then(prices::section(&audit.prices, &[], scene))
         .then(evidence(audit))
 }
 
 /// Reports the conclusion under the title of the audit.
-pub fn opening(conclusion: &Conclusion, scene: &Scene) -> Report {
+pub fn opening(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
     Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
-        .then(conclusion::report(&conclusion::answers(conclusion, scene)))
+        .then(conclusion::report(&conclusion::answers(audit, conclusion, scene)))
 }
 
 /// Reports what the conclusion and the claims rest on: readings, findings, variants, friction.
@@ -256,6 +259,8 @@ pub struct Document<'a> {
     assumptions: &'a [Assumption],
     readings: &'a [Effect],
     findings: Vec<FindingRow>,
+    /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
+    prices: &'a Result<Vec<Price>, String>,
     variants: &'a [VariantRow],
     equilibrium: &'a Option<Compared>,
     reference: &'a Option<Compared>,
@@ -301,13 +306,14 @@ impl<'a> Document<'a> {
     pub fn new(audit: &'a Audit, conclusion: &'a Conclusion, scene: &'a Scene) -> Self {
         Document {
             scene: &scene.name,
-            answers: conclusion::answers(conclusion, scene),
+            answers: conclusion::answers(audit, conclusion, scene),
             conclusion,
             claims: &audit.claims,
             by_reading: &audit.by_reading,
             assumptions: &audit.assumptions,
             readings: &audit.readings,
             findings: audit.findings.iter().map(|(f, m)| FindingRow::new(f, m)).collect(),
+            prices: &audit.prices,
             variants: &audit.variants,
             equilibrium: &audit.equilibrium,
             reference: &audit.reference,

@@ -1,17 +1,22 @@
 //! The conclusion of an audit in words: five answers, each with its number and the command that prints
 //! it.
 
+use std::fmt::Display;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::layout::{counted, listed};
 use super::model::Report;
 use super::numbers::{coordinates, percent, short, with_unit};
+use super::prices;
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
 use paper::mirror::Reading;
 use problem::scene::Scene;
-use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Repaired, Spread, Weight};
+use studies::audit::Audit;
+use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread};
+use studies::audit::prices::{Price, Weight};
 use studies::trade::{Approach, Limit};
 
 /// A relative difference that shows in a picture: one part in a hundred.
@@ -35,12 +40,12 @@ pub struct Answer {
 }
 
 /// Answers the five questions.
-pub fn answers(conclusion: &Conclusion, scene: &Scene) -> [Answer; 5] {
+pub fn answers(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> [Answer; 5] {
     let answers = [
         coupled(conclusion.coupled.as_ref(), scene),
         nearest(conclusion, scene),
         fields(conclusion, scene),
-        repairs(&conclusion.repairs, scene),
+        costs(&audit.prices, &conclusion.unpriced, scene),
         open(conclusion, scene),
     ];
     if conclusion.reading == Reading::default() {
@@ -234,44 +239,52 @@ fn strain(body: &BodySummary) -> String {
     format!("{} in body {}", short(body.max_von_mises_strain), body.name)
 }
 
-fn repairs(repairs: &[Repaired], scene: &Scene) -> Answer {
-    let of_weight =
-        |weight: Weight| repairs.iter().filter(move |repaired| repaired.weight == weight);
-    let ids = |weight: Weight| match of_weight(weight).count() {
-        0 => "none".to_string(),
-        _ => listed(of_weight(weight).map(|repaired| repaired.id)),
+fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) -> Answer {
+    let known = match prices {
+        Ok(prices) => prices::unsound(prices).map_or(Ok(prices), |why| Err(format!("{why}."))),
+        Err(why) => Err(format!("{}.", first_line(why))),
     };
-    let shift = |repaired: &Repaired| {
-        let under = repaired.variant.map_or(String::new(), |variant| format!(" under {variant}"));
-        Some(format!("{} by {}{under}", repaired.id, percent(repaired.change?, 2)))
+    let shifts = |prices: &[Price]| -> Vec<(usize, f64)> {
+        let shifting = prices.iter().enumerate().filter(|(_, p)| p.weight == Weight::Shifts);
+        let mut shifting: Vec<_> = shifting.map(|(k, price)| (k, price.outcome.error())).collect();
+        shifting.sort_by(|a, b| b.1.total_cmp(&a.1));
+        shifting
     };
-    let shifts = match of_weight(Weight::Shifts).count() {
-        0 => "none".into(),
-        _ => listed(of_weight(Weight::Shifts).filter_map(shift)),
+    let answer = match &known {
+        Err(why) => format!("Not decided here: {why}"),
+        Ok(prices) => {
+            let shift = |(k, error): (usize, f64)| {
+                let id = prices[k].finding.expect("the corrected algorithm shifts nothing");
+                format!("{id} by {}", percent(error, 1))
+            };
+            format!(
+                "Of the printed faults, each put back alone into the corrected algorithm \
+                 (listings/corrected/), these are fatal (the run stops, or no load passes): {}. These \
+                 shift the solution, in the energy norm (a finding with two faults stands twice): {}. \
+                 These cost nothing here: {}. Present here, but no fault that could be put back: {}.",
+                or_none(prices::of_weight(prices, Weight::Fatal)),
+                or_none(shifts(prices).into_iter().map(shift)),
+                or_none(prices::of_weight(prices, Weight::Free)),
+                or_none(unpriced)
+            )
+        }
     };
-    let largest =
-        repairs.iter().enumerate().filter(|(_, repaired)| repaired.weight == Weight::Shifts);
-    let largest = largest.filter_map(|(k, repaired)| Some((k, repaired.change?)));
-    let largest = largest.max_by(|a, b| a.1.total_cmp(&b.1));
+    let largest = known.ok().and_then(|prices| shifts(prices).first().copied());
     Answer {
         question: "Which findings matter here?",
-        answer: format!(
-            "Fatal (no load passes until Km is repaired of them): {}. Displacements change once the \
-             listing is repaired of it: {shifts}. Not triggered here, or no displacement of the \
-             paper's variants changes: {}. Present, but measured by no repair of a listing: {}. What a \
-             fault costs where the others are repaired, audit {} --prices says: a finding of any of \
-             these lists may cost much there.",
-            ids(Weight::Fatal),
-            ids(Weight::Harmless),
-            ids(Weight::Unmeasured),
-            scene.name
-        ),
-        value: largest.map(|(_, change)| change),
-        of: "largest difference of a displacement between a listing repaired of one finding and as \
-             printed, over the largest displacement as printed",
-        command: format!("audit {} --json", scene.name),
-        at: largest.map(|(k, _)| format!("/conclusion/repairs/{k}/change")),
+        answer,
+        value: largest.map(|(_, error)| error),
+        of: "largest error in the energy norm that a fault makes alone, relative to the solution without \
+             friction, node to segment, in the initial geometry",
+        command: format!("audit {} --prices --json", scene.name),
+        at: largest.map(|(k, _)| format!("/prices/{k}/energy_relative")),
     }
+}
+
+/// Lists words, or says that there are none.
+fn or_none(words: impl IntoIterator<Item = impl Display>) -> String {
+    let words = listed(words);
+    if words.is_empty() { "none".into() } else { words }
 }
 
 fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {

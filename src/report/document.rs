@@ -31,9 +31,8 @@ pub struct Contents<'a> {
     pub asked: Vec<(&'static str, String)>,
     /// The audit and its conclusion, where it was asked for.
     pub audit: Option<(&'a Audit, &'a Conclusion)>,
-    /// What the printed faults cost alone, then one repair after the other, or why that is not known,
-    /// where it was asked for.
-    pub prices: Option<Result<[Vec<Price>; 2], String>>,
+    /// The print, repaired one finding at a time; empty where that was not asked for.
+    pub repairs: Vec<Price>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
     pub runs: Vec<Run<'a>>,
     /// The run beside CalculiX.
@@ -52,9 +51,9 @@ pub struct Run<'a> {
 
 /// Returns the audit report: the conclusion, what it rests on, and what makes it again.
 pub fn document(contents: &Contents) -> Report {
-    let Contents { scene, prices, charts, .. } = contents;
+    let Contents { scene, charts, .. } = contents;
     let report = match contents.audit {
-        Some((audit, conclusion)) => audited(audit, conclusion, prices.as_ref(), scene),
+        Some((audit, conclusion)) => audited(audit, conclusion, &contents.repairs, scene),
         None => Report::titled(format!("Runs of scene {} ({})", scene.name, scene.title))
             .then(what_was_audited()),
     };
@@ -69,21 +68,16 @@ pub fn document(contents: &Contents) -> Report {
         .then(origin(contents))
 }
 
-fn audited(
-    audit: &Audit,
-    conclusion: &Conclusion,
-    prices: Option<&Result<[Vec<Price>; 2], String>>,
-    scene: &Scene,
-) -> Report {
+fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Scene) -> Report {
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
         report.then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
     });
-    audit::opening(conclusion, scene)
+    audit::opening(audit, conclusion, scene)
         .then(what_was_audited())
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(prices.map_or(Report::default(), |prices| cost(prices, scene)))
+        .then(prices::section(&audit.prices, repairs, scene))
         .then(audit::evidence(audit))
         .then(findings)
 }
@@ -107,18 +101,6 @@ fn what_was_audited() -> Report {
         )
         .notes(Variant::help().split("; "))
         .line("Every term is defined in the glossary at the end.")
-}
-
-/// Reports what the printed faults cost, or why that is not known.
-fn cost(prices: &Result<[Vec<Price>; 2], String>, scene: &Scene) -> Report {
-    match prices {
-        Ok([prices, repairs]) => prices::report(&prices::Document { prices, repairs }, scene)
-            .deeper(1)
-            .figure("Error by the number of repairs", prices::picture(repairs)),
-        Err(why) => Report::default()
-            .heading("What the printed faults cost")
-            .line(format!("Not measured here: {why}")),
-    }
 }
 
 /// Shows this project's own figures 4 and 5, of the last run, then pressure, shear and gap of all runs.

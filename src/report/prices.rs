@@ -9,7 +9,8 @@ use super::model::{Cell, Report, Table};
 use super::numbers::percent;
 use super::picture::{Axis, Series, Style, chart};
 use problem::scene::Scene;
-use studies::audit::prices::{NOTHING, Outcome, Price};
+use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight};
+use studies::audit::range::ParameterValue;
 
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize, JsonSchema)]
@@ -19,6 +20,9 @@ pub struct Document<'a> {
     /// The corrected algorithm with all faults put back, then a repair a row, with those above it; empty
     /// where that was not asked for.
     pub repairs: &'a [Price],
+    /// The prices at the other places of the range of what the paper leaves open; empty where that was not
+    /// asked for.
+    pub range: &'a [PricesAt],
 }
 
 /// Returns the prices as JSON.
@@ -26,10 +30,24 @@ pub fn json(document: &Document, scene: &Scene) -> String {
     json::line(Some(scene), document)
 }
 
+/// Reports the prices within an audit, and the way of repairs with its picture where that was asked for.
+pub fn section(prices: &Result<Vec<Price>, String>, repairs: &[Price], scene: &Scene) -> Report {
+    let report = match prices {
+        Ok(prices) => report(&Document { prices, repairs, range: &[] }, scene).deeper(1),
+        Err(why) => Report::default()
+            .heading("What the printed faults cost")
+            .line(format!("Not measured here: {why}")),
+    };
+    match repairs {
+        [] => report,
+        repairs => report.figure("Error by the number of repairs", picture(repairs)),
+    }
+}
+
 /// Reports the prices: a row for the corrected algorithm and one for each fault; then, where they were
 /// asked for, a row for the print and one for each repair.
 pub fn report(document: &Document, scene: &Scene) -> Report {
-    let Document { prices, repairs } = document;
+    let Document { prices, repairs, range } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.finding.unwrap_or("-"))
         .column("fault put back", |price| price.fault.clone());
@@ -45,17 +63,18 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         }
         Outcome::Result { .. } => None,
     });
-    let free = prices.iter().filter(|price| price.outcome.error() == 0.0);
-    let free: Vec<&str> = free.filter_map(|price| price.finding).collect();
     let report = Report::titled(format!("What the printed faults cost on {}", scene.name))
         .line(
             "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
              back. Errors are against the solution without friction, node to segment, in the \
              initial geometry, on the same mesh.",
         )
-        .table("1. Each fault alone", outcomes(faults, |price| &price.outcome))
+        .table("Each fault alone", outcomes(faults, |price| &price.outcome))
         .notes(failures)
-        .line(summary(&prices[0].outcome, &free));
+        .line(summary(prices));
+    if !range.is_empty() {
+        return report.then(over_range(prices, range));
+    }
     if repairs.is_empty() {
         return report.line(format!(
             "audit {} --prices --repairs repairs the print one finding at a time.",
@@ -64,7 +83,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     }
     report
         .table(
-            "2. From the print, repair by repair",
+            "From the print, repair by repair",
             outcomes(repaired(), |(_, price)| &price.outcome),
         )
         .line(
@@ -73,6 +92,63 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
              to be repaired.",
         )
         .line(way(repairs))
+}
+
+/// A place of the range with its prices; none of a parameter for the paper's example as we assume it.
+type Place<'a> = (Option<&'a ParameterValue>, &'a [Price]);
+
+/// Reports the least and the greatest cost of each fault over the range, of the places where the corrected
+/// algorithm is at the solution.
+fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
+    let known = range
+        .iter()
+        .filter_map(|PricesAt { at, prices }| Some((Some(at), prices.as_deref().ok()?)));
+    let places: Vec<Place> = std::iter::once((None, own))
+        .chain(known)
+        .filter(|(_, prices)| unsound(prices).is_none())
+        .collect();
+    let table = Table::from_rows(own.iter().enumerate().skip(1).filter(|_| !places.is_empty()))
+        .column("finding", |(_, price)| price.finding.unwrap_or("-"))
+        .column("fault put back", |(_, price)| price.fault.clone())
+        .column("least error in energy, %", |(k, _)| error(least(&places, *k), *k))
+        .column("where it is least", |(k, _)| place(least(&places, *k).0))
+        .column("greatest error in energy, %", |(k, _)| error(greatest(&places, *k), *k))
+        .column("where it is greatest", |(k, _)| place(greatest(&places, *k).0));
+    let left_out = range.iter().filter_map(|PricesAt { at, prices }| {
+        let why = match prices {
+            Ok(prices) => unsound(prices)?,
+            Err(why) => why.clone(),
+        };
+        Some(format!("Left out: {}: {why}", place(Some(at))))
+    });
+    let title = format!("Over {} places of the range of what the paper leaves open", places.len());
+    Report::default().table(title, table).notes(left_out)
+}
+
+/// Returns the place where fault `k` costs least, the first of those where it costs the same.
+fn least<'a>(places: &'a [Place<'a>], k: usize) -> &'a Place<'a> {
+    let cost = |(_, prices): &&Place| prices[k].outcome.error();
+    places.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).expect("a place")
+}
+
+/// Returns the place where fault `k` costs most, the first of those where it costs the same.
+fn greatest<'a>(places: &'a [Place<'a>], k: usize) -> &'a Place<'a> {
+    let cost = |(_, prices): &&Place| prices[k].outcome.error();
+    places.iter().rev().max_by(|a, b| cost(a).total_cmp(&cost(b))).expect("a place")
+}
+
+fn error((_, prices): &Place, k: usize) -> Cell {
+    match &prices[k].outcome {
+        Outcome::Failure { .. } => Cell::from("stops"),
+        outcome @ Outcome::Result { .. } => Cell::decimals(100.0 * outcome.error(), 2),
+    }
+}
+
+fn place(at: Option<&ParameterValue>) -> String {
+    match at {
+        None => "the paper's example".into(),
+        Some(at) => format!("{}: {}", at.parameter.meaning(), at.value),
+    }
 }
 
 /// Adds the columns of what came of a run.
@@ -128,25 +204,36 @@ pub fn picture(repairs: &[Price]) -> String {
 }
 
 /// Says whether the corrected algorithm holds on the scene, and which faults cost nothing.
-fn summary(corrected: &Outcome, free: &[&str]) -> String {
-    let where_not = "listings/corrected/README.md says where it does not hold";
-    match corrected {
-        Outcome::Failure { .. } => {
-            format!("The corrected algorithm itself stops on this scene ({where_not}).")
-        }
-        Outcome::Result { period: None | Some(2..), .. } => {
-            format!("The corrected algorithm itself does not settle on this scene ({where_not}).")
-        }
-        Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => format!(
-            "The corrected algorithm itself is {} from the solution on this scene ({where_not}): no \
-             row is the cost of a fault alone.",
-            percent(*energy_relative, 1)
-        ),
-        Outcome::Result { .. } if free.is_empty() => {
-            "Every fault costs something on this scene.".into()
-        }
-        Outcome::Result { .. } => format!("Without effect on this scene: {}.", listed(free)),
+fn summary(prices: &[Price]) -> String {
+    let free = of_weight(prices, Weight::Free);
+    match unsound(prices) {
+        Some(why) => format!("{why}: no row is the cost of a fault alone."),
+        None if free.is_empty() => "Every fault costs something on this scene.".into(),
+        None => format!("Without effect on this scene: {}.", listed(free)),
     }
+}
+
+/// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the
+/// solution. Nothing where it is.
+pub fn unsound(prices: &[Price]) -> Option<String> {
+    let why = match &prices[0].outcome {
+        Outcome::Failure { .. } => "stops on this scene".into(),
+        Outcome::Result { period: None | Some(2..), .. } => "does not settle on this scene".into(),
+        Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => {
+            format!("is {} from the solution on this scene", percent(*energy_relative, 1))
+        }
+        Outcome::Result { .. } => return None,
+    };
+    let where_not = "listings/corrected/README.md says where it does not hold";
+    Some(format!("The corrected algorithm itself {why} ({where_not})"))
+}
+
+/// Returns the findings whose faults have a weight, each once.
+pub fn of_weight(prices: &[Price], weight: Weight) -> Vec<&'static str> {
+    let mut found: Vec<_> =
+        prices.iter().filter(|p| p.weight == weight).filter_map(|p| p.finding).collect();
+    found.dedup();
+    found
 }
 
 /// Says how a run ended.

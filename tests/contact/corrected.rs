@@ -1,6 +1,8 @@
 //! The corrected algorithm of `listings/corrected/`: along the normal beside the reference without
 //! friction, which has one solution; with both components beside the conditions, written out here.
 
+use std::sync::Arc;
+
 use crate::common::tolerances::{CORRECTED, CORRECTED_CONDITIONS, assert_near};
 use crate::corners::Writing;
 use crate::drawn::{Drawn, Kind, Support, scenes};
@@ -14,7 +16,9 @@ use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report;
-use plane_contact::studies::audit::prices::Compared;
+use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::prices::{self, Compared};
+use plane_contact::studies::audit::range::{Parameter, ParameterValue};
 use plane_contact::studies::benchmark::{Cook, Hertz};
 
 /// The iterations of the paper.
@@ -157,7 +161,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
     };
-    let repairs = Compared::new(&scene).unwrap().repairs(&|| ());
+    let repairs = Compared::new(&Request::new(&scene)).unwrap().repairs(&|| ());
     let mut put_back: Vec<String> = vec![];
     for pair in repairs.windows(2).rev() {
         let [before, repaired] = pair else { unreachable!("pairs") };
@@ -215,12 +219,41 @@ fn where_it_does_not_hold_the_prices_say_so() {
     assert_eq!(roof.kind, Kind::Roof);
     let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
     let roof = roof.build().unwrap();
-    let compared = Compared::new(&roof).unwrap();
+    let compared = Compared::new(&Request::new(&roof)).unwrap();
     let (prices, repairs) = (compared.prices(&|| ()), compared.repairs(&|| ()));
-    let document = report::prices::Document { prices: &prices, repairs: &repairs };
+    let document = report::prices::Document { prices: &prices, repairs: &repairs, range: &[] };
     let report = report::prices::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
     let cook = Cook::default().generate().unwrap().build().unwrap();
-    let refused = Compared::new(&cook).err().expect("no contact").to_string();
+    let refused = Compared::new(&Request::new(&cook)).err().expect("no contact").to_string();
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
+}
+
+/// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
+/// is not at the solution a place is left out.
+#[test]
+fn over_a_range_each_fault_has_its_least_and_its_greatest_cost() {
+    let case = |scene: Scene| Arc::new(Case::new(scene));
+    let roof = scenes(10, 340).nth(339).expect("a scene");
+    let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
+    let [fig1, blocks] = ["fig1", "two-blocks"].map(|name| case(Scene::open(name).unwrap()));
+    let at = |value| ParameterValue { parameter: Parameter::Radius, value, own: value == 1.0 };
+    let places = vec![(at(1.0), fig1), (at(2.0), blocks), (at(3.0), case(roof.build().unwrap()))];
+    let alone = prices::on(&places[0].1, &|| ()).expect("prices");
+    let range = prices::over_range(&places, &|| ());
+    assert_eq!((range.len(), prices::runs_over(&places)), (2, 2 * prices::runs()));
+    let document = report::prices::Document { prices: &alone, repairs: &[], range: &range };
+    let report = report::prices::report(&document, &places[0].1.scene).text(usize::MAX);
+    let (_, over_range) = report.split_once("Over 2 places of the range").expect("a table");
+    let row = |id: &str| {
+        let row = over_range.lines().find(|line| line.trim_start().starts_with(id)).expect(id);
+        row.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect::<Vec<_>>()
+    };
+    let (own, blocks) =
+        ("the paper's example", "radius of the strand at the same clearance, mm: 2");
+    assert_eq!(row("K2")[2..], ["41.58", own, "90.66", blocks]);
+    assert_eq!(row("C3")[2..], ["0.00", blocks, "3.51", own]);
+    assert_eq!(row("K1")[2..], ["stops", own, "stops", own]);
+    assert_eq!(row("C2")[2..], ["0.00", own, "0.00", own]);
+    assert!(over_range.contains("Left out: radius of the strand at the same clearance, mm: 3: "));
 }

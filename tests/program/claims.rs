@@ -129,19 +129,20 @@ fn a_verdict_by_reading_is_that_of_an_audit_under_it() {
     assert_eq!([verdict(&as_printed, "P4"), verdict(&node_n, "P4")], ["false", "not checkable"]);
 }
 
-/// A repair is an edit of the print: where a reading leaves it no place, the audit says so.
+/// The corrected algorithm is no reading of the print: of a reading only what changes the model matters.
 #[test]
-fn a_repair_that_does_not_fit_a_reading_is_unmeasured() {
+fn of_a_reading_prices_follow_the_model_alone() {
     let folder = TempDir::new().expect("a temporary folder");
-    for reading in ["R1=inside", "R1=inside,R5=node_n"] {
+    let prices = |reading: &str| {
         let output = run(folder.path(), &["audit", "fig1", "--reading", reading, "--json"]);
         assert_eq!(output.status.code(), Some(0), "{reading}");
         let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        let repairs = json["conclusion"]["repairs"].as_array().expect("repairs");
-        let misfits = repairs.iter().filter_map(|repair| repair["reason"].as_str());
-        let prefix = format!("under {reading}: ");
-        assert!(misfits.filter(|why| why.starts_with(&prefix)).count() > 0, "{reading}");
-    }
+        json["prices"].clone()
+    };
+    let as_printed = prices("R1=beside");
+    assert!(as_printed["Ok"].is_array());
+    assert_eq!(prices("R1=inside,R5=node_n"), as_printed);
+    assert_ne!(prices("R6=stress"), as_printed);
 }
 
 #[test]

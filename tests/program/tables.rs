@@ -78,9 +78,10 @@ fn thousands(number: usize) -> String {
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 #[test]
 fn prices() {
-    let alone = Compared::new(&STRAND).expect("strand has a solution").prices(&|| ());
+    let alone =
+        Compared::new(&Request::new(&STRAND)).expect("strand has a solution").prices(&|| ());
     let fig1 = Scene::open("fig1").expect("an embedded scene");
-    let repairs = Compared::new(&fig1).expect("fig1 has a solution").repairs(&|| ());
+    let repairs = Compared::new(&Request::new(&fig1)).expect("fig1 has a solution").repairs(&|| ());
     for price in &alone {
         let is_free = [None, Some("C7"), Some("C12"), Some("K4")].contains(&price.finding);
         assert!(price.outcome.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);

@@ -1,27 +1,21 @@
 //! The conclusion of an audit: five questions about the printed algorithm on a scene, and the facts
 //! that answer them. The sentences are made of these in the report.
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
-use super::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
+use super::findings::{Evidence, Finding, Verdict};
 use super::variants::{End, VariantRow};
 use super::{Assumption, Audit, Case};
 use crate::trade::{FINEST, Limit};
-use base::choices;
-use engine::error::Result;
 use engine::estimates::{ErrorEstimates, Estimates};
-use engine::{BodySummary, Solution, distance, over, summaries};
-use mathcad::Edit;
-use numbers::solve::Solver;
-use paper::edited::Edited;
-use paper::listings::Which;
+use engine::{BodySummary, over, summaries};
+use paper::corrected::FAULTS;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
-/// What an audit concludes; of a scene without contact nothing but the repairs.
+/// What an audit concludes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Conclusion {
     /// The reading under which the scene was audited.
@@ -35,8 +29,9 @@ pub struct Conclusion {
     pub fields: Option<Fields>,
     /// What meshes with true arcs tend to, without friction; nothing where no generator makes the scene.
     pub limit: Option<Limit>,
-    /// What the repair of each finding changes here, in the order of the register.
-    pub repairs: Vec<Repaired>,
+    /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
+    /// they have no price.
+    pub unpriced: Vec<&'static str>,
     /// What the paper leaves open.
     pub open: Vec<&'static str>,
     /// How far that moves the verdicts; nothing where it was not tried.
@@ -86,37 +81,6 @@ pub struct Fields {
     pub errors: ErrorEstimates,
 }
 
-choices! {
-    /// What a finding does to the results on a scene.
-    Weight {
-        /// Nothing: it is not triggered, or its repair changes no displacement.
-        Harmless = "harmless",
-        /// Its repair changes displacements.
-        Shifts = "shifts",
-        /// No load passes as printed, and its repair is the one that couples the bodies.
-        Fatal = "fatal",
-        /// It is present, and no repair of a listing measures what it does.
-        Unmeasured = "unmeasured",
-    }
-}
-
-/// What the repair of a finding changes on a scene.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct Repaired {
-    /// The finding.
-    pub id: &'static str,
-    /// What it does here.
-    pub weight: Weight,
-    /// The variant that was run with the listing repaired: the scene's own one of the paper where that
-    /// is `c_cnt`, `printed` where that is `Km`.
-    pub variant: Option<Variant>,
-    /// The largest difference of a displacement between the listing repaired and as printed, over the
-    /// largest displacement as printed.
-    pub change: Option<f64>,
-    /// Why that is not known.
-    pub reason: Option<String>,
-}
-
 /// The error of the paper's algorithm over the range of what the paper leaves open.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Spread {
@@ -138,7 +102,7 @@ impl Conclusion {
             nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
             fields: fields(case, variant.as_ref()),
             limit: Limit::solved(&case.request(Variant::Unilateral), FINEST),
-            repairs: audit.findings.par_iter().map(|(f, m)| repair(case, f, m)).collect(),
+            unpriced: unpriced(&audit.findings),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),
         }
@@ -232,66 +196,11 @@ fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
     })
 }
 
-/// Runs the listing with the repair of a finding that is present.
-fn repair(case: &Case, finding: &Finding, measured: &Evidence) -> Repaired {
-    let id = finding.id;
-    match (measured.verdict, finding.edit) {
-        (Verdict::NotTriggered | Verdict::Contradicted, _) => {
-            Repaired { id, weight: Weight::Harmless, variant: None, change: None, reason: None }
-        }
-        (Verdict::Present, Repair::None { reason }) => unmeasured(id, reason.into()),
-        (Verdict::Present, Repair::Edit { text }) if couples(text) && passes_nothing(case) => {
-            let variant = Some(Variant::Printed);
-            Repaired { id, weight: Weight::Fatal, variant, change: None, reason: None }
-        }
-        (Verdict::Present, Repair::Edit { text }) => {
-            repaired(case, id, text).unwrap_or_else(|why| unmeasured(id, why.to_string()))
-        }
-    }
-}
-
-/// Whether an edit is the repair of K1, which couples the bodies.
-fn couples(edit: &str) -> bool {
-    let k1 = FINDINGS.iter().find(|finding| finding.id == "K1").expect("an id of the register");
-    matches!(k1.edit, Repair::Edit { text } if text == edit)
-}
-
-/// Whether `printed` runs to its end and no load passes.
-fn passes_nothing(case: &Case) -> bool {
-    case.run(Variant::Printed).is_ok_and(Solution::transmits_nothing)
-}
-
-fn unmeasured(id: &'static str, reason: String) -> Repaired {
-    let weight = Weight::Unmeasured;
-    Repaired { id, weight, variant: None, change: None, reason: Some(reason) }
-}
-
-fn repaired(case: &Case, id: &'static str, edit: &str) -> Result<Repaired> {
-    let which = Which::from_text(edit).expect("an edit names its listing");
-    let variant = match which {
-        Which::CCnt => case.published_variant(),
-        Which::Km => Variant::Printed,
-    };
-    let mut request = case.request(variant);
-    // It is an edit of the print, which need not fit another reading.
-    let edit = Edit::parse(edit).expect("the edits in listings are sound");
-    let listing = match edit.apply(&which.under(case.reading())) {
-        Ok(listing) => listing,
-        Err(why) => return Ok(unmeasured(id, format!("under {}: {why}", case.reading()))),
-    };
-    request.edited.push(Edited::new(id, &listing.to_string())?);
-    if which == Which::Km {
-        // Its matrix need not be symmetric.
-        request.arithmetic.solver.get_or_insert(Solver::SparseLu);
-    }
-    let other = case.session().solve(&request, &mut |_| ())?;
-    let printed = match case.run(variant) {
-        Ok(printed) => printed,
-        Err(why) => return Ok(unmeasured(id, format!("as printed: {why}"))),
-    };
-    let change = distance(&other, printed).displacement_relative;
-    let weight = if change == 0.0 { Weight::Harmless } else { Weight::Shifts };
-    Ok(Repaired { id, weight, variant: Some(variant), change: Some(change), reason: None })
+/// Returns the findings that are present, and that no fault puts back into the corrected algorithm.
+fn unpriced(findings: &[(&'static Finding, Evidence)]) -> Vec<&'static str> {
+    let is_priced = |id| FAULTS.iter().any(|fault| fault.finding == id);
+    let present = findings.iter().filter(|(_, measured)| measured.verdict == Verdict::Present);
+    present.map(|(finding, _)| finding.id).filter(|id| !is_priced(*id)).collect()
 }
 
 /// Returns how far the range moves the verdicts; nothing where it was not tried.

@@ -23,6 +23,7 @@ use claims::{CLAIMS, JudgedClaim, UnderReading};
 use engine::contact::ContactNode;
 use engine::{BodySummary, Solution, solve, summaries};
 use findings::{Evidence, FINDINGS, Finding};
+use prices::Price;
 use problem::modelling::{ContactModel, Friction, Variant};
 use range::Range;
 use readings::Effect;
@@ -40,6 +41,8 @@ pub struct Audit {
     pub readings: Vec<Effect>,
     /// What the scene shows of each finding, in the order of the register.
     pub findings: Vec<(&'static Finding, Evidence)>,
+    /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
+    pub prices: Result<Vec<Price>, String>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
     /// The equilibrium under the scene's own friction, which the variants are measured against;
@@ -77,11 +80,12 @@ pub struct Compared {
 
 /// The number of times that [`audit`] calls its `watch`.
 pub fn steps() -> usize {
-    FINDINGS.len() + 5
+    FINDINGS.len() + prices::runs() + 5
 }
 
-/// Audits a scene: claims, readings, findings and variants, each against the default; claims also
-/// at the `places` of the range of what the paper leaves open, and under each other reading. `watch` is called after each step.
+/// Audits a scene: claims, readings, findings and variants, each against the default, and what each printed
+/// fault costs; claims also at the `places` of the range of what the paper leaves open, and under each other
+/// reading. `watch` is called after each step.
 pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
@@ -96,17 +100,20 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     let claims = || watched(claims::judge(CLAIMS, case, places), watch);
     let by_reading = || watched(claims::by_reading(CLAIMS, case), watch);
     let friction = || case.model().target().map_or(Vec::new(), |_| friction(case));
+    let prices = || prices::on(case, watch);
     // All at once: each alone would end with one long run on one core.
-    let ((readings, (claims, by_reading)), (findings, (variants, friction))) = rayon::join(
-        || rayon::join(readings, || rayon::join(claims, by_reading)),
-        || rayon::join(findings, || rayon::join(variants, friction)),
-    );
+    let ((readings, (claims, by_reading)), (findings, (variants, (friction, prices)))) =
+        rayon::join(
+            || rayon::join(readings, || rayon::join(claims, by_reading)),
+            || rayon::join(findings, || rayon::join(variants, || rayon::join(friction, prices))),
+        );
     Audit {
         claims,
         by_reading,
         assumptions: assumptions(&case.scene),
         readings,
         findings,
+        prices,
         variants,
         equilibrium: case.equilibrium().map(compared),
         reference: case.reference().map(compared),

@@ -2,21 +2,36 @@
 //! `listings/corrected/` with one fault put back at a time, and with all of them, repaired one at a time.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::Case;
+use super::range::{ParameterValue, Range};
+use base::choices;
 use engine::error::Error;
 use engine::{Request, Solution, Stiffness, over, solve};
 use paper::corrected::{self, Bound, Ending, FAULTS, Fault, STEPS, iterate};
 use problem::model::{Model, NodeId, TriangleId};
-use problem::modelling::{ContactModel, Coupling};
-use problem::scene::Scene;
+use problem::modelling::{ContactModel, Coupling, Variant};
 
 /// The relative error that is rounding, and costs nothing.
 pub const NOTHING: f64 = 1e-9;
+
+choices! {
+    /// What a fault does to the results on a scene.
+    Weight {
+        /// The run stops, or no load reaches the target.
+        Fatal = "fatal",
+        /// The displacements are others.
+        Shifts = "shifts",
+        /// Nothing that is not rounding.
+        Free = "free",
+    }
+}
 
 /// A run of the corrected algorithm, with faults.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -25,6 +40,8 @@ pub struct Price {
     pub finding: Option<&'static str>,
     /// The fault, in words.
     pub fault: String,
+    /// What it does: of a repair, what those do that are left.
+    pub weight: Weight,
     /// What came of the run.
     #[serde(flatten)]
     pub outcome: Outcome,
@@ -59,6 +76,16 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Returns what the faults do.
+    pub fn weight(&self) -> Weight {
+        match self {
+            Outcome::Failure { .. } => Weight::Fatal,
+            Outcome::Result { transmitted, .. } if transmitted.abs() <= NOTHING => Weight::Fatal,
+            Outcome::Result { .. } if self.error() == 0.0 => Weight::Free,
+            Outcome::Result { .. } => Weight::Shifts,
+        }
+    }
+
     /// Returns the error in the energy norm, relative, 0 where it is rounding; infinite where the run
     /// stopped.
     pub fn error(&self) -> f64 {
@@ -77,13 +104,14 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Solves a scene without friction, node to segment, in the initial geometry.
+    /// Solves a request's scene without friction, node to segment, in the initial geometry. Of its reading
+    /// only what changes the model matters (R6, R8).
     ///
     /// # Errors
     /// The scene has no contact or lists a contact node twice, or there is no such solution.
-    pub fn new(scene: &Scene) -> Result<Self, Error> {
-        corrected::check(&scene.model)?;
-        let reference = Request::new(scene).reference();
+    pub fn new(request: &Request) -> Result<Self, Error> {
+        corrected::check(&request.scene.model)?;
+        let reference = request.clone().reference();
         let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
         let exact = solve(&reference.contact(contact), &mut |_| ())?;
         let stiffness = Stiffness::new(&exact.model, |x| x);
@@ -128,7 +156,8 @@ impl Compared {
             let before = std::mem::replace(&mut outcome, outcomes.swap_remove(least));
             repaired.push(price(Some(&FAULTS[left[least]]), before));
         }
-        let print = Price { finding: None, fault: "all are put back".into(), outcome };
+        let fault = "all are put back".into();
+        let print = Price { finding: None, fault, weight: outcome.weight(), outcome };
         repaired.push(print);
         repaired.reverse();
         repaired
@@ -153,7 +182,38 @@ impl Compared {
 
 fn price(fault: Option<&Fault>, outcome: Outcome) -> Price {
     let words = fault.map_or("none".into(), Fault::words);
-    Price { finding: fault.map(|fault| fault.finding), fault: words, outcome }
+    let weight = outcome.weight();
+    Price { finding: fault.map(|fault| fault.finding), fault: words, weight, outcome }
+}
+
+/// Returns the prices on a case; or why they are not known. `watch` is called after each of the [`runs`].
+pub fn on(case: &Case, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, String> {
+    let compared = Compared::new(&case.request(Variant::Unilateral));
+    compared.map(|compared| compared.prices(watch)).map_err(|why| why.to_string())
+}
+
+/// The prices at a place of the range of what the paper leaves open.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PricesAt {
+    /// The place.
+    pub at: ParameterValue,
+    /// The prices there, or why there are none.
+    pub prices: Result<Vec<Price>, String>,
+}
+
+/// Returns the prices at each place of a range but the paper's example as we assume it. `watch` is called
+/// after each of the [`runs_over`] the range.
+pub fn over_range(places: &Range, watch: &(dyn Fn() + Sync)) -> Vec<PricesAt> {
+    others(places).map(|(at, case)| PricesAt { at: *at, prices: on(case, watch) }).collect()
+}
+
+/// The runs that [`over_range`] makes at most.
+pub fn runs_over(places: &Range) -> usize {
+    others(places).count() * runs()
+}
+
+fn others(places: &Range) -> impl Iterator<Item = &(ParameterValue, Arc<Case>)> {
+    places.iter().filter(|(at, _)| !at.own)
 }
 
 /// The runs that [`Compared::prices`] makes.
