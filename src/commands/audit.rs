@@ -77,7 +77,7 @@ pub struct Args {
     statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
     /// back, and show what each costs. It takes some 10 seconds on strand. Of --reading only what
-    /// changes the model matters (R6, R8); with --range it is done over the range, in some minutes.
+    /// changes the model matters (R6, R8); with --range it is done over the range, in some ten minutes.
     #[arg(long, conflicts_with_all = ["finding", "claim", "statuses"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are

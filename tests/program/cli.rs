@@ -531,8 +531,8 @@ fn trace_runs_an_edited_listing() {
     );
 }
 
-/// Edits that end in something else than the paper's listing does, that never end, or that are no
-/// listing: errors, no panic.
+/// Edits that end in something else than the paper's listing does, that ask for too much, or that are no
+/// listing: errors, no panic. `limits.rs` has one that never ends.
 #[test]
 fn trace_survives_hostile_listings() {
     let folder = TempDir::new().unwrap();
@@ -548,8 +548,6 @@ fn trace_survives_hostile_listings() {
     assert!(status == Some(2) && error.contains("whole numbers"), "{status:?} {error}");
     let (status, _) = edited("trace(ct[i1])", "trace(identity(0))");
     assert_eq!(status, Some(0));
-    let (status, error) = traced("c_cnt(node_n) :=\n  for j ∈ 1 .. 99999999999\n    a ← 1\n");
-    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
     let sum = vec!["x + 0"; 35].join(", ");
     let (status, error) =
         traced(&format!("c_cnt(node_n) :=\n  x[30000000] ← 1\n  a ← min({sum}, 0)\n"));

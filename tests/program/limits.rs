@@ -39,7 +39,7 @@ fn memory_that_a_process_may_not_have_is_refused_with_what_is_needed() {
             .success()
     );
     let few = "ulimit -v 8000000; $P";
-    let words = ["104.5 GB", "80802 x 80802", "coarser mesh"];
+    let words = ["365.6 GB", "80802 x 80802", "coarser mesh"];
     refused(folder, &format!("{few} audit c"), &words);
     refused(folder, &format!("{few} report c"), &words);
     let words = ["limit of 134217728 numbers", "a smaller scene"];

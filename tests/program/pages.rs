@@ -127,15 +127,23 @@ fn the_lesson_is_in_russian() {
 #[test]
 fn the_report_shows_what_solve_and_audit_have() {
     let folder = TempDir::new().expect("a folder");
+    let Some(modules) = browser() else { return };
+    let page = made(folder.path(), "report.html", &["report", "fig1"]);
+    let result = made(folder.path(), "result.json", &["solve", "fig1", "--fields", "--json"]);
+    let audit = made(folder.path(), "audit.json", &["audit", "fig1", "--json"]);
+    let pictures = folder.path().to_string_lossy().into_owned();
+    in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
+    assert_pictures(folder.path(), 6);
+}
+
+/// The page of the paper's example, whose fields are drawn as fast as those of a large mesh.
+#[test]
+fn the_report_of_strand_is_small_and_fast() {
+    let folder = TempDir::new().expect("a folder");
     let page = made(folder.path(), "report.html", &["report"]);
     let size = std::fs::metadata(&page).expect("a file").len();
     assert!(size < 5_000_000, "{size} bytes");
     let Some(modules) = browser() else { return };
-    let result = made(folder.path(), "result.json", &["solve", "--fields", "--json"]);
-    let audit = made(folder.path(), "audit.json", &["audit", "--json"]);
-    let pictures = folder.path().to_string_lossy().into_owned();
-    in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
-    assert_pictures(folder.path(), 6);
     in_browser(&modules, "large.cjs", &[&page, "2014"]);
 }
 
