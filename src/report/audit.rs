@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::claims;
 use super::conclusion::{self, Answer};
 use super::json;
-use super::layout::listed;
+use super::layout::{first_line, listed};
 use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
 use super::prices;
@@ -88,13 +88,12 @@ fn readings(effects: &[Effect]) -> Report {
 
 /// Returns why a reading cannot be run, in one line.
 fn failure(effect: &Effect) -> Option<&str> {
-    effect.failure.as_deref().map(first_line)
+    effect.failure.as_deref().map(in_short)
 }
 
 /// Returns why something failed, in one line, without what it has in common with others.
-pub fn first_line(text: &str) -> &str {
-    let line = text.lines().next().unwrap_or_default();
-    line.trim_start_matches("the published algorithm fails as printed: ")
+pub fn in_short(failure: &str) -> &str {
+    first_line(failure).trim_start_matches("the published algorithm fails as printed: ")
 }
 
 fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Finding, Evidence)>> {
@@ -130,7 +129,7 @@ fn variants(audit: &Audit) -> Report {
     );
     let notes = audit.variants.iter().filter_map(|row| {
         let why = match &row.end {
-            End::Failure { failure } => first_line(failure).to_string(),
+            End::Failure { failure } => in_short(failure).to_string(),
             End::Result { .. } => certainty(row.certainty?)?,
         };
         Some(format!("{}: {why}", row.variant))

@@ -7,10 +7,10 @@ use super::json;
 use super::layout::listed;
 use super::model::{Report, Table};
 use super::numbers::{or_dash, percent, short};
-use paper::mirror::Reading;
+use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
 use studies::audit::Assumption;
-use studies::audit::claims::{Claim, Elsewhere, Evidence, JudgedClaim, UnderReading};
+use studies::audit::claims::{Claim, Elsewhere, JudgedClaim, UnderReading};
 use studies::audit::range::Parameter;
 
 /// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
@@ -85,30 +85,30 @@ pub fn explanation(claim: &Document, scene: &Scene, reading: &Reading) -> Report
 /// Reports for each claim the readings under which its verdict is another one, each with its value; one
 /// that makes the verdict true would rescue the claim.
 fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
-    let verdicts = |judged: &JudgedClaim| -> Vec<(&str, &Evidence)> {
+    let rows = claims.iter().map(|judged| {
         let found = by_reading.iter().filter_map(|UnderReading { reading, claims }| {
             let own = claims.iter().find(|verdict| verdict.id == judged.claim.id)?;
             Some((reading.as_str(), &own.measured))
         });
-        found.collect()
-    };
-    let table = Table::from_rows(claims)
-        .column("claim", |judged| judged.claim.id)
-        .column("verdict", |judged| judged.measured.words())
-        .column("readings tried", |judged| verdicts(judged).len())
-        .column("another verdict under", |judged| {
-            let others = verdicts(judged).into_iter();
-            let others = others.filter(|(_, other)| other.verdict != judged.measured.verdict);
+        (judged, found.collect::<Vec<_>>())
+    });
+    let table = Table::from_rows(rows)
+        .column("claim", |(judged, _)| judged.claim.id)
+        .column("verdict", |(judged, _)| judged.measured.words())
+        .column("readings tried", |(_, found)| found.len())
+        .column("another verdict under", |(judged, found)| {
+            let others = found.iter().filter(|(_, other)| other.verdict != judged.measured.verdict);
             let words = others.map(|(reading, other)| {
                 format!("{reading}: {} ({})", other.words(), or_dash(other.number, rounded))
             });
             words.collect::<Vec<_>>().join("; ")
         });
-    Report::default().table("Claims by reading", table).note(
-        "R1 to R8 by their other values, and the other variants of the paper as the scene's own; R9 (the \
-         worksheet around the listings) and R10 (the formula of the von Mises strain) have no run of their \
-         own, see table 1. A blank cell: no reading changes the verdict.",
-    )
+    let without_run = READINGS.iter().filter(|row| !row.is_option()).map(|row| row.id);
+    Report::default().table("Claims by reading", table).note(format!(
+        "Tried: each reading that has a run of its own by its other values, and the other variants of the paper \
+         as the scene's own; {} have none, see table 1. A blank cell: no reading changes the verdict.",
+        listed(without_run)
+    ))
 }
 
 /// Names a reading that is not the default.

@@ -6,7 +6,7 @@ use std::fmt::Display;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::layout::{counted, listed};
+use super::layout::{counted, first_line, listed};
 use super::model::Report;
 use super::numbers::{coordinates, percent, short, with_unit};
 use super::prices;
@@ -85,7 +85,9 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
                     let share = percent(*share, 1);
                     format!("{entries}, and under printed {share} of the load reaches the target.")
                 }
-                (None, Some(why)) => format!("{entries}; printed stops: {}.", first_line(why)),
+                (None, Some(why)) => {
+                    format!("{entries}; printed stops: {}.", first_line(why).trim_end_matches('.'))
+                }
                 (None, None) => format!("{entries}."),
             }
         }
@@ -99,10 +101,6 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
         command: format!("audit {} --finding K1 --json", scene.name),
         at: joins.map(|_| "/number".into()),
     }
-}
-
-fn first_line(text: &str) -> &str {
-    text.lines().next().unwrap_or_default().trim_end_matches('.')
 }
 
 fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
@@ -123,7 +121,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
                 n => format!(", {n} of which stop"),
             };
             format!(
-                "{word}: of {} (variants, and other readings of R1 to R10 that have a run){stops}, the \
+                "{word}: of {} (variants, and other readings that have a run){stops}, the \
                  nearest is {variant} under {reading}, {} from the equilibrium in the energy norm on the \
                  same mesh.",
                 counted(*runs, "run", "runs"),
@@ -242,7 +240,7 @@ fn strain(body: &BodySummary) -> String {
 fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) -> Answer {
     let known = match prices {
         Ok(prices) => prices::unsound(prices).map_or(Ok(prices), |why| Err(format!("{why}."))),
-        Err(why) => Err(format!("{}.", first_line(why))),
+        Err(why) => Err(format!("{}.", first_line(why).trim_end_matches('.'))),
     };
     let shifts = |prices: &[Price]| -> Vec<(usize, f64)> {
         let shifting = prices.iter().enumerate().filter(|(_, p)| p.weight == Weight::Shifts);

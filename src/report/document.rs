@@ -168,12 +168,12 @@ fn unchecked(audit: &Audit) -> Report {
     });
     let variants = audit.variants.iter().filter_map(|row| match &row.end {
         End::Failure { failure } => {
-            Some(format!("variant {}, which stops: {}", row.variant, audit::first_line(failure)))
+            Some(format!("variant {}, which stops: {}", row.variant, audit::in_short(failure)))
         }
         End::Result { .. } => None,
     });
     let readings = audit.readings.iter().filter_map(|effect| {
-        let why = audit::first_line(effect.failure.as_deref()?);
+        let why = audit::in_short(effect.failure.as_deref()?);
         Some(format!("reading {}, which stops: {why}", effect.reading))
     });
     let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Verdict::NotTriggered);

@@ -12,6 +12,11 @@ pub fn listed(items: impl IntoIterator<Item = impl Display>) -> String {
     items.into_iter().map(|item| item.to_string()).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the first line of a text.
+pub fn first_line(text: &str) -> &str {
+    text.lines().next().unwrap_or_default()
+}
+
 /// Fills lines of at most `width` characters with items, one behind the other: the first line begins
 /// with `start`, the others with `hang` blanks. An item longer than a line has one of its own.
 pub fn filled(

@@ -11,7 +11,7 @@ pub use words::{difference, explanation};
 
 use super::failure::Failure;
 use super::json::{self, OnScene, pretty};
-use super::layout::counted;
+use super::layout::{counted, first_line};
 use super::model::Report;
 use base::xml::Element;
 use engine::error::Error;
@@ -124,9 +124,10 @@ pub fn junit(checked: &[VerifiedFile]) -> String {
 fn suite(checked: &VerifiedFile) -> Element {
     let runs = checked.runs();
     let alone = match &checked.verified {
-        Err(why) => {
-            Some(Element::with_text("error", &why.to_string()).set("message", first_line(why)))
-        }
+        Err(why) => Some(
+            Element::with_text("error", &why.to_string())
+                .set("message", first_line(&why.to_string())),
+        ),
         Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
         Ok(_) => None,
     };
@@ -153,10 +154,6 @@ fn case(run: &VerifiedRun) -> Element {
 
 fn test_case(name: &str) -> Element {
     Element::new("testcase").set("name", name).set("classname", "snapshot")
-}
-
-fn first_line(why: &Error) -> String {
-    why.to_string().lines().next().unwrap_or_default().into()
 }
 
 /// What verifying found, as JSON.
