@@ -14,7 +14,9 @@ use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding};
 use plane_contact::studies::lesson::exercise::Exercise;
-use plane_contact::studies::lesson::{self as study, Iterations, Switch, run as execute, switches};
+use plane_contact::studies::lesson::{
+    self as study, Iterations, Repairs, Switch, run as execute, switches,
+};
 
 use super::{read_listing, report_written, waiting};
 
@@ -23,7 +25,8 @@ use super::{read_listing, report_written, waiting};
 #[command(after_help = "\
 The page is one file that opens offline. It shows the listing as printed with the current line lit,
 the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and
-the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene.
+the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene;
+one goes from the print to the right answer, a repair at a time.
 
 Examples:
   plane-contact lesson
@@ -88,9 +91,27 @@ fn lesson(args: &Args) -> Result<String> {
         let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
-        std::iter::once(Ok(own)).chain(FINDINGS.iter().map(chapter)).collect()
+        let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
+        chapters.chain(FINDINGS.iter().map(chapter)).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
+}
+
+/// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such way.
+fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
+    let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
+    let (scene, nodes, (repairs, iterations)) = match found {
+        Some(found) => found,
+        None => {
+            let fig1 = Scene::open("fig1")?;
+            let found = Repairs::new(&fig1).expect("the corrected algorithm solves fig. 1");
+            (fig1, vec![], found)
+        }
+    };
+    let printed = Switch::as_printed();
+    let model = printed.model(&scene)?;
+    let runs = vec![(printed, model)];
+    Ok(Chapter { scene, runs, nodes, finding: None, repairs: Some(repairs), iterations })
 }
 
 /// Returns the chapter of a finding, on the smallest scene that shows it.
@@ -110,5 +131,5 @@ fn opened(
     finding: Option<(&'static Finding, Evidence)>,
 ) -> Chapter {
     let iterations = Iterations::new(&scene, &runs[0].1);
-    Chapter { scene, runs, nodes, finding, iterations }
+    Chapter { scene, runs, nodes, finding, repairs: None, iterations }
 }

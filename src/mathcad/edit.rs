@@ -78,6 +78,16 @@ impl Edit {
         Ok(())
     }
 
+    /// Returns the lines that the edit replaces, such as `c_cnt 14-30`.
+    #[must_use]
+    pub fn places(&self) -> Vec<String> {
+        let place = |change: &Change| match change {
+            Change { listing, first, last, .. } if first == last => format!("{listing} {first}"),
+            Change { listing, first, last, .. } => format!("{listing} {first}-{last}"),
+        };
+        self.changes.iter().map(place).collect()
+    }
+
     /// Returns what the edit changes in the listing of that name.
     #[must_use]
     pub fn of(mut self, listing: &str) -> Self {

@@ -89,15 +89,24 @@ pub const FAULTS: &[Fault] = &[
 ];
 
 impl Fault {
-    /// Says what the fault is, in a sentence.
+    /// Says what the fault is, in a sentence, which no other fault has.
     pub fn words(&self) -> String {
-        let reason = Edit::parse(self.edit).expect("the edits in listings are sound").reason;
+        let reason = self.parsed().reason;
         let (_, words) = reason
             .trim_end()
             .trim_end_matches('.')
             .split_once(": ")
             .expect("it begins with its finding");
         words.into()
+    }
+
+    /// Returns the lines of the corrected programs that it replaces, such as `c_cnt 14-15`.
+    pub fn places(&self) -> Vec<String> {
+        self.parsed().places()
+    }
+
+    fn parsed(&self) -> Edit {
+        Edit::parse(self.edit).expect("the edits in listings are sound")
     }
 }
 

@@ -9,8 +9,13 @@ use super::model::{Cell, Report, Table};
 use super::numbers::percent;
 use super::picture::{Axis, Series, Style, chart};
 use problem::scene::Scene;
-use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight};
+use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use studies::audit::range::ParameterValue;
+
+/// How the order of repairs is found, in words.
+pub(crate) const ORDER: &str = "The order is found from the end: \
+    into the corrected algorithm the faults are put back one at a time, each time the one that \
+    leaves the least error. The last to be put back is the first to be repaired.";
 
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize, JsonSchema)]
@@ -86,11 +91,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
             "From the print, repair by repair",
             outcomes(repaired(), |(_, price)| &price.outcome),
         )
-        .line(
-            "The order is found from the end: into the corrected algorithm the faults are put back one at \
-             a time, each time the one that leaves the least error. The last to be put back is the first \
-             to be repaired.",
-        )
+        .line(ORDER)
         .line(way(repairs))
 }
 
@@ -170,19 +171,21 @@ fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) ->
 
 /// Says how many repairs the way from the print takes, and which are not needed.
 fn way(repairs: &[Price]) -> String {
-    let needed = repairs.iter().rposition(|price| price.outcome.error() != 0.0);
-    let needed = needed.map_or(0, |k| k + 1);
-    if needed == repairs.len() {
+    let Some(needed) = needed(repairs) else {
         return "The repairs do not lead to the solution on this scene.".into();
-    }
-    let others: Vec<&str> =
-        repairs[needed + 1..].iter().filter_map(|price| price.finding).collect();
-    let others = match &others[..] {
-        [] => "All are needed.".into(),
-        others => format!("Not needed here: {}.", listed(others)),
     };
+    let others = not_needed(&repairs[needed + 1..]);
     let needed = counted(needed, "repair", "repairs");
     format!("The solution is reached after {needed}. {others}")
+}
+
+/// Names the repairs behind those that lead to the solution.
+pub(crate) fn not_needed(repairs: &[Price]) -> String {
+    let others: Vec<&str> = repairs.iter().filter_map(|price| price.finding).collect();
+    match &others[..] {
+        [] => "All are needed.".into(),
+        others => format!("Not needed here: {}.", listed(others)),
+    }
 }
 
 /// Draws the error in energy against the number of repairs.

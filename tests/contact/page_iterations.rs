@@ -6,15 +6,15 @@ use std::process::Command;
 
 use nalgebra::DVector;
 use plane_contact::engine::{Request, Session};
-use plane_contact::mathcad::unsupported;
+use plane_contact::mathcad::{Settings, unsupported};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
-use plane_contact::paper::corrected::{Bound, STEPS, iterate};
+use plane_contact::paper::corrected::{Bound, Program, STEPS, iterate, program};
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::page::{INTERPRETER, lesson};
-use plane_contact::studies::lesson::{Iterations, Recorded, Switch, recorded};
+use plane_contact::studies::lesson::{Iterations, Recorded, Repairs, Switch, recorded};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -52,8 +52,7 @@ fn certain(scene: &Scene, variant: Variant) -> usize {
 /// The contact nodes in contact and the displacements after an iteration.
 type State = (Vec<NodeId>, DVector<f64>);
 
-/// The engine's iterations of the variants of the paper, on a random scene as far as rounding decides nothing, and
-/// those of the corrected programs.
+/// The engine's iterations of the variants of the paper, on a random scene as far as rounding decides nothing.
 fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
     let session = Session::default();
     let published = Variant::OF_THE_PAPER.iter().map(|variant| {
@@ -62,18 +61,27 @@ fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
         let states = states.into_iter().take(count);
         (variant.name(), states.map(|s| (s.in_contact, s.u)).collect())
     });
+    published.collect()
+}
+
+/// The engine's iterations of the corrected programs, with faults put back.
+fn corrected(scene: &Scene, edits: &[&str]) -> Vec<State> {
     let after = |steps: usize| {
-        let ending = iterate(&scene.model, Bound::Normal, &[], steps).ok()?;
+        let ending = iterate(&scene.model, Bound::Normal, edits, steps).ok()?;
         let nodes = ending.in_contact.into_iter().map(|(node, _)| node).collect();
         (ending.iterations == steps).then(|| (nodes, DVector::from_vec(ending.u)))
     };
-    published.chain([("corrected", (1..=STEPS).map_while(after).collect())]).collect()
+    (1..=STEPS).map_while(after).collect()
 }
 
-/// What the page has of a scene.
-fn given(scene: &Scene) -> Value {
+/// What the page has of a scene, and of the corrected programs with some faults put back, then with others.
+fn given(scene: &Scene, edits: &[Vec<&str>]) -> Value {
     let switch = Switch::as_printed();
     let texts = |which: Which| switch.listing(which).to_string();
+    let programs = |edits: &Vec<&str>| -> Value {
+        let programs = Program::ALL.iter();
+        programs.map(|own| (own.name(), program(*own, edits).to_string())).collect()
+    };
     json!({
         "mesh": lesson::mesh(&scene.model),
         "plane": scene.model.plane,
@@ -82,7 +90,40 @@ fn given(scene: &Scene) -> Value {
         "c_tll": scene.model.contact.tolerance,
         "c_cnt": texts(Which::CCnt),
         "Km": texts(Which::Km),
+        "corrected": edits.iter().map(programs).collect::<Vec<_>>(),
     })
+}
+
+/// The iterations that the page makes of each of the scenes given.
+fn made(scenes: &[Value]) -> Value {
+    let folder = TempDir::new().expect("a folder");
+    let file = folder.path().join("given.json");
+    let script = [&INTERPRETER[..], &lesson::ITERATE].concat().join("\n");
+    let given = json!({
+        "script": script,
+        "data": { "known": { "functions": unsupported::FUNCTIONS, "units": unsupported::UNITS } },
+        "settings": Settings::default(),
+        "scenes": scenes,
+    });
+    std::fs::write(&file, given.to_string()).expect("a file");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/contact/page_iterations.cjs");
+    let output = Command::new("node").arg(script).arg(&file).output().expect("node starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// Compares the page's iterations with the engine's; returns how many there are of these.
+fn compare(what: &str, page: &Value, states: &[State]) -> usize {
+    let own = page["states"].as_array().expect("states");
+    assert!(own.len() >= states.len(), "{what}: {}", page["failure"]);
+    let size = states.iter().map(|(_, u)| u.amax()).fold(0.0, f64::max);
+    for (own, (nodes, u)) in own.iter().zip(states) {
+        assert_eq!(own["inContact"], json!(nodes), "{what}");
+        let theirs: Vec<f64> = serde_json::from_value(own["u"].clone()).expect("numbers");
+        let difference = (DVector::from_vec(theirs) - u).amax();
+        assert_near(what, difference, 0.0, size, &PAGE_ITERATIONS);
+    }
+    states.len()
 }
 
 #[test]
@@ -92,40 +133,39 @@ fn the_page_s_iterations_are_the_engine_s() {
         return;
     }
     let scenes = small();
-    let folder = TempDir::new().expect("a folder");
-    let file = folder.path().join("given.json");
-    let script = [&INTERPRETER[..], &lesson::ITERATE].concat().join("\n");
-    let given = json!({
-        "script": script,
-        "data": {
-            "known": { "functions": unsupported::FUNCTIONS, "units": unsupported::UNITS },
-            "corrected": lesson::corrected(),
-        },
-        "scenes": scenes.iter().map(given).collect::<Vec<_>>(),
-    });
-    std::fs::write(&file, given.to_string()).expect("a file");
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/contact/page_iterations.cjs");
-    let output = Command::new("node").arg(script).arg(&file).output().expect("node starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let page: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let page = made(&scenes.iter().map(|scene| given(scene, &[vec![]])).collect::<Vec<_>>());
     let mut compared = 0;
     for (k, scene) in scenes.iter().enumerate() {
+        let what = |variant: &str| format!("scene {k} ({}), {variant}", scene.name);
         for (variant, states) in engine(scene, k >= NAMED.len()) {
-            let what = format!("scene {k} ({}), {variant}", scene.name);
-            let own = page[k][variant]["states"].as_array().expect("states");
-            assert!(own.len() >= states.len(), "{what}: {}", page[k][variant]["failure"]);
-            let size = states.iter().map(|(_, u)| u.amax()).fold(0.0, f64::max);
-            for (own, (nodes, u)) in own.iter().zip(&states) {
-                assert_eq!(own["inContact"], json!(nodes), "{what}");
-                let theirs: Vec<f64> = serde_json::from_value(own["u"].clone()).expect("numbers");
-                let difference = (DVector::from_vec(theirs) - u).amax();
-                assert_near(&what, difference, 0.0, size, &PAGE_ITERATIONS);
-                compared += 1;
-            }
+            compared += compare(&what(variant), &page[k][variant], &states);
         }
+        compared += compare(&what("corrected"), &page[k]["corrected"][0], &corrected(scene, &[]));
     }
     println!("{compared} iterations are the same");
     assert!(compared > 10 * DRAWN, "{compared}");
+}
+
+/// With the faults that are left after each repair too.
+#[test]
+fn the_page_s_iterations_are_the_engine_s_repair_by_repair() {
+    if !has_node() {
+        return;
+    }
+    for (name, needed) in [("fig1", 7), ("two-blocks", 2)] {
+        let scene = Scene::open(name).unwrap();
+        let (repairs, _) = Repairs::new(&scene).expect("the repairs lead to the solution");
+        assert_eq!(repairs.needed, needed);
+        let left = |k: usize| repairs.left(k).map(|fault| fault.edit).collect();
+        let edits: Vec<Vec<&str>> = repairs.shown().map(left).collect();
+        assert_eq!(edits.len(), needed + 2, "the last is the corrected algorithm itself");
+        let page = &made(&[given(&scene, &edits)])[0]["corrected"];
+        for (k, edits) in edits.iter().enumerate() {
+            let compared =
+                compare(&format!("{name}, row {k}"), &page[k], &corrected(&scene, edits));
+            assert!(compared > 0, "{name}, row {k}");
+        }
+    }
 }
 
 /// What is recorded of a large scene ends with the displacements that the engine ends with.

@@ -486,7 +486,9 @@ fn ten_thousand_moves_leave_the_page_where_this_interpreter_is() {
         situations.push(now.json(&runs));
     }
     let iterations = Iterations::new(&scene, &runs[0].1);
-    let chapter = Chapter { scene: scene.clone(), runs, nodes: vec![], finding: None, iterations };
+    let (finding, repairs) = (None, None);
+    let chapter =
+        Chapter { scene: scene.clone(), runs, nodes: vec![], finding, repairs, iterations };
     let folder = TempDir::new().expect("a folder");
     let page = folder.path().join("lesson.html");
     std::fs::write(&page, lesson::html(&[chapter], Language::En)).expect("a file");

@@ -6,8 +6,11 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use plane_contact::paper::corrected::{Program, program};
+use plane_contact::problem::scene::Scene;
+use plane_contact::studies::lesson::Repairs;
 use plane_contact::studies::lesson::exercise::Exercise;
-use serde_json::json;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
@@ -108,9 +111,28 @@ fn the_lesson_shows_what_the_trace_has() {
     let [c_cnt, km] = ["c_cnt", "Km"].map(|listing| {
         made(folder.path(), listing, &["listing", "trace", "fig1", "--listing", listing, "--json"])
     });
+    let args = ["audit", "fig1", "--prices", "--repairs", "--json"];
+    let repairs = made(folder.path(), "repairs", &args);
+    let listings = folder.path().join("listings").to_string_lossy().into_owned();
+    std::fs::write(&listings, repaired_listings().to_string()).expect("a file");
     let pictures = folder.path().to_string_lossy().into_owned();
-    in_browser(&modules, "lesson.cjs", &[&page, &pictures, &c_cnt, &km]);
+    let files = [&page, &pictures, &c_cnt, &km, &repairs, &listings];
+    in_browser(&modules, "lesson.cjs", &files.map(String::as_str));
     assert_pictures(folder.path(), 18);
+}
+
+/// The lines of the corrected listings on fig. 1 with the faults that are left after each repair that the lesson shows.
+fn repaired_listings() -> Value {
+    let scene = Scene::open("fig1").expect("an embedded scene");
+    let (repairs, _) = Repairs::new(&scene).expect("the repairs lead to the solution");
+    let lines = |own: Program, edits: &[&str]| -> Vec<String> {
+        program(own, edits).lines().iter().map(|line| line.text.clone()).collect()
+    };
+    let after = |count: usize| {
+        let edits: Vec<&str> = repairs.left(count).map(|fault| fault.edit).collect();
+        json!({ "c_cnt": lines(Program::CCnt, &edits), "Km": lines(Program::Km, &edits) })
+    };
+    repairs.shown().map(after).collect()
 }
 
 /// Nothing but names is English, and nothing is cut off.

@@ -1,7 +1,9 @@
 //! The page of a lesson, which executes the listings itself.
 //!
 //! Its data: `scenes`, each with its `runs`; a run has its mesh, its settings and its two listings. What
-//! repeats stands once and is named by its place: `meshes` and `listings`.
+//! repeats stands once and is named by its place: `meshes`, `listings`, and the `lines` of those.
+
+mod repairs;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -13,14 +15,14 @@ use crate::audit::FindingRow;
 use crate::json::document;
 use crate::language::Language;
 use crate::picture::deformation::boundary_edges;
-use mathcad::Settings;
 use mathcad::unsupported::{FUNCTIONS, UNITS};
-use paper::corrected::Program;
+use mathcad::{Listing, Settings};
+use paper::corrected::{Program, program};
 use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
 use studies::audit::findings::{Evidence, Finding};
-use studies::lesson::{Iterations, Recorded, State, Switch, figure_numbers};
+use studies::lesson::{Iterations, Recorded, Repairs, State, Switch, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
@@ -32,6 +34,8 @@ pub struct Chapter {
     pub nodes: Vec<usize>,
     /// What the scene is there to show, and what was measured on it.
     pub finding: Option<(&'static Finding, Evidence)>,
+    /// The way from the print to the right answer, which the chapter goes.
+    pub repairs: Option<Repairs>,
     /// The iterations of its scene.
     pub iterations: Iterations,
 }
@@ -40,24 +44,20 @@ pub struct Chapter {
 pub const ITERATE: [&str; 2] =
     [include_str!("lesson/worksheet.js"), include_str!("lesson/iterate.js")];
 
-/// Returns the programs of the corrected algorithm, and the settings under which they run.
-pub fn corrected() -> Value {
-    let programs = Program::ALL.iter().map(|program| (program.name(), program.text()));
-    json!({ "programs": programs.collect::<BTreeMap<_, _>>(), "settings": Settings::default() })
-}
-
 /// Returns the page of a lesson; its first chapter is what it opens with.
 pub fn html(chapters: &[Chapter], language: Language) -> String {
     let scene = &chapters[0].scene;
     let mut shared = Shared::default();
     let scenes: Vec<Value> =
         chapters.iter().map(|chapter| shared.chapter(chapter, language)).collect();
+    let corrected = json!({ "programs": shared.programs(&[]), "settings": Settings::default() });
     let own = json!({
         "scenes": scenes,
         "meshes": shared.meshes.items,
         "listings": shared.listings.items,
+        "lines": shared.lines.items,
         "known": { "functions": FUNCTIONS, "units": UNITS },
-        "corrected": corrected(),
+        "corrected": corrected,
     });
     let script = [
         include_str!("lesson/machine.js"),
@@ -71,6 +71,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("lesson/tour.js"),
         include_str!("lesson/questions.js"),
         include_str!("lesson/chapters.js"),
+        include_str!("lesson/repairs.js"),
         include_str!("lesson/drag.js"),
         include_str!("lesson/address.js"),
         include_str!("lesson/lesson.js"),
@@ -109,11 +110,19 @@ impl DistinctValues {
 struct Shared {
     meshes: DistinctValues,
     listings: DistinctValues,
+    lines: DistinctValues,
 }
 
 impl Shared {
     fn chapter(&mut self, chapter: &Chapter, language: Language) -> Value {
         let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model, language));
+        let mut runs: Vec<Value> = runs.collect();
+        let repairs = chapter.repairs.as_ref();
+        if let Some(repairs) = repairs {
+            let printed = runs[0].clone();
+            let after = |k| repairs::run(repairs, k, &printed, self, language);
+            runs.extend(repairs.shown().map(after));
+        }
         let finding = chapter
             .finding
             .as_ref()
@@ -124,36 +133,48 @@ impl Shared {
         let recorded = recorded.as_deref().map(|runs| of_rims(&chapter.runs[0].1, runs));
         json!({
             "name": chapter.scene.name,
-            "title": language.say(&chapter.scene.title),
+            "title": language.say(&repairs.map_or(chapter.scene.title.clone(), repairs::title)),
             "units": chapter.scene.units,
-            "runs": runs.collect::<Vec<_>>(),
+            "runs": runs,
             "nodes": chapter.nodes,
             "variant": chapter.scene.variant,
             "reference": reference.map(|u| u.as_slice()),
             "recorded": recorded,
             "finding": finding,
+            "repairs": repairs.map(|repairs| repairs::json(repairs, language)),
         })
     }
 
     fn run(&mut self, switch: &Switch, model: &Model, language: Language) -> Value {
-        let mut listing = |which: Which| {
-            let listing = switch.listing(which);
-            let lines = listing.lines().iter();
-            let lines = lines.map(|line| (line.printed, line.in_file, line.level, &line.text));
-            self.listings.index(json!(lines.collect::<Vec<_>>()))
-        };
+        let [c_cnt, km] =
+            [Which::CCnt, Which::Km].map(|which| self.listing(&switch.listing(which)));
         json!({
             "name": switch.name,
             "label": language.say(&switch.name),
             "about": language.say(&switch.about),
-            "c_cnt": listing(Which::CCnt),
-            "Km": listing(Which::Km),
+            "c_cnt": c_cnt,
+            "Km": km,
             "settings": switch.settings(),
             "readsRestraintOfY": switch.reads_restraint_of_y(),
             "c_tll": model.contact.tolerance,
             "plane": model.plane,
             "mesh": self.meshes.index(mesh(model)),
         })
+    }
+
+    fn listing(&mut self, listing: &Listing) -> usize {
+        let mut lines = vec![];
+        for line in listing.lines() {
+            let line = (line.printed, line.in_file, line.level, &line.text);
+            lines.push(self.lines.index(json!(line)));
+        }
+        self.listings.index(json!(lines))
+    }
+
+    /// Returns the places of the corrected programs with some faults put back.
+    fn programs(&mut self, edits: &[&str]) -> BTreeMap<&'static str, usize> {
+        let programs = Program::ALL.iter();
+        programs.map(|own| (own.name(), self.listing(&program(*own, edits)))).collect()
     }
 }
 

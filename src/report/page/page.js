@@ -14,6 +14,16 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Makes a button that does something. */
+function button(text, act, attributes = {}) {
+  const made = make("button", attributes, text);
+  made.addEventListener("click", act);
+  return made;
+}
+
+/** Makes the head of a table: a heading a column. */
+const headOf = (texts) => make("thead", {}, make("tr", {}, ...texts.map((text) => make("th", { scope: "col" }, text))));
+
 /** Writes a number with six digits at most. */
 function short(x) {
   if (typeof x !== "number") return String(x);

@@ -23,12 +23,11 @@ async function copy(text) {
 /** Adds a button to a table's caption that copies the table as CSV. */
 function addCopying(table) {
   const rows = [...table.rows].map((row) => [...row.cells]);
-  const button = make("button", { "aria-label": t("copy as CSV: {title}", { title: table.caption.textContent }) }, t("copy as CSV"));
-  button.addEventListener("click", async () => {
+  const copying = async ({ target }) => {
     await copy(rows.map((row) => row.map(csvField).join(",") + "\r\n").join(""));
-    button.textContent = t("copied");
-  });
-  table.caption.append(" ", button);
+    target.textContent = t("copied");
+  };
+  table.caption.append(" ", button(t("copy as CSV"), copying, { "aria-label": t("copy as CSV: {title}", { title: table.caption.textContent }) }));
 }
 
 /** A table of rows: each column has a heading, the value of a row, and a class where it is text. */

@@ -99,7 +99,8 @@ impl Outcome {
 
 /// A scene, and the solution with which the runs are compared.
 pub struct Compared {
-    exact: Solution,
+    /// The solution without friction, node to segment, in the initial geometry.
+    pub exact: Solution,
     stiffness: Stiffness,
 }
 
@@ -224,6 +225,13 @@ pub fn runs() -> usize {
 /// The runs that [`Compared::repairs`] makes.
 pub fn runs_of_repairs() -> usize {
     1 + FAULTS.len() * (FAULTS.len() + 1) / 2
+}
+
+/// Returns how many repairs the way from the print to the solution takes; nothing where it does not lead there.
+pub fn needed(repairs: &[Price]) -> Option<usize> {
+    let last = repairs.iter().rposition(|price| price.outcome.error() != 0.0);
+    let needed = last.map_or(0, |k| k + 1);
+    (needed < repairs.len()).then_some(needed)
 }
 
 fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {

@@ -12,7 +12,7 @@ use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::Scene;
 
 /// The most nodes of a scene whose iterations the page makes itself, in some tenths of a second.
-const MOST_SOLVED: usize = 100;
+pub(super) const MOST_SOLVED: usize = 100;
 
 /// What a page needs to show the iterations of a scene.
 pub struct Iterations {

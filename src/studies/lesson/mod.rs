@@ -3,6 +3,7 @@
 
 pub mod exercise;
 mod iterations;
+mod repairs;
 mod switches;
 
 use std::collections::BTreeSet;
@@ -20,6 +21,7 @@ use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
 pub use iterations::{Iterations, Recorded, State, recorded};
+pub use repairs::Repairs;
 pub use switches::{Switch, chapter, switches};
 
 /// The statements that a page holds at most, both listings together.

@@ -34,7 +34,6 @@ byId("scene").append(
   tableOf("node", [[t("node"), ([n]) => n], ["x", ([, [x]]) => x.toFixed(2)], ["y", ([, [, y]]) => y.toFixed(2)]], data.nodes),
   tableOf(t("elem: the target edges"), [[t("number"), ([n]) => n], [t("column {n}", { n: 6 }), ([, [a]]) => a], [t("column {n}", { n: 7 }), ([, [, b]]) => b]], data.edges),
 );
-const heads = [t("node"), ...ASKED].map((text) => make("th", { scope: "col" }, text));
-byId("answers").append(make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...data.contact.map(answerRow))));
+byId("answers").append(make("table", {}, headOf([t("node"), ...ASKED]), make("tbody", {}, ...data.contact.map(answerRow))));
 byId("form").addEventListener("submit", save);
 showExactValues();

@@ -3,8 +3,8 @@
 
 const LISTINGS = ["c_cnt", "Km"];
 
-/** The chapter's name in the address: its finding, or its scene. */
-const nameOf = ({ finding, name }) => finding?.id ?? name;
+/** The chapter's name in the address: its finding, "repairs", or its scene. */
+const nameOf = ({ finding, repairs, name }) => finding?.id ?? (repairs ? "repairs" : name);
 
 /** Writes the situation into the address once nothing has changed for a while. */
 function keepAddress() {
@@ -44,5 +44,4 @@ function openAddress() {
     turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),
     moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
   });
-  byId("variant").value = page.variant;
 }

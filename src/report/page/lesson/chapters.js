@@ -33,23 +33,23 @@ function whatRuns(run) {
   return isMoved() ? t("{what} on the changed scene", { what }) : what;
 }
 
-/** Shows what the run changes against the listings as printed, on the scene as it was given. */
+/** Shows what the run changes against the one before, on the scene as it was given. */
 function showChanges(run, programs) {
   const place = byId("changes");
-  const printed = chapter().runs[0];
-  place.hidden = run === printed && !isChanged();
+  const before = runBefore();
+  place.hidden = run === before && !isChanged();
   if (place.hidden) return;
-  const changed = changes(results(programsOf(printed)), results(programs));
+  const changed = changes(results(programsOf(before)), results(programs));
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
     make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
   );
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
-  const heads = [t("name"), t("as printed"), isChanged() ? t("now") : run.label].map((text) => make("th", { scope: "col" }, text));
+  const head = headOf([t("name"), before.label, isChanged() ? t("now") : run.label]);
   place.replaceChildren(
-    make("h3", {}, t("At the end, {what} beside as printed", { what: whatRuns(run) })),
+    make("h3", {}, t("At the end, {what} beside {before}", { what: whatRuns(run), before: before.label })),
     ...(changed.length
       ? [
-          make("div", { class: "scroll" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))),
+          make("div", { class: "scroll" }, make("table", {}, head, make("tbody", {}, ...rows))),
           make("p", { class: "muted" }, [t("Values that change: {count}, of them in MJS: {entries}.", { count: changed.length, entries }), ...(changed.length > MOST_CHANGES ? [t("The first {count} are shown.", { count: MOST_CHANGES })] : [])].join(" ")),
         ]
       : [make("p", {}, t("Nothing changes on this scene."))]),
@@ -59,12 +59,7 @@ function showChanges(run, programs) {
 
 /** What to try in a chapter, each a button. */
 function trials({ lines, listing, edit }, { contact, load }) {
-  const trial = (isThere, text, act) => {
-    if (!isThere) return [];
-    const button = make("button", {}, text);
-    button.addEventListener("click", act);
-    return [button, " "];
-  };
+  const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
   const [line] = lines;
   const runToLine = () => {
     choose({ run: 0, which: listing });
@@ -81,10 +76,12 @@ function trials({ lines, listing, edit }, { contact, load }) {
   ];
 }
 
-/** Shows what a finding's chapter says; nothing of a scene that is not a finding's. */
+/** Shows what a chapter says; nothing of the scene with which the page opens. */
 function showFinding(chapter) {
   const place = byId("finding");
-  place.hidden = !chapter.finding;
+  place.hidden = !chapter.finding && !chapter.repairs;
+  place.classList.toggle("repairs", Boolean(chapter.repairs));
+  if (chapter.repairs) place.replaceChildren(...repairsOf(chapter.repairs));
   if (!chapter.finding) return;
   const row = chapter.finding;
   const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");

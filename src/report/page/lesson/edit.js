@@ -1,7 +1,7 @@
 // The listing edited in place: its text, what is wrong with it, and which lines are not as printed.
 
 /** A listing as text, as it was given: two spaces a level. */
-const textOf = (place) => data.listings[place].map(([, , level, text]) => "  ".repeat(level) + text).join("\n");
+const textOf = (place) => linesAt(place).map(({ level, text }) => "  ".repeat(level) + text).join("\n");
 
 /** Where and why a text leaves the notation; nothing where it does not. */
 function errorIn(name, text) {
@@ -49,7 +49,7 @@ function showError(error) {
 function showText() {
   const place = run()[page.which];
   const text = page.edits.get(place) ?? textOf(place);
-  byId("listing-title").textContent = page.edits.has(place) ? t("The listing, edited") : t("The listing as printed");
+  byId("listing-title").textContent = page.edits.has(place) ? t("The listing, edited") : run().programs ? t("The listing, {label}", run()) : t("The listing as printed");
   if (byId("text").value !== text) byId("text").value = text;
   showError(null);
 }

@@ -116,10 +116,9 @@ class Equations {
   /** The iterations of the corrected programs, which end once the contact state is settled. */
   *corrected({ programs, settings }) {
     const { values, functions } = this.worksheet;
-    const listings = new Map(Object.entries(programs).map(([name, text]) => [name, listingOf(name, linesOf(text))]));
     const names = [...values, ["F", valueOf(this.own.load.map((f) => [f]))], ["both", 0]];
-    const worksheet = { values: new Map(names), programs: listings, functions, known: KNOWN };
-    const done = executed(listings.get("iterate"), worksheet, settings, [ITERATIONS], MOST_SHOWN);
+    const worksheet = { values: new Map(names), programs, functions, known: KNOWN };
+    const done = executed(programs.get("iterate"), worksheet, settings, [ITERATIONS], MOST_SHOWN);
     let pairs;
     for (const { name, subscripts, value } of done.steps.flatMap(({ writes }) => writes)) {
       if (name === "k_cnt") pairs = value;

@@ -8,6 +8,9 @@ const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), 
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
+/** The run beside which a run is shown: as printed, or with a repair less. */
+const runBefore = () => chapter().runs[run().programs ? Math.max(1, page.run - 1) : 0];
+
 const meshOf = (run, moved, turned) => new Mesh(data.meshes[run.mesh], chapter().units, moved, turned);
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 
@@ -30,6 +33,7 @@ function choose(change) {
   const isEnded = page.machine?.at > 0 && page.machine.at === page.machine.steps.length;
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
+  if ("run" in change) fillVariants();
   page.mesh = meshOf(run(), page.moved, page.turned);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
@@ -48,7 +52,7 @@ function choose(change) {
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
   if (!isIterating() && ["run", "which", "edits"].some((name) => name in change)) {
     showText();
-    showLines(page.machine, data.listings[chapter().runs[0][page.which]], (line) => go(page.machine.runTo(line)));
+    showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
     byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
     byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
   }
@@ -85,6 +89,7 @@ function show() {
   document.querySelector(".columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   const line = isIterating() ? showIterations() : showSteps();
+  if (chapter().repairs) showRepair(chapter().repairs);
   const { at, steps } = page.machine;
   byId("slider").value = at;
   say("status", isIterating() ? t("iteration {at} of {count}", { at, count: steps.length }) : [t("step {at} of {count}", { at, count: steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", "));
@@ -105,7 +110,7 @@ function showSteps() {
   page.width = byId("pictures").clientWidth;
   if (mesh.contact.length) {
     const node = inKm ? null : turn;
-    drawZone(mesh, pairs, zone, page.programs.c_tll, node, !inKm && (line === 6 || line === 7));
+    drawZone(mesh, pairs, zone, page.programs.c_tll, node, !inKm && !run().programs && (line === 6 || line === 7));
     drawGaps(mesh, pairs, zone, page.programs.c_tll, node);
   }
   const linked = inKm ? page.map.vector("W").map((e) => Math.ceil(e / 2)) : [];
@@ -114,12 +119,12 @@ function showSteps() {
   byId("pictures").classList.toggle("stiffness", inKm);
   if (inKm) page.map.draw();
   showStep(machine);
-  showTables(byId("values"), machine, inKm ? stiffnessTables() : contactTables(mesh, machine), inKm ? -1 : turn - 1);
+  showTables(byId("values"), machine, inKm ? stiffnessTables(machine) : contactTables(mesh, machine), inKm ? -1 : turn - 1);
   if (inKm) showTables(byId("block"), machine, [elementTable(machine)], -1);
   const ended = machine.at === machine.steps.length;
   say("failure", ended && machine.failure ? t("The listing stops: {failure}", machine) : "");
   ask(machine, mesh);
-  if (machine.at === 0 && !inKm && byId("question").hidden) askWhichTouch(mesh);
+  if (machine.at === 0 && !inKm && !run().programs && byId("question").hidden) askWhichTouch(mesh);
   // The box is as high as the question leaves it.
   lightLine(machine);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
@@ -157,6 +162,7 @@ function watch() {
   byId("chapter").addEventListener("change", (event) => openChapter(Number(event.target.value)));
   byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
   byId("ask").addEventListener("change", show);
+  byId("finding").addEventListener("toggle", show);
   byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
   byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), turned: new Set(), edits: new Map() }));
   window.addEventListener("hashchange", openAddress);
@@ -186,10 +192,9 @@ function releaseFocus() {
 function openChapter(chapter) {
   const runs = data.scenes[chapter].runs.map(({ label }, k) => make("option", { value: k }, label));
   byId("run").replaceChildren(...runs);
-  const { finding, title } = data.scenes[chapter];
-  document.title = byId("title").textContent = finding ? `${finding.id}: ${title}` : LESSON;
+  const { finding, repairs, title, variant } = data.scenes[chapter];
+  document.title = byId("title").textContent = finding ? `${finding.id}: ${title}` : repairs ? title : LESSON;
   showFinding(data.scenes[chapter]);
-  fillVariants(data.scenes[chapter]);
   const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
   const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
@@ -197,13 +202,13 @@ function openChapter(chapter) {
   for (const radio of document.getElementsByName("which")) {
     radio.disabled = contact.length === 0 && radio.value !== "Km";
   }
-  choose({ chapter, run: 0, which, factor: 1, moved: new Map(), turned: new Set(), edits: new Map() });
+  choose({ chapter, run: 0, which, variant, factor: 1, moved: new Map(), turned: new Set(), edits: new Map() });
 }
 
 document.querySelector(".choices").open = window.innerWidth >= 700;
 byId("finding").open = window.innerWidth >= 1100;
 byId("chapter").replaceChildren(
-  ...data.scenes.map(({ name, finding }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : t("scene {name}", { name }))),
+  ...data.scenes.map(({ name, title, finding, repairs }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : repairs ? title : t("scene {name}", { name }))),
 );
 byId("colophon").textContent =
   t("plane-contact {version}; scene {name}, SHA-256 {scene_sha256}, mesh {mesh_sha256}.", { ...data, name: data.scenes[0].name });

@@ -1,16 +1,17 @@
 // The listing, its current line lit, and what the last step read, decided and wrote.
 
-/** Builds the lines; the number of a line runs to it. Lines that are not as printed are marked. */
-function showLines(machine, printed, runTo) {
+/** Builds the lines; the number of a line runs to it. Lines that are not as before, in the print or after a
+ * repair less, are marked. */
+function showLines(machine, before, runTo) {
   const list = byId("listing");
-  const words = (level, text) => `${level} ${text}`;
-  const same = placesAsPrinted(machine.lines.map(({ level, text }) => words(level, text)), printed.map(([, , level, text]) => words(level, text)));
+  const words = ({ level, text }) => `${level} ${text}`;
+  const same = placesAsPrinted(machine.lines.map(words), before.map(words));
+  const changed = run().programs ? t("changed:") : t("not as printed:");
   list.replaceChildren(
     ...machine.lines.map((line, place) => {
-      const number = make("button", { "aria-label": t("run to line {number}", line) }, String(line.number));
-      number.addEventListener("click", () => runTo(place));
+      const number = button(String(line.number), () => runTo(place), { "aria-label": t("run to line {number}", line) });
       const text = make("code", { style: `--level: ${line.level}` }, line.text);
-      const mark = same.has(place) ? [] : [make("span", { class: "unseen" }, t("not as printed:") + " ")];
+      const mark = same.has(place) ? [] : [make("span", { class: "unseen" }, changed + " ")];
       return make("li", { class: same.has(place) ? undefined : "edited" }, number, ...mark, text);
     }),
   );

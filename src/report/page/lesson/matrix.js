@@ -1,8 +1,12 @@
 // MJS as a map of its entries: what is there, the block that is being added, and the block that never is.
 
+/** Whether a listing borders the matrix by equations of contact, as the corrected one does. */
+const isBordered = (lines) => lines.some(({ text }) => text.startsWith("MJS[q,v]"));
+
 /** The nodes whose equations the map shows: all of a small scene, else those that the steps write. */
 function mappedNodes(mesh, machine) {
-  if (mesh.count <= 40) return Array.from({ length: mesh.count }, (_, k) => k + 1);
+  const border = isBordered(machine.lines) ? mesh.contact.length : 0;
+  if (mesh.count <= 40) return Array.from({ length: mesh.count + border }, (_, k) => k + 1);
   const found = new Set();
   for (const { writes } of machine.steps) {
     for (const { name } of writes) {
@@ -13,23 +17,26 @@ function mappedNodes(mesh, machine) {
   return [...found].sort((a, b) => a - b);
 }
 
-const equationInWords = (e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: Math.ceil(e / 2) });
+/** The name of a node in the map; behind the last one stand the equations of contact, p1 those of the first contact node. */
+const nodeInMap = (mesh, n) => (n > mesh.count ? `p${n - mesh.count}` : String(n));
+
+const equationInWords = (mesh, e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: nodeInMap(mesh, Math.ceil(e / 2)) });
 
 class MatrixMap {
   constructor(mesh, machine) {
-    this.machine = machine;
+    Object.assign(this, { mesh, machine, border: isBordered(machine.lines) });
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
     this.cursor = [0, 0];
-    this.joins = machine.lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
+    this.joins = this.border || machine.lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
     this.places = new Map(this.equations.map((e, k) => [e, k]));
     this.brought = [];
     const bodies = new Map(mesh.triangles.flatMap(([nodes, body]) => nodes.map((n) => [n, body])));
     this.body = this.equations.map((e) => bodies.get(Math.ceil(e / 2)));
   }
 
-  /** Whether the entry in a row and a column of the map would join the two bodies. */
+  /** Whether the entry in a row and a column of the map would join the two bodies; those of contact are of both. */
   isJoint(row, column) {
-    return this.body[row] !== this.body[column];
+    return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count);
   }
 
   /** Where the middle of an entry, such as `MJS[3,4]`, is in the window; nothing for one that is not shown. */
@@ -45,8 +52,10 @@ class MatrixMap {
       : (this.machine.get(`MJS[${i},${j}]`) ?? 0);
   }
 
+  /** The equations of a vector; W of the corrected listing has nodes. */
   vector(name) {
-    return [1, 2, 3, 4, 5, 6].map((k) => this.machine.get(`${name}[${k}]`)).filter((e) => e > 0);
+    const entries = [1, 2, 3, 4, 5, 6].map((k) => this.machine.get(`${name}[${k}]`)).filter((e) => e > 0);
+    return this.border && name === "W" ? entries.flatMap((n) => [2 * n - 1, 2 * n]) : entries;
   }
 
   draw() {
@@ -88,7 +97,7 @@ class MatrixMap {
     if (document.activeElement === canvas) this.frame(context, ...this.cursor, "accent", 2);
     byId("matrix-caption").textContent = [
       t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
-      this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
+      this.border ? t("The rows and columns p1, p2, ... join the two bodies: the equations of contact.") : this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
       joints.all ? t("Grey: the entries between the two bodies, {filled} of {all} filled.", joints) : "",
     ].join(" ");
     canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
@@ -130,9 +139,10 @@ class MatrixMap {
       if (k % every) return;
       const along = 22 + (2 * k + 1) * this.cell;
       context.textAlign = "center";
-      context.fillText(String((e + 1) / 2), along, 14);
+      const name = nodeInMap(this.mesh, (e + 1) / 2);
+      context.fillText(name, along, 14);
       context.textAlign = "right";
-      context.fillText(String((e + 1) / 2), 18, along + 4);
+      context.fillText(name, 18, along + 4);
     });
   }
 
@@ -140,7 +150,7 @@ class MatrixMap {
   say() {
     const [i, j] = this.cursor.map((k) => this.equations[k]);
     const value = this.entry(i, j);
-    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? t("not there yet") : value} (${equationInWords(i)}, ${equationInWords(j)})`;
+    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? t("not there yet") : value} (${equationInWords(this.mesh, i)}, ${equationInWords(this.mesh, j)})`;
   }
 
   /** Moves the cursor to a place on the canvas, or by a step. */

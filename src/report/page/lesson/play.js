@@ -20,7 +20,7 @@ function played() {
     const { states, failure } = recorded.variants[page.variant];
     return new Played({ states: states.map((state) => ({ ...state, u: unpacked(recorded, state) })), failure });
   }
-  const made = iterated(equationsOf(run(), page.edits), page.variant, data.corrected);
+  const made = iterated(equationsOf(run(), page.edits), page.variant, correctedOf(run()));
   // The energy is that of the stiffness as printed, whatever is edited.
   return new Played(made, hasReference() ? errorsFrom(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
 }
@@ -29,6 +29,12 @@ function played() {
 function equationsOf(run, edits) {
   const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => listingOf(name, linesAt(run[name], edits)));
   return new Equations(run, { c_cnt, Km }, page.mesh.own, page.mesh.stands, page.programs.c_tll);
+}
+
+/** The corrected programs, with the faults that the run puts back, and the settings under which they run. */
+function correctedOf({ programs = data.corrected.programs }) {
+  const read = ([name, place]) => [name, listingOf(name, linesAt(place, page.edits))];
+  return { programs: new Map(Object.entries(programs).map(read)), settings: data.corrected.settings };
 }
 
 /** Whether the reference solution is one of the scene as it is now. */
@@ -123,21 +129,27 @@ function statesTable(mesh, { steps, errors, at }) {
   const row = (head, cells) => make("tr", {}, make("th", { scope: "row" }, head), ...cells.map((text, k) => make("td", { class: now(k) }, text)));
   const rows = nodes.map((n) => row(mesh.name(n), steps.map(({ inContact }) => (inContact.includes(n) ? "●" : "○"))));
   const share = (error) => (error === undefined ? "–" : short(Number((100 * error).toPrecision(3))));
-  const head = make("tr", {}, make("th", { scope: "col" }, t("node")), ...steps.map((_, k) => make("th", { scope: "col" }, String(k + 1))));
   const caption = make("caption", {}, t("By iteration: ● in contact, ○ apart"));
-  return make("table", {}, caption, make("thead", {}, head), make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
+  return make("table", {}, caption, headOf([t("node"), ...steps.map((_, k) => String(k + 1))]), make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
 }
 
-/** Draws the errors over the iterations, by powers of ten. */
+/** Draws the errors over the iterations. */
 function drawErrors({ errors, at }) {
-  const canvas = byId("errors");
-  const known = errors.filter((error) => error > 0 && Number.isFinite(error)).map(Math.log10);
-  byId("errors-caption").textContent = known.length
-    ? t("Energy norm of the difference from the reference solution (unilateral with mortar, without friction) over that of the reference solution, by iteration; the axis has powers of ten.") +
+  const last = errors.length - 1;
+  const isDrawn = drawCurve(byId("errors"), errors, at - 1, errors.map((_, k) => (k === 0 || k === last ? String(k + 1) : "")));
+  const solution = chapter().repairs ? t("node to segment, initial geometry, without friction") : t("unilateral with mortar, without friction");
+  byId("errors-caption").textContent = isDrawn
+    ? t("Energy norm of the difference from the reference solution ({solution}) over that of the reference solution, by iteration; the axis has powers of ten.", { solution }) +
       (page.variant === "stepped" ? ` ${t("Before the last iteration of stepped a part of the load is missing.")}` : "")
     : t("No error can be drawn: the reference solution is of the scene as it was given, under contact that holds it and a load.");
+  if (isDrawn) byId("errors").setAttribute("aria-label", t("Error after the last iteration: {error}", { error: percent(errors.at(-1)) }));
+}
+
+/** Draws errors side by side by powers of ten, each over its name, that at `at` marked; returns whether there are any. */
+function drawCurve(canvas, errors, at, names) {
+  const known = errors.filter((error) => error > 0 && Number.isFinite(error)).map(Math.log10);
   canvas.hidden = known.length === 0;
-  if (canvas.hidden) return;
+  if (canvas.hidden) return false;
   const { context, width, height } = prepared(canvas, 150);
   // No error stands at the foot of the axis, as far below the least as a power of ten.
   const least = Math.floor(Math.min(...known));
@@ -148,11 +160,12 @@ function drawErrors({ errors, at }) {
     path(context, [to(0, power), to(errors.length - 1, power)], { stroke: colour("rule") });
     label(context, percent(power < least ? 0 : 10 ** power), [56, to(0, power)[1] + 4], colour("muted"), "right");
   }
-  const points = errors.map((error, k) => to(k, error > 0 ? Math.log10(error) : low));
-  path(context, points, { stroke: colour("accent"), width: 2 });
-  points.forEach((point, k) => status(context, point, k === at - 1 ? 1 : undefined, k === at - 1));
-  for (const k of new Set([0, errors.length - 1])) label(context, String(k + 1), [points[k][0], height - 8], colour("muted"));
-  canvas.setAttribute("aria-label", t("Error after the last iteration: {error}", { error: percent(errors.at(-1)) }));
+  // A run that stopped has no error.
+  const points = errors.flatMap((error, k) => (error === undefined ? [] : [[k, to(k, error > 0 ? Math.log10(error) : low)]]));
+  path(context, points.map(([, point]) => point), { stroke: colour("accent"), width: 2 });
+  for (const [k, point] of points) status(context, point, k === at ? 1 : undefined, k === at);
+  names.forEach((name, k) => label(context, name, [to(k, low)[0], height - 8], colour("muted")));
+  return true;
 }
 
 /** Shows the iterations as far as they were gone through. */
@@ -167,17 +180,18 @@ function showIterations() {
   drawErrors(machine);
 }
 
-/** Lists the variants of a chapter, and chooses the scene's own. */
-function fillVariants({ variant, recorded }) {
+/** Lists the variants that a run can play; the one that was chosen stays where it is one of them. */
+function fillVariants() {
   const words = {
     printed: t("Km as printed"),
     tied: t("eq. (1) on total displacements"),
     stepped: t("eq. (1) on increments, the load in equal steps"),
-    corrected: t("both listings with what the findings ask for"),
+    corrected: run().programs ? run().label : t("both listings with what the findings ask for"),
   };
-  const names = VARIANTS.filter((name) => !recorded || recorded.variants[name]);
+  const { recorded } = chapter();
+  const names = VARIANTS.filter((name) => (run().programs ? name === "corrected" : !recorded || recorded.variants[name]));
   byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, `${name}: ${words[name]}`)));
-  page.variant = byId("variant").value = names.includes(variant) ? variant : "tied";
+  page.variant = byId("variant").value = [page.variant, "tied"].find((name) => names.includes(name)) ?? names[0];
 }
 
 /** Plays the steps or the iterations to their end, or stops. */

@@ -19,7 +19,7 @@ function question(machine, mesh) {
     };
   }
   const turn = machine.turnAt(machine.at);
-  const begins = turn !== null && text.includes("rows(cnt)") && machine.turnAt(machine.at - 1) !== turn;
+  const begins = turn !== null && !run().programs && text.includes("rows(cnt)") && machine.turnAt(machine.at - 1) !== turn;
   return begins && machine.get(`ct[${turn}]`) === undefined ? edgeQuestion(machine, mesh, turn) : null;
 }
 
@@ -55,9 +55,8 @@ function ask(machine, mesh) {
   place.hidden = !asked;
   if (!asked) return;
   const verdict = make("p", { role: "status" });
-  const buttons = asked.answers.map((text) => {
-    const button = make("button", {}, text);
-    button.addEventListener("click", () => {
+  const buttons = asked.answers.map((text) =>
+    button(text, () => {
       const isRight = text === asked.right;
       score.asked += 1;
       score.right += isRight ? 1 : 0;
@@ -65,9 +64,8 @@ function ask(machine, mesh) {
       verdict.textContent = `${isRight ? t("Right.") : t("No: {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}`;
       lightLine(machine);
       verdict.scrollIntoView({ block: "nearest" });
-    });
-    return button;
-  });
+    }),
+  );
   const given = asked.given.length ? [make("p", {}, t("Given:") + " ", ...accesses(asked.given, "="))] : [];
   byId("below").scrollTop = 0;
   place.replaceChildren(make("h3", {}, t("What comes next?")), make("p", {}, asked.words), make("p", { class: "answers" }, ...buttons), verdict, ...given);

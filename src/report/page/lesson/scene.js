@@ -31,12 +31,6 @@ class Mesh {
     const figure = this.figure.get(n);
     return figure ? `${figure} (${n})` : String(n);
   }
-
-  /** The height of an edge's line at `x`; none for a vertical edge. */
-  lineAt(edge, x) {
-    const [[xa, ya], [xb, yb]] = this.edge.get(edge).map(this.at);
-    return xa === xb ? undefined : ya + ((yb - ya) / (xb - xa)) * (x - xa);
-  }
 }
 
 /** The largest round number that is at most `x`. */
@@ -45,8 +39,8 @@ function roundAtMost(x) {
   return [7, 5, 4, 3, 2.5, 2, 1.5, 1].find((k) => k * power <= x * (1 + 1e-12)) * power;
 }
 
-/** What the run has found of each contact node: `ct`, `yt`, `dy` and its row of `k_cnt`, as far as
- * known; `pairs` is the machine of c_cnt. An edited listing may write anything: what is no number counts as
+/** What the run has found of each contact node: `ct`, `yt`, `dy`, its row of `k_cnt`, its height over the target
+ * and the way there, as far as known; `pairs` is the machine of c_cnt. An edited listing may write anything: what is no number counts as
  * not known, what is no node as 0. */
 function contactNodes(mesh, pairs) {
   return mesh.contact.map((node, k) => {
@@ -55,7 +49,11 @@ function contactNodes(mesh, pairs) {
     const [first, a, second, b] = [1, 2, 3, 4].map((j) => number(pairs.get(`k_cnt[${node},${j}]`)) ?? 0);
     const mate = (n) => (Number.isInteger(n) && n >= 1 && n <= mesh.count ? n : 0);
     const row = [mate(first), a, mate(second), b];
-    return { node, place: k + 1, ct: of("ct"), yt: of("yt"), dy: of("dy"), row };
+    const yt = of("yt");
+    // The corrected yt is positive apart, and along the normal n.
+    const normal = [1, 2].map((j) => number(pairs.get(`n[${k + 1},${j}]`)));
+    const [height, toTarget] = normal.includes(undefined) ? [-yt, [0, yt]] : [yt, normal.map((x) => -x * yt)];
+    return { node, place: k + 1, ct: of("ct"), yt, dy: of("dy"), row, height, toTarget };
   });
 }
 
@@ -181,7 +179,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   }
   drawBox(context, to, pairs, boxed);
   const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node));
-  for (const { node, place, ct, yt, row } of nodes) {
+  for (const { node, place, ct, yt, row, toTarget } of nodes) {
     const [x, y] = mesh.at(node);
     for (const [mate, weight] of [[row[0], row[1]], [row[2], row[3]]]) {
       if (mate === 0) continue;
@@ -189,7 +187,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
       path(context, [from, end], { stroke: colour("accent"), width: place === turn ? 2 : 1, dash: [4, 3] });
       if (place === turn) label(context, short(weight), [(from[0] + end[0]) / 2, (from[1] + end[1]) / 2 - 4], colour("accent"));
     }
-    if (ct > 0 && yt !== undefined && yt !== 0) arrow(context, to([x, y]), to([x, y + yt]), colour(place === turn ? "accent" : "muted"));
+    if (ct > 0 && yt !== undefined && yt !== 0) arrow(context, to([x, y]), to([x + toTarget[0], y + toTarget[1]]), colour(place === turn ? "accent" : "muted"));
   }
   for (const n of new Set(zone.edges.flatMap(([, ends]) => ends))) {
     const [x, y] = to(mesh.at(n));
@@ -204,7 +202,8 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const size = factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor });
   say("zone-caption", [
     size,
-    t("Green band: within c_tll of an edge’s line. Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
+    t("Green band: within c_tll of an edge’s line."),
+    run().programs ? t("Arrow: yt, along the normal.") : t("Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
     t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
     ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name reverses the edge.")]),
   ].join(" "));
@@ -242,8 +241,8 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   context.fillRect(0, height / 2 - band, width, 2 * band);
   context.globalAlpha = 1;
   path(context, [[0, height / 2], [width, height / 2]], { stroke: colour("target-ink"), width: 3 });
-  for (const { node, place, yt, dy } of known) {
-    const point = to(mesh.at(node)[0], -yt);
+  for (const { node, place, height: above, dy } of known) {
+    const point = to(mesh.at(node)[0], above);
     arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
     status(context, point, dy, place === turn);
     const below = point[1] > height / 2;
@@ -251,8 +250,8 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
   say("gaps-caption", known.length
-    ? [...scale, t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
-    : t("No gap is known yet: line 10 computes them."));
+    ? [...scale, run().programs ? t("Above the line, apart: yt > 0; below it, inside the target: yt < 0.") : t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
+    : t("No gap is known yet."));
   canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }
 

@@ -57,22 +57,27 @@ const rowsOf = (rows, names) => rows.map(([head, index]) => [head, names.map((na
 function contactTables(mesh, machine) {
   const contact = mesh.contact.map((n, k) => [mesh.name(n), k + 1]);
   const nodes = Array.from({ length: mesh.count }, (_, k) => k + 1);
-  const touched = (n) => [1, 2, 3, 4].some((j) => machine.get(`k_cnt[${n},${j}]`));
+  const heads = [t("node"), t("1: mate"), t("2: weight"), t("3: mate"), t("4: weight"), ...(run().programs ? [t("5: normal x"), t("6: normal y"), t("7: gap")] : [])];
+  const columns = heads.slice(1).map((_, j) => j + 1);
+  const touched = (n) => columns.some((j) => machine.get(`k_cnt[${n},${j}]`));
   const shown = mesh.count <= 40 ? nodes : nodes.filter(touched);
-  const k_cnt = shown.map((n) => [mesh.name(n), [1, 2, 3, 4].map((j) => `k_cnt[${n},${j}]`)]);
+  const k_cnt = shown.map((n) => [mesh.name(n), columns.map((j) => `k_cnt[${n},${j}]`)]);
+  const [own, now] = run().programs ? [["ct", "kt", "yt", "gt", "dy"], ["ξ", "k2", "far", "near"]] : [["ct", "yt", "dy"], ["k1", "k2"]];
   return [
-    [t("by contact node"), [t("node"), "ct", "yt", "dy"], rowsOf(contact, ["ct", "yt", "dy"])],
-    [t("now"), [t("name"), t("value")], ["i1", "i2", "ntx", "nty", "k1", "k2"].map((name) => [name, [name]])],
-    ["k_cnt", [t("node"), t("1: mate"), t("2: weight"), t("3: mate"), t("4: weight")], k_cnt],
+    [t("by contact node"), [t("node"), ...own], rowsOf(contact, own)],
+    [t("now"), [t("name"), t("value")], ["i1", "i2", "ntx", "nty", ...now].map((name) => [name, [name]])],
+    ["k_cnt", heads, k_cnt],
   ];
 }
 
-/** The tables of Km: the element's equations and the names of one value. */
-function stiffnessTables() {
-  const six = [1, 2, 3, 4, 5, 6];
+/** The tables of Km: the element's equations, and the names of one value; in the corrected one the contact node's too. */
+function stiffnessTables({ lines }) {
+  const numbered = (count, names) => rowsOf(Array.from({ length: count }, (_, k) => [String(k + 1), k + 1]), names);
+  const [own, now] = isBordered(lines) ? [["V", "cx"], ["n", "i1", "i2", "i", "j"]] : [["V", "W", "cx"], ["n", "i1", "i", "j", "fl"]];
   return [
-    [t("by equation of the element"), [t("equation"), "V", "W", "cx"], rowsOf(six.map((k) => [String(k), k]), ["V", "W", "cx"])],
-    [t("now"), [t("name"), t("value")], ["n", "i1", "i", "j", "fl"].map((name) => [name, [name]])],
+    [t("by equation of the element"), [t("equation"), ...own], numbered(6, own)],
+    ...(isBordered(lines) ? [[t("by node of the contact pair"), [t("node"), "W", "fl"], numbered(3, ["W", "fl"])]] : []),
+    [t("now"), [t("name"), t("value")], now.map((name) => [name, [name]])],
   ];
 }
 

@@ -4,8 +4,7 @@
 function askWhichTouch(mesh) {
   const boxes = mesh.contact.map((n) => make("input", { type: "checkbox", value: n }));
   const verdict = make("p", { role: "status" });
-  const check = make("button", {}, t("check"));
-  check.addEventListener("click", () => {
+  const check = button(t("check"), () => {
     const end = new Machine(page.programs.c_cnt);
     end.goTo(end.steps.length);
     const found = contactNodes(mesh, end).filter(({ dy }) => dy === 1).map(({ node }) => node);
@@ -13,8 +12,7 @@ function askWhichTouch(mesh) {
     const words = { state: contactInWords(found) };
     verdict.textContent = end.failure ? t("The listing stops: {failure}", end) : isRight ? t("Right. c_cnt finds, {state}. Step through it to see why.", words) : t("No. c_cnt finds, {state}. Step through it to see why.", words);
   });
-  const tour = make("button", {}, t("tour: five steps"));
-  tour.addEventListener("click", () => showTour(0));
+  const tour = button(t("tour: five steps"), () => showTour(0));
   const nodes = boxes.map((box, k) => make("label", {}, box, ` ${mesh.name(mesh.contact[k])}`));
   byId("question").hidden = false;
   byId("question").replaceChildren(
@@ -44,16 +42,12 @@ function showTour(k) {
   place.classList.add("toured");
   if (place.closest("details")) place.closest("details").open = true;
   place.scrollIntoView({ block: "nearest" });
-  const button = (text, to) => {
-    const made = make("button", { disabled: to < 0 }, text);
-    made.addEventListener("click", () => showTour(to));
-    return made;
-  };
+  const leading = (text, to) => button(text, () => showTour(to), { disabled: to < 0 });
   const isLast = k === tourSteps().length - 1;
-  const next = button(isLast ? t("close") : t("next"), k + 1);
-  const close = isLast ? [] : [button(t("close"), Infinity)];
+  const next = leading(isLast ? t("close") : t("next"), k + 1);
+  const close = isLast ? [] : [leading(t("close"), Infinity)];
   const head = make("h2", { id: "tour-title" }, t("Tour, {k} of {count}", { k: k + 1, count: tourSteps().length }));
-  document.querySelector("main").append(make("section", { id: "tour", "aria-labelledby": "tour-title" }, head, make("p", { id: "tour-words" }, words), make("p", { class: "answers" }, button(t("back"), k - 1), next, ...close)));
+  document.querySelector("main").append(make("section", { id: "tour", "aria-labelledby": "tour-title" }, head, make("p", { id: "tour-words" }, words), make("p", { class: "answers" }, leading(t("back"), k - 1), next, ...close)));
   next.setAttribute("aria-describedby", "tour-words");
   next.focus();
 }
@@ -61,6 +55,18 @@ function showTour(k) {
 /** What an array or a name of the listings is; nothing of a name that an edit brought in. */
 function meaningOf(name) {
   const turn = t("the turn of a loop");
+  const ofCorrected = run().programs && {
+    yt: t("the distance of each contact node from its target edge, along the normal"),
+    gt: t("that distance in the initial shape"),
+    kt: t("where on its edge the node has its nearest point: 0 at the first end, 1 at the second"),
+    k_cnt: t("of each node the two nodes of its target edge with their weights, the normal, and the gap"),
+    ntx: t("x of the edge's ends"),
+    nty: t("y of the edge's ends"),
+    ξ: t("where on the edge's line the node has its nearest point: 0 at the first end, 1 at the second"),
+    far: t("the distance of the node from the edge"),
+    near: t("the least distance from an edge so far"),
+    ...(isBordered(page.machine.lines) && { W: t("the contact node and the two nodes of its edge"), fl: t("the weights of these nodes in the equation of contact") }),
+  };
   return {
     ct: t("the number of each contact node's target edge, 0 for none"),
     yt: t("the vertical distance of each contact node from its target line"),
@@ -81,6 +87,7 @@ function meaningOf(name) {
     i2: turn,
     i: turn,
     j: turn,
+    ...ofCorrected,
   }[name];
 }
 

@@ -70,7 +70,7 @@ class TurnRecorder extends Recorder {
     const [range, begun] = [text.startsWith("for ") ? text.slice(4) : "", done.writes[0]?.value];
     const isOuter = this.name === "Km" ? range.startsWith("n ") : range.startsWith("i1 ") && range.includes("rows(cnt)");
     if (isOuter && isNumber(begun)) this.turn = Number.isInteger(begun) && begun >= 1 && begun <= this.count ? begun : null;
-    else if (this.name === "c_cnt" && range.startsWith("i1 ")) this.turn = null;
+    else if (this.name === "c_cnt" ? range.startsWith("i1 ") : range && this.lines[done.line].level === 1) this.turn = null;
     done.turn = this.turn;
     if (this.turns && !this.turns.has(this.turn)) this.steps.pop();
   }
@@ -79,7 +79,7 @@ class TurnRecorder extends Recorder {
 /** The lines of the listing at a place, as given or as edited. */
 function linesAt(place, edits = new Map()) {
   if (edits.has(place)) return linesOf(edits.get(place));
-  return data.listings[place].map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
+  return data.listings[place].map((line) => data.lines[line]).map(([number, inFile, level, text]) => ({ number, inFile, level, text }));
 }
 
 /** The listings that were read, by their lines: to read one takes as long as to execute it. */
@@ -96,29 +96,39 @@ class Programs {
   constructor(run, mesh, shown, c_tll = run.c_tll, edits = new Map()) {
     Object.assign(this, { run, mesh, shown, c_tll, edits, done: new Map() });
     this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, c_tll), run.plane, KNOWN);
+    if (run.programs) this.worksheet.values.set("both", 0);
   }
 
   /** `c_cnt` on the initial shape; nothing without contact. */
   get c_cnt() {
-    return this.mesh.contact.length ? this.program("c_cnt", () => this.worksheet.values.get("node")) : null;
+    return this.mesh.contact.length ? this.program("c_cnt", () => this.firstCall()) : null;
+  }
+
+  /** What the iterations give `c_cnt` first: the nodes; in the corrected programs also forces that press, and the normals. */
+  firstCall() {
+    const [node, { programs, settings }] = [this.worksheet.values.get("node"), this.run];
+    if (!programs) return [node];
+    // Where the normals stop, c_cnt stops without them.
+    const { value = 0 } = executed(listingOf("normals", linesAt(programs.normals)), this.worksheet, settings, [node], MOST_SHOWN, null);
+    return [node, share(gridFrom(this.mesh.contact.length, 1, () => 1)), share(value)];
   }
 
   /** `Km` on the pairs that `c_cnt` found; nothing where that stopped. */
   get Km() {
     if (this.c_cnt?.failure) return null;
-    return this.program("Km", () => this.c_cnt?.value ?? share(gridFrom(this.mesh.count, 4, () => 0)));
+    return this.program("Km", () => [this.c_cnt?.value ?? share(gridFrom(this.mesh.count, 4, () => 0))]);
   }
 
-  program(name, argument) {
-    if (!this.done.has(name)) this.done.set(name, this.execute(name, argument()));
+  program(name, values) {
+    if (!this.done.has(name)) this.done.set(name, this.execute(name, values()));
     return this.done.get(name);
   }
 
-  execute(name, argument) {
+  execute(name, values) {
     const lines = linesAt(this.run[name], this.edits);
     const listing = listingOf(name, lines);
     const recorder = new TurnRecorder(listing, this.turns(name), name === "Km" ? this.mesh.triangles.length : this.mesh.contact.length);
-    const done = executed(listing, this.worksheet, this.run.settings, [argument], MOST_SHOWN, recorder);
+    const done = executed(listing, this.worksheet, this.run.settings, values, MOST_SHOWN, recorder);
     recorder.finish();
     return { ...done, name, lines, failure: done.failure ?? unexpected(listing, done) };
   }

@@ -1,0 +1,48 @@
+//! The way from the print to the right answer: the corrected programs with the faults that are left.
+
+use super::iterations::{Iterations, MOST_SOLVED};
+use crate::audit::prices::{Compared, Price, needed};
+use engine::Request;
+use paper::corrected::{FAULTS, Fault};
+use problem::scene::Scene;
+
+/// The repairs of a scene.
+pub struct Repairs {
+    /// What came of the print, then of each repair with those before it.
+    pub rows: Vec<Price>,
+    /// The number of repairs that lead to the solution.
+    pub needed: usize,
+}
+
+impl Repairs {
+    /// Returns the repairs of a scene, and what its iterations are compared with; nothing where no page iterates
+    /// the scene, or where they lead to no solution.
+    pub fn new(scene: &Scene) -> Option<(Self, Iterations)> {
+        if scene.model.nodes.len() > MOST_SOLVED {
+            return None;
+        }
+        let compared = Compared::new(&Request::new(scene)).ok()?;
+        let rows = compared.repairs(&|| ());
+        let needed = needed(&rows)?;
+        let iterations = Iterations { reference: Some(compared.exact.u), recorded: None };
+        Some((Repairs { rows, needed }, iterations))
+    }
+
+    /// Returns the numbers of repairs that a lesson shows: up to the solution, and all.
+    pub fn shown(&self) -> impl Iterator<Item = usize> {
+        let all = (self.needed < FAULTS.len()).then_some(FAULTS.len());
+        (0..=self.needed).chain(all)
+    }
+
+    /// Returns the faults that are left after some repairs, in the order of [`FAULTS`].
+    pub fn left(&self, repairs: usize) -> impl Iterator<Item = &'static Fault> {
+        let later = &self.rows[repairs + 1..];
+        FAULTS.iter().filter(|fault| later.iter().any(|row| row.fault == fault.words()))
+    }
+
+    /// Returns the fault that is repaired last of some; nothing before the first, and where all are repaired.
+    pub fn last(&self, repairs: usize) -> Option<&'static Fault> {
+        let row = self.rows[..=self.needed].get(repairs)?;
+        FAULTS.iter().find(|fault| row.fault == fault.words())
+    }
+}
