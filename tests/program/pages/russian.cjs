@@ -10,7 +10,7 @@ const OWN = "#listing, #step, #editor, #question code, script, style, noscript";
 
 /** Latin words that Russian has too: names of the program, the listings, the keys and the scenes, and what the
  * interpreter says. */
-const KEPT = /^(plane|contact|rows|node|elem|trg|cnt|printed|tied|stepped|unilateral|mortar|per|nested|eager|inside|left|right|total|stress|strain|left-to-right|corrected|ntx|nty|for|min|max|cos|Shift|Home|End|This|array|index|invalid|this|line|solve|findings|reading|variant|last)$/;
+const KEPT = /^(plane|contact|rows|node|elem|trg|cnt|printed|tied|stepped|unilateral|mortar|per|nested|eager|inside|left|right|total|stress|strain|left-to-right|corrected|ntx|nty|far|near|for|min|max|cos|Shift|Home|End|This|array|index|invalid|this|line|solve|findings|reading|variant|last)$/;
 
 /** The English words that a page shows or says. */
 const english = async (page) => {
@@ -34,6 +34,15 @@ run(async (browser) => {
     for (const at of ["0", "40"]) {
       await page.locator("#slider").fill(at);
       assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}`);
+    }
+  }
+  await page.selectOption("#chapter", { index: 1 });
+  for (const index of (await page.locator("#repairs button").all()).keys()) {
+    await page.locator("#repairs button").nth(index).click();
+    for (const which of ["c_cnt", "Km", "iterations"]) {
+      await page.locator(`input[value=${which}]`).evaluate((radio) => radio.click());
+      await page.click("#end");
+      assert.deepEqual(await english(page), [], `repair ${index}, ${which}`);
     }
   }
   assert.deepEqual(said, []);
