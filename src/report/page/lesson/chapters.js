@@ -37,7 +37,9 @@ function whatRuns(run) {
 function showChanges(run, programs) {
   const place = byId("changes");
   const before = runBefore();
-  place.hidden = run === before && !isChanged();
+  // A repair may be of Fm alone.
+  const isSame = run === before || (run.programs && LISTINGS.every((name) => run[name] === before[name]));
+  place.hidden = isSame && !isChanged();
   if (place.hidden) return;
   const changed = changes(results(programsOf(before)), results(programs));
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
