@@ -45,7 +45,9 @@ pub fn opening(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report 
 
 /// Reports what the conclusion and the claims rest on: readings, findings, variants, friction.
 pub fn evidence(audit: &Audit) -> Report {
-    readings(&audit.readings)
+    Report::default()
+        .heading("Readings, findings and variants")
+        .then(readings(&audit.readings))
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
         .then(variants(audit))
         .then(friction(&audit.friction))
