@@ -187,7 +187,10 @@ fn price(fault: Option<&Fault>, outcome: Outcome) -> Price {
     Price { finding: fault.map(|fault| fault.finding), fault: words, weight, outcome }
 }
 
-/// Returns the prices on a case; or why they are not known. `watch` is called after each of the [`runs`].
+/// Returns the prices on a case. `watch` is called after each of the [`runs`].
+///
+/// # Errors
+/// There is no solution with which they are compared: says why.
 pub fn on(case: &Case, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, String> {
     let compared = Compared::new(&case.request(Variant::Unilateral));
     compared.map(|compared| compared.prices(watch)).map_err(|why| why.to_string())
