@@ -217,10 +217,15 @@ fn summary(prices: &[Price]) -> String {
 }
 
 /// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the
-/// solution. Nothing where it is.
+/// solution, or passes no load on, so that none can be lost. Nothing where they are.
 pub fn unsound(prices: &[Price]) -> Option<String> {
     let why = match &prices[0].outcome {
         Outcome::Failure { .. } => "stops on this scene".into(),
+        Outcome::Result { transmitted, .. } if transmitted.abs() <= NOTHING => {
+            return Some(
+                "Under the corrected algorithm too no load reaches the target here".into(),
+            );
+        }
         Outcome::Result { period: None | Some(2..), .. } => "does not settle on this scene".into(),
         Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => {
             format!("is {} from the solution on this scene", percent(*energy_relative, 1))

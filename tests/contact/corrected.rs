@@ -17,6 +17,7 @@ use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report;
 use plane_contact::studies::audit::Case;
+use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::audit::prices::{self, Compared};
 use plane_contact::studies::audit::range::{Parameter, ParameterValue};
 use plane_contact::studies::benchmark::{Cook, Hertz};
@@ -227,6 +228,16 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let cook = Cook::default().generate().unwrap().build().unwrap();
     let refused = Compared::new(&Request::new(&cook)).err().expect("no contact").to_string();
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
+}
+
+/// Where no load reaches the target, none can be lost: no fault is called fatal.
+#[test]
+fn without_a_load_no_fault_is_weighed() {
+    let finding = FINDINGS.iter().find(|finding| finding.id == "C1").expect("a finding");
+    let prices = prices::on(&Case::new(finding.scene()), &|| ()).expect("prices");
+    assert!(finding.scene().model.load.iter().all(|f| *f == 0.0));
+    let why = report::prices::unsound(&prices).expect("a reason");
+    assert!(why.contains("no load reaches the target"), "{why}");
 }
 
 /// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
