@@ -230,12 +230,16 @@ fn where_it_does_not_hold_the_prices_say_so() {
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }
 
-/// Where no load reaches the target, none can be lost: no fault is called fatal.
+/// Where no load reaches the target, none can be lost: no fault is called fatal, and no repair leads to the
+/// solution.
 #[test]
 fn without_a_load_no_fault_is_weighed() {
     let finding = FINDINGS.iter().find(|finding| finding.id == "C1").expect("a finding");
-    let prices = prices::on(&Case::new(finding.scene()), &|| ()).expect("prices");
-    assert!(finding.scene().model.load.iter().all(|f| *f == 0.0));
+    let scene = finding.scene();
+    assert!(scene.model.load.iter().all(|f| *f == 0.0));
+    let repairs = Compared::new(&Request::new(&scene)).expect("a solution").repairs(&|| ());
+    assert_eq!(prices::needed(&repairs), None);
+    let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let why = report::prices::unsound(&prices).expect("a reason");
     assert!(why.contains("no load reaches the target"), "{why}");
 }

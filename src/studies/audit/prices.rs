@@ -232,7 +232,7 @@ pub fn runs_of_repairs() -> usize {
 
 /// Returns how many repairs the way from the print to the solution takes; nothing where it does not lead there.
 pub fn needed(repairs: &[Price]) -> Option<usize> {
-    let last = repairs.iter().rposition(|price| price.outcome.error() != 0.0);
+    let last = repairs.iter().rposition(|price| price.weight != Weight::Free);
     let needed = last.map_or(0, |k| k + 1);
     (needed < repairs.len()).then_some(needed)
 }
