@@ -7,6 +7,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{Assessment, Hertz, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
@@ -17,7 +18,7 @@ use plane_contact::studies::audit::claims::{CLAIMS, Claim, by_reading};
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::prices::{self, Compared};
-use plane_contact::studies::audit::range::range;
+use plane_contact::studies::audit::range::{Range, range};
 use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
@@ -136,7 +137,7 @@ fn prices(args: &Args) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(&scene, reading)?;
-    let places = if args.range { range(reading)? } else { Vec::new() };
+    let places = places(args)?;
     let compared = Compared::new(&case.request(Variant::Unilateral))?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
     let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
@@ -146,7 +147,8 @@ fn prices(args: &Args) -> Result<()> {
     let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
     let range = prices::over_range(&places, &watch);
     bar.finish_and_clear();
-    let document = price_report::Document { prices: &alone, repairs: &repairs, range: &range };
+    let document =
+        price_report::Document { reading, prices: &alone, repairs: &repairs, range: &range };
     let json = price_report::json(&document, &scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
@@ -157,6 +159,19 @@ fn prices(args: &Args) -> Result<()> {
         return print(&json);
     }
     args.tables.print("audit", price_report::report(&document, &scene))
+}
+
+/// Returns the places of the range, none where they are not asked for.
+fn places(args: &Args) -> Result<Range> {
+    let reading = args.reading.reading;
+    if !args.range {
+        return Ok(Vec::new());
+    }
+    if reading.r8 != Reading::default().r8 {
+        let what = "R8, the unit of c_tol, is one of the things that the range tries";
+        return Err(InputError::new("--reading", what, "leave R8 or --range out").into());
+    }
+    Ok(range(reading)?)
 }
 
 /// Finds what a register lists under an id.
@@ -219,7 +234,7 @@ fn whole(args: &Args) -> Result<()> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
-    let places = if args.range { range(reading)? } else { Vec::new() };
+    let places = places(args)?;
     if !std::io::stderr().is_terminal() {
         print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }

@@ -89,15 +89,25 @@ pub const FAULTS: &[Fault] = &[
 ];
 
 impl Fault {
+    /// Returns its name: the findings that describe it, and which fault of one it is.
+    pub fn name(&self) -> &'static str {
+        self.heading().0
+    }
+
     /// Says what the fault is, in a sentence, which no other fault has.
     pub fn words(&self) -> String {
-        let reason = self.parsed().reason;
-        let (_, words) = reason
-            .trim_end()
-            .trim_end_matches('.')
-            .split_once(": ")
-            .expect("it begins with its finding");
-        words.into()
+        self.heading().1.trim_end_matches('.').into()
+    }
+
+    /// Returns the findings that describe it.
+    pub fn findings(&self) -> impl Iterator<Item = &'static str> {
+        self.name().split(" and ").filter_map(|name| name.split(' ').next())
+    }
+
+    /// Returns the edit's first line, a remark: name and sentence.
+    fn heading(&self) -> (&'static str, &'static str) {
+        let line = self.edit.lines().next().and_then(|line| line.strip_prefix("# "));
+        line.and_then(|line| line.split_once(": ")).expect("it begins with its finding")
     }
 
     /// Returns the lines of the corrected programs that it replaces, such as `c_cnt 14-15`.

@@ -32,7 +32,7 @@ use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     opening(audit, conclusion, scene)
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(prices::section(&audit.prices, &[], scene))
+        .then(prices::section(conclusion.reading, &audit.prices, &[], scene))
         .then(evidence(audit))
 }
 

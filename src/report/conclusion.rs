@@ -252,13 +252,16 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
         Err(why) => format!("Not decided here: {why}"),
         Ok(prices) => {
             let shift = |(k, error): (usize, f64)| {
-                let id = prices[k].finding.expect("the corrected algorithm shifts nothing");
-                format!("{id} by {}", percent(error, 1))
+                let name = prices[k].name.expect("the corrected algorithm shifts nothing");
+                let by = if error < 0.0005 { "under 0.1 %".into() } else { percent(error, 1) };
+                let settles =
+                    if prices[k].outcome.is_settled() { "" } else { " (does not settle)" };
+                format!("{name} by {by}{settles}")
             };
             format!(
                 "Of the printed faults, each put back alone into the corrected algorithm \
-                 (listings/corrected/), these are fatal (the run stops, or no load passes): {}. These \
-                 shift the solution, in the energy norm (a finding with two faults stands twice): {}. \
+                 (listings/corrected/; C1 and C2 with the box of C9), these are fatal (the run stops, or no \
+                 load passes): {}. These shift the solution without friction, in the energy norm: {}. \
                  These cost nothing here: {}. Present here, but no fault that could be put back: {}.",
                 or_none(prices::of_weight(prices, Weight::Fatal)),
                 or_none(shifts(prices).into_iter().map(shift)),

@@ -77,7 +77,7 @@ fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Sc
     audit::opening(audit, conclusion, scene)
         .then(what_was_audited())
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(prices::section(&audit.prices, repairs, scene))
+        .then(prices::section(conclusion.reading, &audit.prices, repairs, scene))
         .then(audit::evidence(audit))
         .then(findings)
 }

@@ -288,7 +288,11 @@ impl Display for Cell {
             Cell::Integer(n) => write!(out, "{n}"),
             Cell::Number { value, notation: Notation::Short } => write!(out, "{}", short(value)),
             Cell::Number { value, notation: Notation::Plain } => write!(out, "{value}"),
-            Cell::Number { value, notation: Notation::Decimals(n) } => write!(out, "{value:.n$}"),
+            Cell::Number { value, notation: Notation::Decimals(n) } => {
+                let shown = format!("{value:.n$}");
+                let is_zero = shown.chars().all(|c| "-0.".contains(c));
+                out.write_str(if is_zero { shown.trim_start_matches('-') } else { &shown })
+            }
             Cell::Number { value, notation: Notation::Scientific(n) } => {
                 write!(out, "{value:.n$e}")
             }

@@ -3,11 +3,13 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::claims::under;
 use super::json;
-use super::layout::{counted, listed};
+use super::layout::{counted, first_line, listed};
 use super::model::{Cell, Report, Table};
 use super::numbers::percent;
 use super::picture::{Axis, Series, Style, chart};
+use paper::mirror::Reading;
 use problem::scene::Scene;
 use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use studies::audit::range::ParameterValue;
@@ -20,6 +22,8 @@ pub(crate) const ORDER: &str = "The order is found from the end: \
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize, JsonSchema)]
 pub struct Document<'a> {
+    /// The reading, of which only what changes the model matters.
+    pub reading: Reading,
     /// The corrected algorithm, then a fault put back a row.
     pub prices: &'a [Price],
     /// The corrected algorithm with all faults put back, then a repair a row, with those above it; empty
@@ -36,12 +40,17 @@ pub fn json(document: &Document, scene: &Scene) -> String {
 }
 
 /// Reports the prices within an audit, and the way of repairs with its picture where that was asked for.
-pub fn section(prices: &Result<Vec<Price>, String>, repairs: &[Price], scene: &Scene) -> Report {
+pub fn section(
+    reading: Reading,
+    prices: &Result<Vec<Price>, String>,
+    repairs: &[Price],
+    scene: &Scene,
+) -> Report {
     let report = match prices {
-        Ok(prices) => report(&Document { prices, repairs, range: &[] }, scene).deeper(1),
+        Ok(prices) => report(&Document { reading, prices, repairs, range: &[] }, scene).deeper(1),
         Err(why) => Report::default()
             .heading("What the printed faults cost")
-            .line(format!("Not measured here: {why}")),
+            .line(format!("Not measured here: {}", first_line(why))),
     };
     match repairs {
         [] => report,
@@ -52,31 +61,36 @@ pub fn section(prices: &Result<Vec<Price>, String>, repairs: &[Price], scene: &S
 /// Reports the prices: a row for the corrected algorithm and one for each fault; then, where they were
 /// asked for, a row for the print and one for each repair.
 pub fn report(document: &Document, scene: &Scene) -> Report {
-    let Document { prices, repairs, range } = document;
+    let Document { reading, prices, repairs, range } = document;
     let faults = Table::from_rows(prices.iter())
-        .column("finding", |price| price.finding.unwrap_or("-"))
+        .column("finding", |price| price.name.unwrap_or("-"))
         .column("fault put back", |price| price.fault.clone());
     let repaired = || {
         Table::from_rows(repairs.iter().enumerate())
             .column("repairs", |(k, _)| Cell::from(*k))
-            .column("finding repaired", |(_, price)| price.finding.unwrap_or("-"))
+            .column("finding repaired", |(_, price)| price.name.unwrap_or("-"))
             .column("its fault", |(_, price)| price.fault.clone())
     };
     let failures = prices.iter().filter_map(|price| match &price.outcome {
         Outcome::Failure { failure } => {
-            Some(format!("{}: {failure}", price.finding.unwrap_or("corrected")))
+            Some(format!("{}: {failure}", price.name.unwrap_or("corrected")))
         }
         Outcome::Result { .. } => None,
     });
-    let report = Report::titled(format!("What the printed faults cost on {}", scene.name))
-        .line(
-            "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
+    let report = Report::titled(format!(
+        "What the printed faults cost on {}{}",
+        scene.name,
+        under(reading)
+    ))
+    .line(
+        "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
              back. Errors are against the solution without friction, node to segment, in the \
              initial geometry, on the same mesh.",
-        )
-        .table("Each fault alone", outcomes(faults, |price| &price.outcome))
-        .notes(failures)
-        .line(summary(prices));
+    )
+    .table("Each fault alone", outcomes(faults, |price| &price.outcome))
+    .note("C1 and C2 bring the box of C9 with them.")
+    .notes(failures)
+    .line(summary(prices));
     if !range.is_empty() {
         return report.then(over_range(prices, range));
     }
@@ -109,7 +123,7 @@ fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
         .filter(|(_, prices)| unsound(prices).is_none())
         .collect();
     let table = Table::from_rows(own.iter().enumerate().skip(1).filter(|_| !places.is_empty()))
-        .column("finding", |(_, price)| price.finding.unwrap_or("-"))
+        .column("finding", |(_, price)| price.name.unwrap_or("-"))
         .column("fault put back", |(_, price)| price.fault.clone())
         .column("least error in energy, %", |(k, _)| error(least(&places, *k), *k))
         .column("where it is least", |(k, _)| place(least(&places, *k).0))
@@ -181,7 +195,7 @@ fn way(repairs: &[Price]) -> String {
 
 /// Names the repairs behind those that lead to the solution.
 pub(crate) fn not_needed(repairs: &[Price]) -> String {
-    let others: Vec<&str> = repairs.iter().filter_map(|price| price.finding).collect();
+    let others: Vec<&str> = repairs.iter().filter_map(|price| price.name).collect();
     match &others[..] {
         [] => "All are needed.".into(),
         others => format!("Not needed here: {}.", listed(others)),
@@ -200,7 +214,7 @@ pub fn picture(repairs: &[Price]) -> String {
         .iter()
         .enumerate()
         .skip(1)
-        .map(|(k, price)| format!("{k} {}", price.finding.unwrap_or("-")));
+        .map(|(k, price)| format!("{k} {}", price.name.unwrap_or("-")));
     let caption = format!("Repairs, in this order: {}. {}", listed(named), way(repairs));
     let series = Series { name, points, style: Style::Dotted };
     chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
@@ -221,9 +235,9 @@ fn summary(prices: &[Price]) -> String {
 pub fn unsound(prices: &[Price]) -> Option<String> {
     let why = match &prices[0].outcome {
         Outcome::Failure { .. } => "stops on this scene".into(),
-        Outcome::Result { transmitted, .. } if transmitted.abs() <= NOTHING => {
+        Outcome::Result { passes_nothing: true, .. } => {
             return Some(
-                "Under the corrected algorithm too no load reaches the target here".into(),
+                "Under the corrected algorithm too no load passes between the bodies".into(),
             );
         }
         Outcome::Result { period: None | Some(2..), .. } => "does not settle on this scene".into(),
@@ -236,12 +250,9 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
     Some(format!("The corrected algorithm itself {why} ({where_not})"))
 }
 
-/// Returns the findings whose faults have a weight, each once.
+/// Returns the names of the faults that have a weight.
 pub fn of_weight(prices: &[Price], weight: Weight) -> Vec<&'static str> {
-    let mut found: Vec<_> =
-        prices.iter().filter(|p| p.weight == weight).filter_map(|p| p.finding).collect();
-    found.dedup();
-    found
+    prices.iter().filter(|price| price.weight == weight).filter_map(|price| price.name).collect()
 }
 
 /// Says how a run ended.

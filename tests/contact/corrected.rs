@@ -222,7 +222,12 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let roof = roof.build().unwrap();
     let compared = Compared::new(&Request::new(&roof)).unwrap();
     let (prices, repairs) = (compared.prices(&|| ()), compared.repairs(&|| ()));
-    let document = report::prices::Document { prices: &prices, repairs: &repairs, range: &[] };
+    let document = report::prices::Document {
+        reading: Reading::default(),
+        prices: &prices,
+        repairs: &repairs,
+        range: &[],
+    };
     let report = report::prices::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
     let cook = Cook::default().generate().unwrap().build().unwrap();
@@ -230,7 +235,7 @@ fn where_it_does_not_hold_the_prices_say_so() {
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }
 
-/// Where no load reaches the target, none can be lost: no fault is called fatal, and no repair leads to the
+/// Where no load passes, none can be lost: no fault is called fatal, and no repair leads to the
 /// solution.
 #[test]
 fn without_a_load_no_fault_is_weighed() {
@@ -241,7 +246,7 @@ fn without_a_load_no_fault_is_weighed() {
     assert_eq!(prices::needed(&repairs), None);
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let why = report::prices::unsound(&prices).expect("a reason");
-    assert!(why.contains("no load reaches the target"), "{why}");
+    assert!(why.contains("no load passes"), "{why}");
 }
 
 /// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
@@ -257,7 +262,12 @@ fn over_a_range_each_fault_has_its_least_and_its_greatest_cost() {
     let alone = prices::on(&places[0].1, &|| ()).expect("prices");
     let range = prices::over_range(&places, &|| ());
     assert_eq!((range.len(), prices::runs_over(&places)), (2, 2 * prices::runs()));
-    let document = report::prices::Document { prices: &alone, repairs: &[], range: &range };
+    let document = report::prices::Document {
+        reading: Reading::default(),
+        prices: &alone,
+        repairs: &[],
+        range: &range,
+    };
     let report = report::prices::report(&document, &places[0].1.scene).text(usize::MAX);
     let (_, over_range) = report.split_once("Over 2 places of the range").expect("a table");
     let row = |id: &str| {

@@ -95,6 +95,7 @@ fn prices() {
             energy_relative,
             von_mises_relative,
             period,
+            passes_nothing: _,
         } => {
             let settled = match period {
                 Some(1) => String::new(),
@@ -107,7 +108,7 @@ fn prices() {
         }
         Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | -".into(),
     };
-    let named = |price: &Price| format!("{} | {}", price.finding.unwrap_or("-"), price.fault);
+    let named = |price: &Price| format!("{} | {}", price.name.unwrap_or("-"), price.fault);
     let columns = "iterations | contact nodes | load that reaches the block | error in the energy norm | \
                    error of the largest von Mises stress";
     let alone = markdown(
