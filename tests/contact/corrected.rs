@@ -18,7 +18,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::FINDINGS;
-use plane_contact::studies::audit::prices::{self, Compared};
+use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
 use plane_contact::studies::audit::range::{Parameter, ParameterValue};
 use plane_contact::studies::benchmark::{Cook, Hertz};
 
@@ -247,6 +247,23 @@ fn without_a_load_no_fault_is_weighed() {
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let why = report::prices::unsound(&prices).expect("a reason");
     assert!(why.contains("no load passes"), "{why}");
+}
+
+/// On a target whose nodes are held the load passes all the same, and K1 alone is fatal.
+#[test]
+fn on_a_target_that_is_held_the_load_passes() {
+    let mut scene = Scene::open("two-blocks").unwrap();
+    let model = Arc::make_mut(&mut scene.model);
+    let target: Vec<_> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    for dof in target.iter().flat_map(|node| node.dofs()) {
+        model.restrained[dof.index()] = true;
+    }
+    let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
+    let Outcome::Result { transmitted, passes_nothing: false, .. } = prices[0].outcome else {
+        panic!("{:?}", prices[0].outcome)
+    };
+    assert_near("transmitted", transmitted, 1.0, 1.0, &CORRECTED);
+    assert_eq!(report::prices::of_weight(&prices, Weight::Fatal), ["K1"]);
 }
 
 /// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
