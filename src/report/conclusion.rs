@@ -239,8 +239,11 @@ fn strain(body: &BodySummary) -> String {
 
 fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) -> Answer {
     let known = match prices {
-        Ok(prices) => prices::unsound(prices).map_or(Ok(prices), |why| Err(format!("{why}."))),
-        Err(why) => Err(format!("{}.", first_line(why).trim_end_matches('.'))),
+        Ok(prices) => match prices::unsound(prices) {
+            Some(why) => Err(format!("Not decided here: {why}.")),
+            None => Ok(prices),
+        },
+        Err(why) => Err(format!("Not measured here: {}", first_line(why))),
     };
     let shifts = |prices: &[Price]| -> Vec<(usize, f64)> {
         let shifting = prices.iter().enumerate().filter(|(_, p)| p.weight == Weight::Shifts);
@@ -249,7 +252,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
         shifting
     };
     let answer = match &known {
-        Err(why) => format!("Not decided here: {why}"),
+        Err(why) => why.clone(),
         Ok(prices) => {
             let shift = |(k, error): (usize, f64)| {
                 let name = prices[k].name.expect("the corrected algorithm shifts nothing");
