@@ -90,24 +90,26 @@ pub const FAULTS: &[Fault] = &[
 
 impl Fault {
     /// Returns its name: the findings that describe it, and which fault of one it is.
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> String {
         self.heading().0
     }
 
-    /// Says what the fault is, in a sentence, which no other fault has.
+    /// Says what the fault is, in a sentence.
     pub fn words(&self) -> String {
-        self.heading().1.trim_end_matches('.').into()
+        self.heading().1
     }
 
-    /// Returns the findings that describe it.
-    pub fn findings(&self) -> impl Iterator<Item = &'static str> {
-        self.name().split(" and ").filter_map(|name| name.split(' ').next())
+    /// Returns whether a finding describes it.
+    pub fn is_of(&self, finding: &str) -> bool {
+        self.name().split(" and ").any(|name| name.split(' ').next() == Some(finding))
     }
 
-    /// Returns the edit's first line, a remark: name and sentence.
-    fn heading(&self) -> (&'static str, &'static str) {
-        let line = self.edit.lines().next().and_then(|line| line.strip_prefix("# "));
-        line.and_then(|line| line.split_once(": ")).expect("it begins with its finding")
+    /// Returns the reason of its edit: name and sentence.
+    fn heading(&self) -> (String, String) {
+        let reason = self.parsed().reason;
+        let heading = reason.trim_end().trim_end_matches('.').split_once(": ");
+        let (name, words) = heading.expect("it begins with its finding");
+        (name.into(), words.into())
     }
 
     /// Returns the lines of the corrected programs that it replaces, such as `c_cnt 14-15`.

@@ -27,8 +27,8 @@ use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
 use studies::audit::{Assumption, Audit, Compared, FrictionContact};
 
-/// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants side by side, and who sticks and
-/// slides under each coefficient of friction.
+/// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants
+/// side by side, and who sticks and slides under each coefficient of friction.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     opening(audit, conclusion, scene)
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))

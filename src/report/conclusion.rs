@@ -245,35 +245,25 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
         },
         Err(why) => Err(format!("Not measured here: {}", first_line(why))),
     };
-    let shifts = |prices: &[Price]| -> Vec<(usize, f64)> {
-        let shifting = prices.iter().enumerate().filter(|(_, p)| p.weight == Weight::Shifts);
-        let mut shifting: Vec<_> = shifting.map(|(k, price)| (k, price.outcome.error())).collect();
-        shifting.sort_by(|a, b| b.1.total_cmp(&a.1));
-        shifting
-    };
     let answer = match &known {
         Err(why) => why.clone(),
         Ok(prices) => {
-            let shift = |(k, error): (usize, f64)| {
-                let name = prices[k].name.expect("the corrected algorithm shifts nothing");
-                let by = if error < 0.0005 { "under 0.1 %".into() } else { percent(error, 1) };
-                let settles =
-                    if prices[k].outcome.is_settled() { "" } else { " (does not settle)" };
-                format!("{name} by {by}{settles}")
-            };
             format!(
                 "Of the printed faults, each put back alone into the corrected algorithm \
                  (listings/corrected/; C1 and C2 with the box of C9), these are fatal (the run stops, or no \
                  load passes): {}. These shift the solution without friction, in the energy norm: {}. \
                  These cost nothing here: {}. Present here, but no fault that could be put back: {}.",
                 or_none(prices::of_weight(prices, Weight::Fatal)),
-                or_none(shifts(prices).into_iter().map(shift)),
+                or_none(shifts(prices).into_iter().map(|k| shift(&prices[k]))),
                 or_none(prices::of_weight(prices, Weight::Free)),
                 or_none(unpriced)
             )
         }
     };
-    let largest = known.ok().and_then(|prices| shifts(prices).first().copied());
+    let largest = known.ok().and_then(|prices| {
+        let k = *shifts(prices).first()?;
+        Some((k, prices[k].outcome.error()))
+    });
     Answer {
         question: "Which findings matter here?",
         answer,
@@ -283,6 +273,23 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
         command: format!("audit {} --prices --json", scene.name),
         at: largest.map(|(k, _)| format!("/prices/{k}/energy_relative")),
     }
+}
+
+/// Returns the places of the prices that shift the solution, the highest first.
+fn shifts(prices: &[Price]) -> Vec<usize> {
+    let mut shifting: Vec<usize> =
+        (0..prices.len()).filter(|k| prices[*k].weight == Weight::Shifts).collect();
+    shifting.sort_by(|a, b| prices[*b].outcome.error().total_cmp(&prices[*a].outcome.error()));
+    shifting
+}
+
+/// Says by how much a fault shifts the solution.
+fn shift(price: &Price) -> String {
+    let name = price.name.as_deref().expect("the corrected algorithm shifts nothing");
+    let error = price.outcome.error();
+    let by = if error < 0.0005 { "under 0.1 %".into() } else { percent(error, 1) };
+    let settles = if price.outcome.is_settled() { "" } else { " (does not settle)" };
+    format!("{name} by {by}{settles}")
 }
 
 /// Lists words, or says that there are none.

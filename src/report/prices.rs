@@ -63,17 +63,17 @@ pub fn section(
 pub fn report(document: &Document, scene: &Scene) -> Report {
     let Document { reading, prices, repairs, range } = document;
     let faults = Table::from_rows(prices.iter())
-        .column("finding", |price| price.name.unwrap_or("-"))
+        .column("finding", |price| price.name.as_deref().unwrap_or("-"))
         .column("fault put back", |price| price.fault.clone());
     let repaired = || {
         Table::from_rows(repairs.iter().enumerate())
             .column("repairs", |(k, _)| Cell::from(*k))
-            .column("finding repaired", |(_, price)| price.name.unwrap_or("-"))
+            .column("finding repaired", |(_, price)| price.name.as_deref().unwrap_or("-"))
             .column("its fault", |(_, price)| price.fault.clone())
     };
     let failures = prices.iter().filter_map(|price| match &price.outcome {
         Outcome::Failure { failure } => {
-            Some(format!("{}: {failure}", price.name.unwrap_or("corrected")))
+            Some(format!("{}: {failure}", price.name.as_deref().unwrap_or("corrected")))
         }
         Outcome::Result { .. } => None,
     });
@@ -83,9 +83,9 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         under(reading)
     ))
     .line(
-        "The corrected algorithm (listings/corrected/), and the same with one printed fault put \
-             back. Errors are against the solution without friction, node to segment, in the \
-             initial geometry, on the same mesh.",
+        "The corrected algorithm (listings/corrected/), and the same with one printed fault put back. \
+         Errors are against the solution without friction, node to segment, in the initial geometry, on \
+         the same mesh.",
     )
     .table("Each fault alone", outcomes(faults, |price| &price.outcome))
     .note("C1 and C2 bring the box of C9 with them.")
@@ -122,13 +122,15 @@ fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
         .chain(known)
         .filter(|(_, prices)| unsound(prices).is_none())
         .collect();
-    let table = Table::from_rows(own.iter().enumerate().skip(1).filter(|_| !places.is_empty()))
-        .column("finding", |(_, price)| price.name.unwrap_or("-"))
-        .column("fault put back", |(_, price)| price.fault.clone())
-        .column("least error in energy, %", |(k, _)| error(least(&places, *k), *k))
-        .column("where it is least", |(k, _)| place(least(&places, *k).0))
-        .column("greatest error in energy, %", |(k, _)| error(greatest(&places, *k), *k))
-        .column("where it is greatest", |(k, _)| place(greatest(&places, *k).0));
+    let rows = own.iter().enumerate().skip(1);
+    let rows = rows.filter_map(|(k, price)| Some((k, price, extremes(&places, k)?)));
+    let table = Table::from_rows(rows)
+        .column("finding", |(_, price, _)| price.name.as_deref().unwrap_or("-"))
+        .column("fault put back", |(_, price, _)| price.fault.clone())
+        .column("least error in energy, %", |(k, _, [least, _])| error(least, *k))
+        .column("where it is least", |(_, _, [least, _])| place(least.0))
+        .column("greatest error in energy, %", |(k, _, [_, greatest])| error(greatest, *k))
+        .column("where it is greatest", |(_, _, [_, greatest])| place(greatest.0));
     let left_out = range.iter().filter_map(|PricesAt { at, prices }| {
         let why = match prices {
             Ok(prices) => unsound(prices)?,
@@ -140,16 +142,14 @@ fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
     Report::default().table(title, table).notes(left_out)
 }
 
-/// Returns the place where fault `k` costs least, the first of those where it costs the same.
-fn least<'a>(places: &'a [Place<'a>], k: usize) -> &'a Place<'a> {
-    let cost = |(_, prices): &&Place| prices[k].outcome.error();
-    places.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).expect("a place")
-}
-
-/// Returns the place where fault `k` costs most, the first of those where it costs the same.
-fn greatest<'a>(places: &'a [Place<'a>], k: usize) -> &'a Place<'a> {
-    let cost = |(_, prices): &&Place| prices[k].outcome.error();
-    places.iter().rev().max_by(|a, b| cost(a).total_cmp(&cost(b))).expect("a place")
+/// Returns the places where fault `k` costs least and most, each the first of those where it costs the same;
+/// nothing without places.
+fn extremes<'a>(places: &'a [Place<'a>], k: usize) -> Option<[&'a Place<'a>; 2]> {
+    let order = |a: &&Place, b: &&Place| {
+        let [a, b] = [a, b].map(|(_, prices)| prices[k].outcome.error());
+        a.total_cmp(&b)
+    };
+    Some([places.iter().min_by(order)?, places.iter().rev().max_by(order)?])
 }
 
 fn error((_, prices): &Place, k: usize) -> Cell {
@@ -195,7 +195,7 @@ fn way(repairs: &[Price]) -> String {
 
 /// Names the repairs behind those that lead to the solution.
 pub(crate) fn not_needed(repairs: &[Price]) -> String {
-    let others: Vec<&str> = repairs.iter().filter_map(|price| price.name).collect();
+    let others: Vec<&str> = repairs.iter().filter_map(|price| price.name.as_deref()).collect();
     match &others[..] {
         [] => "All are needed.".into(),
         others => format!("Not needed here: {}.", listed(others)),
@@ -214,7 +214,7 @@ pub fn picture(repairs: &[Price]) -> String {
         .iter()
         .enumerate()
         .skip(1)
-        .map(|(k, price)| format!("{k} {}", price.name.unwrap_or("-")));
+        .map(|(k, price)| format!("{k} {}", price.name.as_deref().unwrap_or("-")));
     let caption = format!("Repairs, in this order: {}. {}", listed(named), way(repairs));
     let series = Series { name, points, style: Style::Dotted };
     chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
@@ -233,16 +233,17 @@ fn summary(prices: &[Price]) -> String {
 /// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the
 /// solution, or passes no load on, so that none can be lost. Nothing where they are.
 pub fn unsound(prices: &[Price]) -> Option<String> {
-    let why = match &prices[0].outcome {
+    let corrected = &prices[0].outcome;
+    let why = match corrected {
         Outcome::Failure { .. } => "stops on this scene".into(),
         Outcome::Result { passes_nothing: true, .. } => {
             return Some(
                 "Under the corrected algorithm too no load passes between the bodies".into(),
             );
         }
-        Outcome::Result { period: None | Some(2..), .. } => "does not settle on this scene".into(),
-        Outcome::Result { energy_relative, .. } if *energy_relative > NOTHING => {
-            format!("is {} from the solution on this scene", percent(*energy_relative, 1))
+        Outcome::Result { .. } if !corrected.is_settled() => "does not settle on this scene".into(),
+        Outcome::Result { .. } if corrected.error() > 0.0 => {
+            format!("is {} from the solution on this scene", percent(corrected.error(), 1))
         }
         Outcome::Result { .. } => return None,
     };
@@ -251,8 +252,9 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
 }
 
 /// Returns the names of the faults that have a weight.
-pub fn of_weight(prices: &[Price], weight: Weight) -> Vec<&'static str> {
-    prices.iter().filter(|price| price.weight == weight).filter_map(|price| price.name).collect()
+pub fn of_weight(prices: &[Price], weight: Weight) -> Vec<&str> {
+    let own = prices.iter().filter(|price| price.weight == weight);
+    own.filter_map(|price| price.name.as_deref()).collect()
 }
 
 /// Says how a run ended.

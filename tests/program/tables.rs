@@ -108,7 +108,8 @@ fn prices() {
         }
         Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | -".into(),
     };
-    let named = |price: &Price| format!("{} | {}", price.name.unwrap_or("-"), price.fault);
+    let named =
+        |price: &Price| format!("{} | {}", price.name.as_deref().unwrap_or("-"), price.fault);
     let columns = "iterations | contact nodes | load that reaches the block | error in the energy norm | \
                    error of the largest von Mises stress";
     let alone = markdown(

@@ -124,10 +124,10 @@ pub fn junit(checked: &[VerifiedFile]) -> String {
 fn suite(checked: &VerifiedFile) -> Element {
     let runs = checked.runs();
     let alone = match &checked.verified {
-        Err(why) => Some(
-            Element::with_text("error", &why.to_string())
-                .set("message", first_line(&why.to_string())),
-        ),
+        Err(why) => {
+            let why = why.to_string();
+            Some(Element::with_text("error", &why).set("message", first_line(&why)))
+        }
         Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
         Ok(_) => None,
     };

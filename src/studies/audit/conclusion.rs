@@ -198,7 +198,7 @@ fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
 
 /// Returns the findings that are present, and that no fault puts back into the corrected algorithm.
 fn unpriced(findings: &[(&'static Finding, Evidence)]) -> Vec<&'static str> {
-    let is_priced = |id| FAULTS.iter().any(|fault| fault.findings().any(|own| own == id));
+    let is_priced = |id| FAULTS.iter().any(|fault| fault.is_of(id));
     let present = findings.iter().filter(|(_, measured)| measured.verdict == Verdict::Present);
     present.map(|(finding, _)| finding.id).filter(|id| !is_priced(*id)).collect()
 }

@@ -40,7 +40,7 @@ pub struct Price {
     /// The finding whose fault was put back, or repaired; nothing for the run before the first.
     pub finding: Option<&'static str>,
     /// Its name: all findings that describe the fault, and which of one finding's faults it is.
-    pub name: Option<&'static str>,
+    pub name: Option<String>,
     /// The fault, in words.
     pub fault: String,
     /// What it does: of a repair, what those do that are left.
@@ -167,9 +167,7 @@ impl Compared {
             let before = std::mem::replace(&mut outcome, outcomes.swap_remove(least));
             repaired.push(price(Some(&FAULTS[left[least]]), before));
         }
-        let fault = "all are put back".into();
-        let print = Price { finding: None, name: None, fault, weight: outcome.weight(), outcome };
-        repaired.push(print);
+        repaired.push(Price { fault: "all are put back".into(), ..price(None, outcome) });
         repaired.reverse();
         repaired
     }
@@ -185,7 +183,7 @@ impl Compared {
         let edits: Vec<&str> = faults.map(|fault| fault.edit).collect();
         match iterate(model, Bound::Normal, &edits, STEPS) {
             Ok(ending) if ending.u.iter().all(|x| x.abs() <= self.farthest()) => {
-                result(&self.exact, &self.stiffness, &ending)
+                self.result(&ending)
             }
             Ok(_) => {
                 let failure = "a body is free to move: it moves by more than the size of the model, and a \
@@ -193,6 +191,33 @@ impl Compared {
                 Outcome::Failure { failure: failure.into() }
             }
             Err(failure) => Outcome::Failure { failure: failure.to_string() },
+        }
+    }
+
+    fn result(&self, ending: &Ending) -> Outcome {
+        let Compared { exact, stiffness } = self;
+        let model = &*exact.model;
+        let u = DVector::from_column_slice(&ending.u);
+        let [error, scale] = [&(&u - &exact.u), &exact.u].map(|u| stiffness.energy_norm(u));
+        let states = stiffness.states(&u);
+        let change = |triangles: &[TriangleId]| {
+            let own = triangles.iter().map(|id| states[id.index()].von_mises_stress);
+            let exact = triangles.iter().map(|id| exact.elements[id.index()].von_mises_stress);
+            let [own, exact] = [own.fold(0.0, f64::max), exact.fold(0.0, f64::max)];
+            over(own - exact, exact)
+        };
+        let changes = model.bodies.iter().map(|body| change(&body.triangles));
+        let [own, known] = [&u, &exact.u].map(|u| stiffness.times(u) - &model.load);
+        let largest = pressed(model, &known).max(model.load.amax());
+        Outcome::Result {
+            iterations: ending.iterations,
+            period: ending.period,
+            in_contact: ending.in_contact.len(),
+            passes_nothing: pressed(model, &own) <= NOTHING * largest,
+            transmitted: transmitted(model, &own),
+            energy_relative: over(error, scale),
+            von_mises_relative: changes
+                .fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a }),
         }
     }
 }
@@ -254,33 +279,10 @@ pub fn needed(repairs: &[Price]) -> Option<usize> {
     (needed < repairs.len()).then_some(needed)
 }
 
-fn result(exact: &Solution, stiffness: &Stiffness, ending: &Ending) -> Outcome {
-    let model = &*exact.model;
-    let u = DVector::from_column_slice(&ending.u);
-    let [error, scale] = [&(&u - &exact.u), &exact.u].map(|u| stiffness.energy_norm(u));
-    let states = stiffness.states(&u);
-    let change = |triangles: &[TriangleId]| {
-        let own = triangles.iter().map(|id| states[id.index()].von_mises_stress);
-        let exact = triangles.iter().map(|id| exact.elements[id.index()].von_mises_stress);
-        let [own, exact] = [own.fold(0.0, f64::max), exact.fold(0.0, f64::max)];
-        over(own - exact, exact)
-    };
-    let changes = model.bodies.iter().map(|body| change(&body.triangles));
-    let [own, known] = [&u, &exact.u].map(|u| stiffness.times(u) - &model.load);
-    let pressed = |forces: &DVector<f64>| {
-        let free = free_dofs(model, &contact_nodes(model));
-        free.into_iter().map(|dof| forces[dof.index()].abs()).fold(0.0, f64::max)
-    };
-    let least = NOTHING * pressed(&known).max(model.load.amax());
-    Outcome::Result {
-        iterations: ending.iterations,
-        period: ending.period,
-        in_contact: ending.in_contact.len(),
-        passes_nothing: pressed(&own) <= least,
-        transmitted: transmitted(model, &own),
-        energy_relative: over(error, scale),
-        von_mises_relative: changes.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a }),
-    }
+/// Returns the largest component of the forces of contact on a contact node that is free.
+fn pressed(model: &Model, forces: &DVector<f64>) -> f64 {
+    let free = free_dofs(model, &contact_nodes(model));
+    free.into_iter().map(|dof| forces[dof.index()].abs()).fold(0.0, f64::max)
 }
 
 fn contact_nodes(model: &Model) -> BTreeSet<NodeId> {

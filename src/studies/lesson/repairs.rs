@@ -37,12 +37,12 @@ impl Repairs {
     /// Returns the faults that are left after some repairs, in the order of [`FAULTS`].
     pub fn left(&self, repairs: usize) -> impl Iterator<Item = &'static Fault> {
         let later = &self.rows[repairs + 1..];
-        FAULTS.iter().filter(|fault| later.iter().any(|row| row.fault == fault.words()))
+        FAULTS.iter().filter(|fault| later.iter().any(|row| row.name == Some(fault.name())))
     }
 
     /// Returns the fault that is repaired last of some; nothing before the first, and where all are repaired.
     pub fn last(&self, repairs: usize) -> Option<&'static Fault> {
         let row = self.rows[..=self.needed].get(repairs)?;
-        FAULTS.iter().find(|fault| row.fault == fault.words())
+        FAULTS.iter().find(|fault| row.name == Some(fault.name()))
     }
 }
