@@ -19,7 +19,7 @@ macro_rules! choices {
     ($(#[$doc:meta])* $name:ident {
         $($(#[doc = $vdoc:literal])* $variant:ident = $text:literal),+ $(,)?
     }) => {
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
         $(#[$doc])*
         pub enum $name { $($(#[doc = $vdoc])* #[serde(rename = $text)] $variant),+ }
 

@@ -10,7 +10,6 @@ mod listing;
 mod mathcad;
 mod report;
 mod scene;
-mod schema;
 mod snapshot;
 mod solve;
 mod sweep;
@@ -58,7 +57,6 @@ pub enum Command {
     Snapshot(snapshot::Command),
     #[command(subcommand)]
     Scene(scene::Command),
-    Schema(schema::Args),
 }
 
 impl Command {
@@ -78,7 +76,6 @@ impl Command {
             Command::Mathcad(command) => mathcad::run(&command),
             Command::Snapshot(command) => snapshot::run(&command),
             Command::Scene(command) => scene::run(&command).map(done),
-            Command::Schema(args) => schema::run(&args).map(done),
         }
     }
 }
@@ -89,7 +86,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Audit and teach", &["audit", "report", "lesson"]),
     ("Listings and Mathcad", &["listing", "mathcad"]),
     ("Snapshots", &["snapshot"]),
-    ("Scenes and files", &["scene", "schema"]),
+    ("Scenes", &["scene"]),
 ];
 
 /// Returns the list of the commands by group, each with what it does.

@@ -7,7 +7,6 @@
 //! one has already settled does not count. Where none is left to rounding, exact arithmetic takes
 //! the same turns.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distance::finite;
@@ -22,7 +21,7 @@ use paper::mirror::{
 use problem::model::NodeId;
 
 /// A decision on who is in contact that rounding may have taken.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The iteration, from 1.
     pub iteration: usize,

@@ -1,7 +1,6 @@
 //! The distance of a run from another solution on the same mesh: the reference solution, or the
 //! equilibrium under the scene's own friction.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::quantities::summaries;
@@ -9,24 +8,22 @@ use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
 
 /// The differences between a run and the solution compared with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
     /// The largest difference of a node's displacement, length.
     pub displacement: f64,
     /// That difference over the largest displacement of the solution compared with.
     #[serde(deserialize_with = "or_nan")]
-    #[schemars(with = "Option<f64>")]
     pub displacement_relative: f64,
     /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution compared with.
     #[serde(deserialize_with = "or_nan")]
-    #[schemars(with = "Option<f64>")]
     pub energy_relative: f64,
     /// The largest stresses of each body, in the model's order.
     pub bodies: Vec<BodyDistance>,
 }
 
 /// A body's largest von Mises stress beside that of the solution compared with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyDistance {
     /// The name of the body.
     pub name: String,
@@ -36,7 +33,6 @@ pub struct BodyDistance {
     pub reference: f64,
     /// The difference of the two over that of the solution compared with.
     #[serde(deserialize_with = "or_nan")]
-    #[schemars(with = "Option<f64>")]
     pub relative: f64,
 }
 

@@ -10,7 +10,6 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{Pairing, Surfaces, arcs};
@@ -29,7 +28,7 @@ const SHALLOW: f64 = 0.3;
 const FEWEST: usize = 3;
 
 /// Hertz's contact of two cylinders along a line.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hertz {
     /// The relative radius of the two surfaces, length.
     pub radius: f64,

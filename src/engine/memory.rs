@@ -1,6 +1,5 @@
 //! The memory that a run takes, foreseen: what `plan` prints, and what a large run is refused by.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::published::bytes_of_iterations;
@@ -9,7 +8,7 @@ use problem::model::Model;
 use problem::modelling::{Coupling, Friction, Geometry, Variant};
 
 /// Peak memory of the process, bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bytes {
     /// The program and its libraries.
     pub program: f64,

@@ -2,7 +2,6 @@
 //! it.
 
 use nalgebra::{DVector, SVector, Vector3};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::search::Segment;
@@ -23,7 +22,7 @@ use problem::model::{Body, Model, TriangleId};
 const NEAR: f64 = 1e-8;
 
 /// What a run says of a point of a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
     /// The point in the undeformed shape, length.
     pub at: [f64; 2],
@@ -42,7 +41,7 @@ pub struct Probe {
 }
 
 /// A number at a point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeValue {
     /// What it is: `u_x`, `sigma_x`, `epsilon_x`, ...
     pub name: String,

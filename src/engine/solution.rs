@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use dashu_ratio::RBig;
 use nalgebra::DVector;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, Pairing, ROUNDING_OF_A_FORCE, Status};
@@ -183,7 +182,7 @@ impl Unilateral {
 }
 
 /// The path of the load at the end of which a solution under friction stands.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Path {
     /// The number of equal steps of a stage's load.
     pub steps: usize,
@@ -199,7 +198,7 @@ pub struct Path {
 }
 
 /// How a path starts, before any load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
     /// Restraints, and the contact nodes that touch the target, hold the bodies.
@@ -215,7 +214,7 @@ pub enum Start {
 }
 
 /// An equilibrium beside the one that was found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OtherEquilibrium {
     /// The part of the path at the end of the step that could end in it; whole numbers end stages.
     pub load: f64,
@@ -228,7 +227,7 @@ pub struct OtherEquilibrium {
 }
 
 /// What is known of other equilibria under the same load.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Uniqueness {
     /// No other equilibrium exists: the problem is convex and contact holds the bodies.
@@ -335,7 +334,7 @@ impl Step {
 }
 
 /// The return of an earlier contact state.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cycle {
     /// The number of steps since the state last occurred; 1 means that it did not change.
     pub length: usize,
@@ -374,7 +373,7 @@ pub struct Solution {
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// The path of the load; None without friction, where it has no effect.
     pub path: Option<Path>,

@@ -14,6 +14,7 @@ use base::error::{InputError, Result};
 use base::plain::six_digits;
 
 choices! {
+    #[derive(schemars::JsonSchema)]
     /// A variant: how the contact pairs enter the equations, and what load an iteration carries.
     Variant {
         /// Eq. (1) on increments, the shape updated after each of equal steps of the load.
@@ -112,6 +113,7 @@ impl<'de> Deserialize<'de> for Friction {
 }
 
 choices! {
+    #[derive(schemars::JsonSchema)]
     /// The shape in which `unilateral` measures normals, weights and gaps.
     Geometry {
         /// The one that is reached.
@@ -132,6 +134,7 @@ impl Geometry {
 }
 
 choices! {
+    #[derive(schemars::JsonSchema)]
     /// The method that binds a contact node to the target surface.
     Coupling {
         /// Node to segment, which has two master nodes, those of one edge, as in `c_cnt`.
@@ -142,6 +145,7 @@ choices! {
 }
 
 choices! {
+    #[derive(schemars::JsonSchema)]
     /// The rule that decides the status of a contact node.
     StatusRule {
         /// Lines 16 to 18 of `c_cnt` as printed.

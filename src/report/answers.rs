@@ -1,6 +1,5 @@
 //! The marks of answers to exercises, for people and for machines.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
@@ -71,13 +70,13 @@ pub fn report(marked: &[MarkedAnswers]) -> Report {
 }
 
 /// The marks of files of answers.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     answers: Vec<Row<'a>>,
 }
 
 /// The marks of a file of answers.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct Row<'a> {
     file: &'a str,
     student: &'a str,

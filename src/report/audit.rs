@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims;
@@ -247,7 +246,7 @@ fn tenth(x: f64) -> String {
 }
 
 /// The audit of a scene as JSON.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     scene: &'a str,
     /// The conclusion in words.
@@ -269,7 +268,7 @@ pub struct Document<'a> {
 }
 
 /// A finding on a scene.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct FindingRow {
     id: &'static str,
     /// `c_cnt`, `Km`, or `-` where it is the iterations'.

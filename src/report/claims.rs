@@ -1,6 +1,5 @@
 //! The register of claims.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
@@ -51,7 +50,7 @@ pub fn report(
 }
 
 /// One claim on a scene.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     /// The claim and its verdict.
     #[serde(flatten)]

@@ -3,7 +3,6 @@
 
 use std::fmt::Display;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::layout::{counted, first_line, listed};
@@ -23,7 +22,7 @@ use studies::trade::{Approach, Limit};
 const NOTICEABLE: f64 = 0.01;
 
 /// An answer of the conclusion.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Answer {
     /// One of the five questions.
     pub question: &'static str,

@@ -1,6 +1,5 @@
 //! What came of a program in the notation of the listings, as JSON.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -8,7 +7,7 @@ use super::json;
 use mathcad::{self, Failure, Outcome};
 
 /// What came of a program.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 #[serde(untagged)]
 #[expect(missing_docs, reason = "the type of JSON document has a form for each end of a program")]
 pub enum Document<'a> {
@@ -25,7 +24,7 @@ pub enum Document<'a> {
 }
 
 /// Why a program failed, and where.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct ErrorRow<'a> {
     cause: String,
     /// The function.

@@ -1,6 +1,5 @@
 //! Stability at the extremes, for people, for machines and as a picture.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
@@ -9,7 +8,7 @@ use super::picture::{Axis, SERIES, Series, Style, chart};
 use studies::extremes::{Break, Column, Generator, SweepTable, Verdict};
 
 /// The content of `extremes.json`: a row for each generator.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     rows: &'a [SweepTable],
 }

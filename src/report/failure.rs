@@ -1,13 +1,12 @@
 //! A failure as JSON.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
 use engine::error::{self, Error};
 
 /// Why a command ended without a result.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Failure {
     /// The exit status: 2 the input is at fault, 3 the published algorithm fails as printed, 4 no
     /// equilibrium, or several.
@@ -19,7 +18,7 @@ pub struct Failure {
 }
 
 /// Who is to blame, and for what.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 enum Cause {
     /// The input breaks a condition: what, where, and how to fix it.
@@ -46,7 +45,7 @@ enum Cause {
 }
 
 /// The document of a command that ended without a result.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Failed {
     failure: Failure,
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -13,7 +12,7 @@ use paper::mirror::Pairs;
 use problem::scene::{Scene, Units};
 
 /// A document that a command prints or writes: its own value, and around it what it says of itself.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<Own> {
     /// The version of the format.
     format: u32,
@@ -29,7 +28,7 @@ pub struct Document<Own> {
 }
 
 /// What a document on a scene says of it.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct OnScene {
     /// The names of the scene's units, each empty where the scene names none.
     pub units: Units,
@@ -209,7 +208,7 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
 }
 
 /// What one call of `c_cnt` found.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Found {
     /// The `elem` number of each contact node's target edge, 0 = none.
     ct: Vec<usize>,

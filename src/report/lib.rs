@@ -15,7 +15,7 @@
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
-//! | `evaluation`, `failure`, `json`, `schema`          | JSON, and what is in it                |
+//! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
 //! | `matrix_market`, `output`                          | other files                            |
 //! | `sweep`                                            | job files of engines                   |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
@@ -56,7 +56,6 @@ pub mod prices;
 pub mod quantities;
 mod result_file;
 pub mod scenes;
-pub mod schema;
 pub mod snapshot;
 pub mod statuses;
 pub mod sweep;

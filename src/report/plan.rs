@@ -1,6 +1,5 @@
 //! The plan of a run, for people and for machines.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json;
@@ -55,7 +54,7 @@ pub fn report(plan: &Plan, units: &Units, free: Option<u128>) -> Report {
 }
 
 /// The plan as JSON.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     #[serde(flatten)]
     plan: &'a Plan,

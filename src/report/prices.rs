@@ -1,6 +1,5 @@
 //! What the printed faults cost, for people and for machines.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims::under;
@@ -20,7 +19,7 @@ pub(crate) const ORDER: &str = "The order is found from the end: \
     leaves the least error. The last to be put back is the first to be repaired.";
 
 /// The document that `audit --prices --json` prints.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     /// The reading, of which only what changes the model matters.
     pub reading: Reading,

@@ -1,6 +1,5 @@
 //! The quantities of a result as columns of a table and as arrays of numbers, and the page of all.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -33,7 +32,7 @@ impl Array {
 }
 
 /// A measured value, as it stands in a file.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum MeasuredValue {
     /// One number.

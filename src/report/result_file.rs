@@ -1,6 +1,5 @@
 //! `result.json`: everything that a machine needs of a run, written and read back.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{json, plan};
@@ -29,7 +28,7 @@ pub const MOST_TRIANGLES: usize = 20_000;
 
 /// The content of `result.json`. Lengths, stresses and forces are in the units of the scene. Every
 /// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultFile {
     /// The version of the format.
     pub format: u32,
@@ -124,14 +123,14 @@ pub struct ResultFile {
 }
 
 /// A listing that stood in place of one of the paper's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EditedListing {
     pub listing: Which,
     pub sha256: String,
 }
 
 /// The stresses and strains of a triangle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElementRow {
     /// Its number, from 1: its row of `EL`.
     pub n: usize,

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -335,7 +334,7 @@ fn row(value: &Json, shown: &TraceOptions) -> String {
 }
 
 /// A trace as JSON.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     #[serde(flatten)]
     executed: Executed<'a>,
@@ -346,7 +345,7 @@ pub struct Document<'a> {
 }
 
 /// What is executed.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct Executed<'a> {
     scene: &'a str,
     /// `c_cnt` or `Km`.
@@ -354,7 +353,7 @@ struct Executed<'a> {
 }
 
 /// What the listing came to.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct End<'a> {
     /// What the listing's own `trace` wrote.
     trace: &'a [String],
@@ -365,7 +364,7 @@ struct End<'a> {
 }
 
 /// A statement as it was executed.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct StepRow<'a> {
     /// The turn of the outer loop, from 1; null outside it.
     turn: Option<usize>,
@@ -385,7 +384,7 @@ impl<'a> StepRow<'a> {
 
 /// What a listing computes: of `c_cnt` the pairs, of `Km` the entries of MJS that are not 0, each
 /// with its row and its column, from 1, force/length.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 #[serde(untagged)]
 enum Computed {
     Pairs(Found),

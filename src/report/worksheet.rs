@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -71,7 +70,7 @@ fn summary(regions: &[ExecutedRegion]) -> String {
 }
 
 /// A worksheet that was executed, as JSON.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     file: &'a str,
     regions: Vec<RegionRow<'a>>,
@@ -80,7 +79,7 @@ pub struct Document<'a> {
 }
 
 /// A region as it was executed.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct RegionRow<'a> {
     region: &'a str,
     tag: &'a str,
@@ -96,7 +95,7 @@ struct RegionRow<'a> {
 }
 
 /// How a region compares with what Mathcad saved.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 enum VerdictRow<'a> {
     #[serde(rename = "nothing saved")]
@@ -127,7 +126,7 @@ enum VerdictRow<'a> {
 }
 
 /// A question, and what Mathcad's results say to it.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct Question<'a> {
     question: &'a str,
     decides: &'a str,

@@ -50,7 +50,7 @@ mod recorded;
 mod result_file;
 mod scene_builder;
 mod scenes;
-mod schemas;
+mod schema;
 mod sentences;
 mod snapshots;
 mod soak;

@@ -208,7 +208,6 @@ const TEXTS: &[&str] = &[
     "mathcad run w.xmcd",
     "lesson fig1",
     "report fig1 --no-audit --variant tied",
-    "schema",
     "solve nosuch",
     "solve fig1 --varient x",
     "snapshot verify fact.txt",

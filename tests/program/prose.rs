@@ -19,7 +19,7 @@ const GIVEN: &[(&str, &str)] = &[
     ("The listing of fig. 3", "a figure of the paper"),
     ("The listing of fig. 2", "a figure of the paper"),
     ("the paper makes 20", "the paper's number of iterations"),
-    ("iterations of the paper's variants | 20", "a default, in `golden/schema`"),
+    ("iterations of the paper's variants | 20", "a default of `iterations`"),
     ("| thickness | 1 |", "as above"),
     ("under friction | 16 |", "as above"),
     ("sections 4 and 5", "sections of the page on how the listings are read"),

@@ -43,7 +43,7 @@ const COMMANDS: &[&str] = &[
     "mathcad export fig1 --to mathcad --out fig1.xmcd",
     "compare fig1 --ccx false",
     "extremes --list",
-    "schema scene",
+    "scene schema",
     "solve nosuch",
 ];
 

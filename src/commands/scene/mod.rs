@@ -6,10 +6,11 @@ mod key;
 mod list;
 mod mesh;
 mod plan;
+mod schema;
 
 use plane_contact::engine::error::Result;
 
-/// List, copy, mesh, plan, or export a scene, or print its key.
+/// List, copy, mesh, plan, or export a scene, or print its key or the schema of scene files.
 #[derive(clap::Subcommand)]
 #[command(after_help = "\
 Examples:
@@ -25,6 +26,7 @@ pub enum Command {
     Plan(plan::Args),
     Export(export::Args),
     Key(key::Args),
+    Schema(schema::Args),
 }
 
 /// Runs the command.
@@ -36,5 +38,6 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Plan(args) => plan::run(args),
         Command::Export(args) => export::run(args),
         Command::Key(args) => key::run(args),
+        Command::Schema(_) => schema::run(),
     }
 }

@@ -13,7 +13,6 @@
 
 use std::fmt;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::search::{dot, minus};
@@ -85,7 +84,7 @@ pub(super) fn unit<T: Scalar>(v: [T; 2]) -> [T; 2] {
 }
 
 /// The status of a contact node under `unilateral`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// It is not in contact.
@@ -98,7 +97,7 @@ pub enum Status {
 }
 
 /// The sense in which a node slides along the tangent, which is the normal turned left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Sense {
     /// Along the tangent.
     #[serde(rename = "slip+")]

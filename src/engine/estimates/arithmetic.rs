@@ -9,7 +9,6 @@
 
 use nalgebra::{DVector, SVector};
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::factors::StateFactors;
@@ -42,7 +41,7 @@ pub struct Rounding {
 }
 
 /// Whether rounding decides who is in contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Certainty {
     /// It decides nothing.

@@ -17,7 +17,6 @@ mod singular;
 pub mod ties;
 
 use nalgebra::DVector;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distance::finite;
@@ -41,7 +40,7 @@ pub struct Estimates {
 }
 
 /// How far the numbers of a run may be from the truth; nothing where that is not known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimates {
     /// What rounding may do to a displacement, length.
     pub displacement_arithmetic: Option<f64>,
@@ -59,7 +58,7 @@ pub struct ErrorEstimates {
 }
 
 /// How far a body's largest von Mises stress may be from the truth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyEstimates {
     /// The name of the body.
     pub name: String,
@@ -79,7 +78,7 @@ pub struct BodyEstimates {
 }
 
 /// A point of a body where the stress grows without limit as the mesh is refined.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NoLimit {
     /// The node that stands there; of contact, that of the contact surface.
     pub node: NodeId,

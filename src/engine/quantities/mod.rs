@@ -18,7 +18,6 @@
 mod places;
 mod value;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactPlace, Status};
@@ -74,7 +73,7 @@ macro_rules! quantities {
         }
     ) => {
         $(#[$doc])*
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         pub struct $name {
             $(#[doc = $meaning] $(#[serde(rename = $file)])? $(#[$meta])* pub $field: $type),+
         }
@@ -195,7 +194,6 @@ quantities! {
         arc: f64 = at.arc, "arc" ["s"] Length,
             "The distance from the first contact node along the undeformed contact surface.";
         #[serde(with = "as_number")]
-        #[schemars(with = "u8", range(max = 1))]
         in_contact in files "dy": bool = at.in_contact, "in contact" ["dy"] None,
             "Whether it is in contact by the variant's own rule: 1 or 0.";
         gap: f64 = at.gap, "gap" ["g"] Length,

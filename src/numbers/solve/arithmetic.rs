@@ -1,6 +1,5 @@
 //! The scalar and the solver that are asked for.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use base::choices;
@@ -130,7 +129,7 @@ impl Solver {
 }
 
 /// In which numbers, by which solver, and to which tolerance a run computes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,

@@ -4,7 +4,7 @@ use super::ordering::{Tree, order, places};
 use super::symmetric::Pattern;
 
 /// The size of the factors of a sparse matrix, without its numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct FactorSize {
     /// The number of equations.
     pub equations: usize,

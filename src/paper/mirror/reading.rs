@@ -4,7 +4,6 @@
 //! reading, the worksheet's settings, the trials of `audit`, the switches of `lesson` and
 //! `listings/READING.md`, section 4 all follow from it.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ambiguity::{Ambiguity, Change, DefaultFrom, Trial, Value, field, values};
@@ -244,7 +243,7 @@ pub const READINGS: [Ambiguity; 10] = [
 
 /// A choice for each ambiguity of the print (`listings/READING.md`, section 4). The scene and the
 /// variant set R6 and R7 unless the reading does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub struct Reading {
     /// R1: the place of the weights loop.

@@ -19,6 +19,7 @@ mod mesh;
 mod orphans;
 mod refine;
 mod scene_file;
+mod schema;
 mod source;
 pub mod surface;
 pub mod symmetry;
@@ -39,6 +40,7 @@ pub use hashes::{sha256, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
+pub use schema::schema;
 pub use source::FileBeside;
 pub use surface::Surface;
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Compared, WORST};
@@ -77,7 +76,7 @@ pub fn json(compared: &Compared) -> String {
 }
 
 /// The content of `compare.json`.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     scene: &'a str,
     title: &'a str,
@@ -98,7 +97,7 @@ pub struct Document<'a> {
 }
 
 /// How the bodies touch in the deck.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 enum ContactRow {
     /// The same linear systems: the number of equations.
@@ -108,7 +107,7 @@ enum ContactRow {
 }
 
 /// The largest difference, and the root of the mean of the squares of all.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct Differences<Place> {
     largest: Largest<Place>,
     rms: f64,
@@ -121,7 +120,7 @@ impl<Place: Copy> From<&Difference<Place>> for Differences<Place> {
 }
 
 /// The displacements of a node, length.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct NodeRow {
     n: NodeId,
     u: [f64; 2],
@@ -130,7 +129,7 @@ struct NodeRow {
 }
 
 /// The values of a triangle by both programs, and the largest difference of a stress.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct ElementRow {
     n: TriangleId,
     difference: f64,

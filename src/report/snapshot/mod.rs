@@ -3,7 +3,6 @@
 mod field;
 mod words;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use field::difference_files;
@@ -157,7 +156,7 @@ fn test_case(name: &str) -> Element {
 }
 
 /// What verifying found, as JSON.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 pub struct Document<'a> {
     /// Whether something was compared in every file, and nothing differs.
     same: bool,
@@ -165,7 +164,7 @@ pub struct Document<'a> {
 }
 
 /// What verifying a file found.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct FileRow<'a> {
     file: &'a str,
     same: bool,
@@ -177,7 +176,7 @@ struct FileRow<'a> {
 }
 
 /// What verifying a run found.
-#[derive(Serialize, JsonSchema)]
+#[derive(Serialize)]
 struct RunRow<'a> {
     run: &'a str,
     same: bool,

@@ -1,13 +1,12 @@
 //! What the paper does not give, and what a scene has in its place.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
 /// A thing that the paper leaves open.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Assumption {
     /// What is assumed.
     pub what: &'static str,

@@ -1,7 +1,6 @@
 //! The conclusion of an audit: five questions about the printed algorithm on a scene, and the facts
 //! that answer them. The sentences are made of these in the report.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
@@ -16,7 +15,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 
 /// What an audit concludes.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Conclusion {
     /// The reading under which the scene was audited.
     pub reading: Reading,
@@ -39,7 +38,7 @@ pub struct Conclusion {
 }
 
 /// Whether Km joins the bodies, and what passes between them.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Coupled {
     /// Entries of MJS that join two bodies; nothing where no node comes in contact.
     pub joins: Option<usize>,
@@ -50,7 +49,7 @@ pub struct Coupled {
 }
 
 /// A run under a reading, and its distance from the equilibrium.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Nearest {
     /// The variant that was run.
     pub variant: Variant,
@@ -67,7 +66,7 @@ pub struct Nearest {
 }
 
 /// The largest von Mises stress and strain of each body, under the nearest variant and in equilibrium.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Fields {
     /// The nearest of the paper's variants; nothing where none ran.
     pub variant: Option<Variant>,
@@ -82,7 +81,7 @@ pub struct Fields {
 }
 
 /// The error of the paper's algorithm over the range of what the paper leaves open.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Spread {
     /// The places of the range.
     pub places: usize,

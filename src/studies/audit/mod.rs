@@ -13,7 +13,6 @@ pub mod trace;
 pub mod variants;
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use assumptions::{Assumption, assumptions};
@@ -59,7 +58,7 @@ pub struct Audit {
 pub const FRICTION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, f64::INFINITY];
 
 /// The contact under a coefficient of friction.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct FrictionContact {
     /// The coefficient.
     pub friction: Friction,
@@ -68,7 +67,7 @@ pub struct FrictionContact {
 }
 
 /// A solution that others are compared with, in short.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Compared {
     /// How contact was modelled.
     pub model: ContactModel,

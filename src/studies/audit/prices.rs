@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Case;
@@ -35,7 +34,7 @@ choices! {
 }
 
 /// A run of the corrected algorithm, with faults.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Price {
     /// The finding whose fault was put back, or repaired; nothing for the run before the first.
     pub finding: Option<&'static str>,
@@ -51,7 +50,7 @@ pub struct Price {
 }
 
 /// What came of a run of the corrected algorithm.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum Outcome {
     /// It has a result.
@@ -239,7 +238,7 @@ pub fn on(case: &Case, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, String> 
 }
 
 /// The prices at a place of the range of what the paper leaves open.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct PricesAt {
     /// The place.
     pub at: ParameterValue,

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Case;
@@ -77,7 +76,7 @@ fn decimal(length: f64) -> f64 {
 }
 
 /// A parameter at one of its values.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ParameterValue {
     /// The parameter.
     pub parameter: Parameter,

@@ -1,7 +1,6 @@
 //! The ambiguities of the print, one by one: what each other value of a reading changes on a scene.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
@@ -16,7 +15,7 @@ use problem::element;
 use problem::modelling::Variant;
 
 /// What another value of a reading changes on a scene.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Effect {
     /// The ambiguity's name, `R1` to `R10`.
     pub id: &'static str,

@@ -1,7 +1,6 @@
 //! What a listing reads and writes as it runs, line by line, by contact node (`c_cnt`) or by
 //! element (`Km`).
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -52,7 +51,7 @@ pub struct Step {
 }
 
 /// A value that was read or written.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Access {
     /// The name, with the subscripts of an entry: `ct[3]`.
     pub name: String,

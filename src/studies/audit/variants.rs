@@ -1,7 +1,6 @@
 //! The variants side by side.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::case::Case;
@@ -12,7 +11,7 @@ use problem::model::NodeId;
 use problem::modelling::Variant;
 
 /// A variant and what came of its run.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct VariantRow {
     /// The variant.
     pub variant: Variant,
@@ -24,7 +23,7 @@ pub struct VariantRow {
 }
 
 /// What came of the run of a variant.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each of four variants")]
 pub enum End {
@@ -63,7 +62,7 @@ pub enum End {
 }
 
 /// How deep the deepest contact node is inside the target at the end of a run.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Penetration {
     /// The node.
     pub node: NodeId,
@@ -72,7 +71,6 @@ pub struct Penetration {
     /// Length; 0 where none is inside by more than rounding.
     pub depth: f64,
     /// The depth over the largest displacement of the target.
-    #[schemars(with = "Option<f64>")]
     pub relative: f64,
 }
 

@@ -22,7 +22,6 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use base::choices;
@@ -49,7 +48,7 @@ choices! {
 }
 
 /// What a closed form gives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ClosedForm {
     /// Whose it is.
     pub author: Author,

@@ -1,6 +1,5 @@
 //! The differences between two results of one model.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fields::Fields;
@@ -34,7 +33,7 @@ pub struct Difference<Place> {
 }
 
 /// The largest difference, where it is, and against what: every share is of CalculiX's value.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Largest<Place> {
     /// Where it is.
     pub at: Place,
@@ -47,7 +46,7 @@ pub struct Largest<Place> {
 }
 
 /// The stresses of a body by both programs.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct BodyStress {
     /// The name of the body.
     pub name: String,

@@ -1,7 +1,6 @@
 //! A magnitude swept, and where something breaks down.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::answer::Exacts;
@@ -71,7 +70,7 @@ impl Method {
 }
 
 /// What the methods made of the scenes of a generator.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct SweepTable {
     /// The generator's name.
     pub name: &'static str,
@@ -90,7 +89,7 @@ pub struct SweepTable {
 }
 
 /// The verdicts on a method.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Column {
     /// The method's name: variant or remedy, and scalar.
     pub name: String,
@@ -105,7 +104,7 @@ pub struct Column {
 }
 
 /// Where a method breaks down.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Break {
     /// Power of ten, bisected to half a decade.
     pub exponent: f64,

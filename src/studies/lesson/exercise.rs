@@ -4,7 +4,6 @@
 mod drawn;
 
 use fastrand::Rng;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use base::error::{InputError, Result};
@@ -33,7 +32,7 @@ pub struct Exercise {
 
 /// What `c_cnt` finds of a contact node, or what a student says of it; nothing where he says
 /// nothing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
     /// The number of the contact node.
@@ -47,7 +46,7 @@ pub struct Answer {
 }
 
 /// The answers of a student, as the page of an exercise exports them.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answers {
     /// [`ANSWERS`].
@@ -63,7 +62,7 @@ pub struct Answers {
 }
 
 /// A value that was asked for: what was said, and what the listing finds.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mark {
     /// The number of the contact node.
     pub node: usize,

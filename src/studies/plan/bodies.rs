@@ -1,6 +1,5 @@
 //! The bodies of a scene, and which of them nothing can move.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use base::choices;
@@ -22,7 +21,7 @@ choices! {
 }
 
 /// A body of a planned run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyPlan {
     /// The body's name.
     pub name: String,

@@ -9,7 +9,6 @@
 //!     +-------------+
 //! ```
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use engine::contact::search::Segment;
@@ -21,7 +20,7 @@ pub const MARGIN: f64 = 0.5;
 
 /// Contact nodes and target edges, and the pairs of them that can come together from the initial
 /// shape.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidates {
     pub nodes: usize,
     pub edges: usize,

@@ -3,7 +3,6 @@
 //! Counted: operations of the factorisations, numbers in the matrices. Measured, on meshes of 13 to
 //! 481,570 nodes, and stated as constants: what a node, a triangle, an entry takes besides.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::candidates::Candidates;
@@ -28,7 +27,7 @@ pub(super) struct Work<'a> {
     pub candidates: Option<&'a Candidates>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cost {
     /// Dense 2R x 2R matrices of `f64` in memory at once: what is compared with the free memory.
     pub dense_matrices: usize,

@@ -11,7 +11,6 @@ mod bodies;
 mod candidates;
 mod cost;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use bodies::{BodyPlan, Idle};
@@ -44,7 +43,7 @@ choices! {
 }
 
 /// What a run will take.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
     /// The name of the scene.
     pub scene: String,
@@ -85,7 +84,7 @@ pub struct Plan {
 }
 
 /// The numbers of equations of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Equations {
     /// Number of all equations, 2R.
     pub all: usize,
@@ -101,7 +100,7 @@ pub struct Equations {
 }
 
 /// The left half of a symmetric scene.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HalfPlan {
     /// Where the line of symmetry stands: x, length.
     pub at: f64,
@@ -110,7 +109,7 @@ pub struct HalfPlan {
 }
 
 /// How contact is modelled, and who can come into contact.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactPlan {
     /// How a node is bound to the target; `printed`: by `Km` as printed.
     pub coupling: Coupling,

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use indexmap::IndexMap;
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -13,7 +12,7 @@ use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
 
 /// A difference between two runs.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
     /// The name of the entry.
     pub entry: String,
@@ -23,7 +22,7 @@ pub struct Difference {
 }
 
 /// What differs.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "`was` is the old run's and `is` the new one's")]
 pub enum Kind {
@@ -44,8 +43,7 @@ pub enum Kind {
 }
 
 /// The number that differs most, in multiples of its tolerance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(inline)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Worst {
     /// The number of the node or triangle, or the place in the list, from 1.
     pub at: f64,

@@ -1,6 +1,5 @@
 //! Why two runs differ: the first difference along the order of computation, and its cause.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -49,7 +48,7 @@ pub struct Side<'a> {
 }
 
 /// A difference of what went into two runs.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cause {
     /// What kind of cause it is.
     pub class: Class,
@@ -62,7 +61,7 @@ pub struct Cause {
 }
 
 /// The reason why two runs differ.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
     /// What kind of cause comes first.
     pub class: Class,

@@ -12,7 +12,7 @@ use paper::mirror::{and, is_jumped_after, is_jumped_before, is_near};
 use problem::modelling::StatusRule;
 
 /// The place in a run where two runs go different ways.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Flip {
     /// The iteration, from 1.
     pub iteration: usize,

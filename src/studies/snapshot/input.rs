@@ -1,13 +1,12 @@
 //! The input of a run: a scene's description and mesh, whole, each with its SHA-256.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use base::error::{InputError, Result};
 use problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, source_hashes};
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
     /// The name of the scene.

@@ -15,7 +15,6 @@ mod accept;
 mod compare;
 mod expected;
 mod explain;
-mod facts;
 mod flip;
 mod input;
 mod numbers;
@@ -24,11 +23,10 @@ mod place;
 mod record;
 mod verify;
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 
 use indexmap::IndexMap;
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -54,7 +52,7 @@ pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
 
 /// What a scene gives, by runs under different options. Lengths, stresses and forces are in the units
 /// of the scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Snapshot {
     /// The version of the format.
@@ -66,7 +64,6 @@ pub struct Snapshot {
     /// The scene and its mesh, whole.
     pub input: Input,
     /// The runs by name.
-    #[schemars(with = "BTreeMap<String, Run>")]
     pub runs: IndexMap<String, Run>,
     /// What was accepted since, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -74,7 +71,7 @@ pub struct Snapshot {
 }
 
 /// A run: what it was asked for and what came of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
     /// What was asked for in place of what the scene says.
@@ -84,10 +81,8 @@ pub struct Run {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub only: Option<Vec<String>>,
     /// What is the same or not.
-    #[schemars(schema_with = "facts::schema")]
     pub facts: IndexMap<String, Value>,
     /// What is the same within bounds.
-    #[schemars(with = "BTreeMap<String, Numbers>", extend("propertyNames" = place::names()))]
     pub numbers: IndexMap<String, Numbers>,
     /// Numbers that a user expects, with their origin.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

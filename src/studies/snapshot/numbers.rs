@@ -1,16 +1,14 @@
 //! Numbers of a run, each array with the bound on the rounding error of its numbers.
 
-use std::borrow::Cow;
 use std::fmt;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 /// The tolerance of numbers without a bound on their error, relative to the largest of the array.
 pub const WITHOUT_BOUND: f64 = 1e-9;
 
 /// An array of numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Numbers {
     /// The unit, empty where the scene names none.
@@ -30,7 +28,7 @@ pub struct Numbers {
 }
 
 /// The numbers of an array.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Values {
     /// A number for each place.
@@ -49,7 +47,7 @@ pub struct Row {
 
 /// A float; in a file null stands for one that is not finite, and reads back as NaN. Two that are not
 /// finite are equal.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(from = "Option<f64>", into = "Option<f64>")]
 pub struct Number(pub f64);
 
@@ -81,22 +79,6 @@ impl From<Number> for Option<f64> {
     }
 }
 
-impl JsonSchema for Row {
-    fn schema_name() -> Cow<'static, str> {
-        "Row".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": "array",
-            "description": "The number of a node or a triangle, then its values.",
-            "prefixItems": [{ "type": "integer", "minimum": 1 }],
-            "items": generator.subschema_for::<Number>(),
-            "minItems": 2,
-        })
-    }
-}
-
 impl From<Vec<Number>> for Row {
     fn from(numbers: Vec<Number>) -> Self {
         let (label, values) = match numbers.split_first() {
@@ -116,21 +98,17 @@ impl From<Row> for Vec<serde_json::Value> {
 }
 
 /// The tolerance of a comparison: whatever it names suffices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Parts")]
-#[schemars(!try_from, deny_unknown_fields, extend("minProperties" = 1))]
 pub struct Tolerance {
     /// A number, in the unit of what is compared.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
     pub absolute: Option<f64>,
     /// A part of the largest number of the array.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
     pub relative: Option<f64>,
     /// A number of units in the last place of the number itself.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
     pub ulps: Option<f64>,
 }
 

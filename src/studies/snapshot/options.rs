@@ -1,6 +1,5 @@
 //! The options of a run: what is asked for in place of what the scene says.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use engine::Request;
@@ -10,7 +9,7 @@ use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule,
 use problem::scene::Scene;
 
 /// The options of a run, each absent where the scene or the program decides.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// The variant that is run.
@@ -24,7 +23,6 @@ pub struct Options {
     pub c_tll: Option<f64>,
     /// The readings that differ from the default, as on the command line.
     #[serde(skip_serializing_if = "is_default", with = "as_text")]
-    #[schemars(with = "String")]
     pub reading: Reading,
     /// The coupling of a contact node to the target.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -5,7 +5,6 @@
 //!    worksheet              iterations                                        end
 //! ```
 
-use serde_json::{Value, json};
 
 /// What is recorded before the first iteration.
 const WORKSHEET: &[&str] = &["cnt", "trg", "c_tll", "restrained", "load"];
@@ -49,13 +48,6 @@ pub fn of_iteration(k: usize, quantity: &str) -> String {
 pub fn iteration(entry: &str) -> Option<(usize, &str)> {
     let (k, quantity) = entry.strip_prefix("iteration ")?.split_once(' ')?;
     Some((k.parse().ok()?, quantity))
-}
-
-/// Returns the JSON Schema of the names of entries.
-pub fn names() -> Value {
-    let (start, end) = (WORKSHEET.join("|"), [END_FACTS, FIELDS].concat().join("|"));
-    let pattern = format!("^({start}|iteration [1-9][0-9]* ({})|{end})$", ITERATION.join("|"));
-    json!({ "pattern": pattern })
 }
 
 /// Returns the place of an entry; one of an unknown name comes last.

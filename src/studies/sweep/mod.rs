@@ -11,5 +11,5 @@ mod row;
 mod spec;
 
 pub use document::{Document, key_of};
-pub use row::{Row, crashed, row, row_schema};
+pub use row::{Row, crashed, row};
 pub use spec::{Cases, Sweep};

@@ -1,6 +1,5 @@
 //! The row of a case: what came of it, flat, for a data frame.
 
-use schemars::{Schema, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::document::Document;
@@ -24,45 +23,6 @@ pub fn row(document: Result<Document>) -> Row {
 /// Returns the row of a case whose process ended before it had one; `why` says how.
 pub fn crashed(status: Option<i32>, why: &str) -> Row {
     failed(status.map_or(-1, i64::from), &format!("the process crashed: {why}"))
-}
-
-/// Returns the JSON Schema of a line of a sweep: case and key, what takes turns by pointer, and the
-/// row.
-pub fn row_schema() -> Schema {
-    let solved = [
-        "iterations",
-        "in_contact",
-        "cycle",
-        "max_displacement",
-        "target_force",
-        "max_pressure",
-        "min_gap",
-    ];
-    json_schema!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "type": "object",
-        "required": ["case", "key", "exit_status", "error"],
-        "properties": {
-            "case": { "type": "integer", "minimum": 0 },
-            "key": { "type": "string", "pattern": "^[0-9a-f]{64}$" },
-            "exit_status": { "type": "integer" },
-            "error": { "type": ["string", "null"] },
-            "iterations": { "type": "integer", "minimum": 1 },
-            "in_contact": { "type": "integer", "minimum": 0 },
-            "cycle": { "type": ["integer", "null"], "minimum": 1 },
-            "max_displacement": { "type": "number" },
-            "target_force": { "type": "number" },
-            "max_pressure": { "type": ["number", "null"] },
-            "min_gap": { "type": ["number", "null"] }
-        },
-        "patternProperties": {
-            "^/": { "type": ["number", "string", "boolean", "null"] },
-            "^max_(von_mises_stress|von_mises_strain|displacement) ": { "type": "number" }
-        },
-        "additionalProperties": false,
-        "if": { "properties": { "exit_status": { "const": 0 } } },
-        "then": { "required": solved }
-    })
 }
 
 fn failed(status: i64, why: &str) -> Row {

@@ -1,15 +1,11 @@
 //! The file of a sweep: what is run, and which values take turns.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Number, Value};
 
 use super::document::{Document, SWEEP};
-use crate::benchmark::Kind;
-use crate::snapshot::Options;
 use base::error::{InputError, Result};
 use base::files::json;
 use problem::scene::SceneFile;
@@ -23,7 +19,7 @@ const MOST_CASES: usize = 10_000_000;
 /// A sweep: a scene or a generator, options, and the values that take turns, by JSON pointer
 /// (RFC 6901) into the document of a case: `/scene/contact/c_tll`, `/options/variant`,
 /// `/generate/n`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
     /// The version of the format.
@@ -34,48 +30,26 @@ pub struct Sweep {
     /// The generator in place of a scene: its `kind`, and its parameters by the names of their
     /// options.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
-    #[schemars(schema_with = "parameters")]
     pub generate: Map<String, Value>,
     /// Options of every case, as a snapshot has them.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
-    #[schemars(with = "Options")]
     pub options: Map<String, Value>,
     /// Values by pointer; every combination is a case, the last pointer varying fastest.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
-    #[schemars(with = "BTreeMap<Pointer, Values>")]
     pub grid: Map<String, Value>,
     /// Cases by their values; with a grid each of them takes every combination of the grid.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(with = "Vec<BTreeMap<Pointer, Value>>")]
     pub list: Vec<Map<String, Value>>,
 }
 
-/// A JSON pointer into the document of a case.
-#[derive(JsonSchema)]
-#[schemars(inline)]
-#[expect(dead_code, reason = "a schema alone: it is made of the type, not of a value")]
-struct Pointer(#[schemars(regex(pattern = "^/(scene|options|generate)/"))] String);
-
-/// Returns the JSON Schema of a generator: its kind, and parameters that are numbers or words.
-fn parameters(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({
-        "type": "object",
-        "required": ["kind"],
-        "properties": { "kind": { "enum": Kind::names() } },
-        "additionalProperties": { "type": ["number", "string"] }
-    })
-}
-
 /// The values of a pointer in a grid: a list, or equal steps from one number to another.
-#[derive(JsonSchema)]
-#[schemars(untagged)]
 pub enum Values {
     List(Vec<Value>),
     Steps(Steps),
 }
 
 /// Equal steps, or with `log` equal factors, from one number to another.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Steps {
     from: f64,

@@ -1,7 +1,6 @@
 //! How far one solution is from another, on the same mesh, on a coarser one or on half of it.
 
 use nalgebra::DVector;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::trials::Setting;
@@ -10,16 +9,13 @@ use engine::{Solution, distance};
 use problem::scene::{Refined, Scene, symmetry};
 
 /// Differences relative to the solution that is compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Errors {
     /// Largest difference of a node's displacement over the largest displacement.
-    #[schemars(with = "Option<f64>")]
     pub displacement: f64,
     /// Energy norm of the difference over that of the solution compared with.
-    #[schemars(with = "Option<f64>")]
     pub energy: f64,
     /// Largest difference of a body's largest von Mises stress, over that of the solution compared with.
-    #[schemars(with = "Option<f64>")]
     pub von_mises: f64,
 }
 

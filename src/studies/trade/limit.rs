@@ -2,7 +2,6 @@
 //! presses, and stresses converge.
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Varied;
@@ -13,7 +12,7 @@ use engine::{Request, Solution, over, solve, summaries};
 use problem::scene::Units;
 
 /// What meshes with true arcs tend to, and what the scene's own mesh misses of it.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Limit {
     /// The radii of the stamp's arc and of the duct's wall, length.
     pub radii: [f64; 2],
@@ -29,24 +28,21 @@ pub struct Limit {
 }
 
 /// How a quantity approaches its limit.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Approach {
     /// What approaches its limit.
     pub quantity: String,
     /// The unit of its values; empty where the scene names none.
     pub unit: String,
     /// On the scene's own mesh; nothing of a half width where pressures do not fall from the middle.
-    #[schemars(with = "Option<f64>")]
     pub own: f64,
     /// On each mesh with true arcs, as on the own one.
-    #[schemars(with = "Vec<Option<f64>>")]
     pub values: Vec<f64>,
     /// p, where differences fall as 2^-p from mesh to mesh; nothing where they do not.
     pub order: Option<f64>,
     /// Where they lead to; nothing without an order.
     pub limit: Option<f64>,
     /// By how much the own mesh misses the limit, or without one the finest mesh, over that.
-    #[schemars(with = "Option<f64>")]
     pub missed: f64,
 }
 

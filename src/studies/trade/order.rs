@@ -14,11 +14,10 @@
 //! can do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
 //! bodies' surfaces meet otherwise on each mesh: [`departure`] measures by how much.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 /// An order of convergence and its fit.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Order {
     /// The quantity whose error it is.
     pub quantity: &'static str,

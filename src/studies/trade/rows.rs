@@ -1,6 +1,5 @@
 //! The tables that a measurement fills.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Varied;
@@ -14,7 +13,7 @@ use numbers::solve::Arithmetic;
 use problem::modelling::Variant;
 
 /// Speed against accuracy on a scene.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Trade {
     /// The name of the scene.
     pub scene: String,
@@ -29,7 +28,7 @@ pub struct Trade {
 }
 
 /// The trials of a parameter.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Section {
     /// The parameter.
     pub parameter: Varied,
@@ -58,18 +57,17 @@ pub struct Section {
 }
 
 /// What a ladder of meshes, each of half the element size of the one before, tells of each of them.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Ladder {
     /// The error of each mesh in the energy norm as `solve` estimates it from that mesh alone,
     /// relative; infinite where unknown.
-    #[schemars(with = "Vec<Option<f64>>")]
     pub estimates: Vec<f64>,
     /// How far the squares of differences are from adding up; nothing of two meshes.
     pub departure: Option<f64>,
 }
 
 /// What was measured of a trial. Times and peaks are this machine's.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Where the parameter stood, in words.
     #[serde(rename = "setting")]

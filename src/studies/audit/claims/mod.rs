@@ -11,7 +11,6 @@ mod register;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use register::CLAIMS;
@@ -26,7 +25,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 
 /// Something that the paper says.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Claim {
     /// Its name: P1, P2, ...
     pub id: &'static str,
@@ -128,7 +127,7 @@ choices! {
 type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 
 /// A verdict, the number that the claim names, and what else is to be said.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Evidence {
     /// The verdict.
     pub verdict: Verdict,
@@ -156,7 +155,7 @@ impl Evidence {
 }
 
 /// A claim with its verdict on a scene and over the range.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct JudgedClaim {
     /// The claim.
     #[serde(flatten)]
@@ -179,7 +178,7 @@ pub struct JudgedClaim {
 }
 
 /// A verdict at a place of the range.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Elsewhere {
     /// The parameter and its value.
     #[serde(flatten)]
@@ -190,7 +189,7 @@ pub struct Elsewhere {
 }
 
 /// The verdicts where the paper is read otherwise.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct UnderReading {
     /// The value of the reading, such as `R8 = m`, or the scene's own variant, such as `variant printed`.
     pub reading: String,
@@ -199,7 +198,7 @@ pub struct UnderReading {
 }
 
 /// A claim, and what a scene says of it.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ClaimVerdict {
     /// The claim's name.
     pub id: &'static str,

@@ -14,7 +14,6 @@ mod weights;
 
 pub use register::FINDINGS;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Case;
@@ -46,7 +45,7 @@ pub struct Finding {
 }
 
 /// The repair of a finding.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Repair {
     /// An edit of a listing.

@@ -14,7 +14,6 @@ mod counted;
 mod drawn;
 
 use fastrand::Rng;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use counted::{Counted, counting};
@@ -37,7 +36,7 @@ const DEPTH: f64 = 4.0;
 const WEIGHTS: u64 = 12;
 
 /// What was measured, in numbers that the seed determines.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measurement {
     /// How many scenes were drawn.
     pub scenes: usize,
@@ -52,7 +51,7 @@ pub struct Measurement {
 }
 
 /// The scenes of one kind, together.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// The number of target edges.
     pub edges: usize,
@@ -69,7 +68,7 @@ pub struct Row {
 }
 
 /// What a status rule made of the contact nodes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
     /// The rule.
     pub rule: StatusRule,
