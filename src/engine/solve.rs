@@ -160,11 +160,11 @@ fn dense_bytes(request: &Request, arithmetic: Arithmetic) -> Option<f64> {
 /// Returns the scalar that tells whether rounding is at fault: exact numbers where they end in a
 /// moment.
 fn more_precise(request: &Request) -> Option<ScalarName> {
-    /// The seconds of a moment.
-    const MOMENT: f64 = 2.0;
+    /// The free equations whose exact solutions end in a moment.
+    const FEW: usize = 50;
     let growing = request.reading.r5.follows_the_shape();
-    let equations = request.scene.model.free_dofs();
-    let exact = cost::seconds(equations, growing, request.iterations) <= MOMENT;
+    let most = cost::most_equations(growing, request.iterations).min(FEW);
+    let exact = request.scene.model.free_dofs() <= most;
     let more = if exact { ScalarName::Exact } else { ScalarName::F64x2 };
     (request.variant != Variant::Unilateral).then_some(more)
 }
