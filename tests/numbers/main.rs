@@ -7,7 +7,6 @@ mod common {
     pub mod json;
     pub mod outcome;
     pub mod random;
-    pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -21,7 +20,6 @@ mod error_estimates;
 mod extremes;
 mod largest;
 mod precisions;
-mod recorded;
 mod scalars;
 mod singular;
 mod solvers;

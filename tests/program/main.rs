@@ -10,7 +10,6 @@ mod common {
     pub mod json;
     pub mod program;
     pub mod random;
-    pub mod recorded;
     pub mod recovery;
     pub mod tolerances;
     pub mod tools;
@@ -46,7 +45,6 @@ mod printed_numbers;
 mod processors;
 mod prose;
 mod quantities;
-mod recorded;
 mod result_file;
 mod scene_builder;
 mod scenes;
