@@ -355,9 +355,4 @@ tolerances! {
     EXTREME_DECADES = 1.0,
         "half a digit more or less moves the point where three are left by half a decade; it is \
          bisected to half of one, and rounded";
-
-    /// A picture of a page against the golden one, the mean difference of its channels over their
-    /// range.
-    PICTURE = 0.02,
-        "letters of another font or version of the browser; a panel that is missing is 0.05";
 }

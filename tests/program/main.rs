@@ -2,7 +2,6 @@
 
 #[path = "../common"]
 mod common {
-    pub mod draws;
     pub mod embedded;
     pub mod fitted_hertz;
     pub mod golden;
@@ -42,14 +41,12 @@ mod pictures;
 mod plan;
 mod printed;
 mod printed_numbers;
-mod processors;
 mod prose;
 mod quantities;
 mod result_file;
 mod scene_builder;
 mod scenes;
 mod schema;
-mod sentences;
 mod snapshots;
 mod soak;
 mod sweeps;
