@@ -48,7 +48,6 @@ mod scene_builder;
 mod scenes;
 mod schema;
 mod snapshots;
-mod soak;
 mod sweeps;
 mod tables;
 mod texts;
