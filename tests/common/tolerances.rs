@@ -16,8 +16,7 @@ macro_rules! tolerances {
     };
 }
 
-/// Every test program has the whole table, and so checks it. Those that no test uses are found by
-/// `tests/numbers/tolerances.rs`.
+/// Every test program has the whole table, and so checks it.
 const _: () = {
     let mut row = 0;
     while row < TABLE.len() {

@@ -24,4 +24,3 @@ mod scalars;
 mod singular;
 mod solvers;
 mod systems;
-mod tolerances;
