@@ -364,7 +364,8 @@ fn every_folder_is_a_findings() {
         .collect();
     assert_eq!(folders, FINDINGS.iter().map(|f| f.id.to_string()).collect());
     for id in folders {
-        assert!(std::fs::exists(format!("{folder}/{id}/README.md")).unwrap(), "{id}");
+        let file = "README.md";
+        assert!(std::fs::exists(format!("{folder}/{id}/{file}")).unwrap(), "{id}/{file}");
     }
 }
 
