@@ -30,7 +30,6 @@ mod limits;
 mod orders;
 mod page_iterations;
 mod quadratic_programme;
-mod recorded;
 mod searched;
 mod status;
 mod ties;
