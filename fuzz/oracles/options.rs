@@ -45,13 +45,12 @@ fn reads_back<T: FromStr<Err = String> + Display + Debug + PartialEq>(line: &str
     }
 }
 
-/// The scalar, the solver, the tolerance and the inputs that a line names are refused, or sound.
+/// The scalar, the solver and the inputs that a line names are refused, or sound.
 fn arithmetic(line: &str) {
     let mut read = Arithmetic::default();
     for word in line.split([' ', '=']) {
         word.parse().into_iter().for_each(|scalar| read.scalar = scalar);
         word.parse().into_iter().for_each(|solver| read.solver = Some(solver));
-        word.parse().into_iter().for_each(|tol| read.tol = Some(tol));
         word.parse().into_iter().for_each(|inputs| read.inputs = inputs);
     }
     if let Err(error) = read.check() {

@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use plane_contact::engine::Session;
 use plane_contact::engine::estimates::{Certainty, certain};
 use plane_contact::input::{Friction, Variant};
 use plane_contact::report::comparison::{self, Compared};
@@ -14,7 +13,7 @@ use super::sound;
 static OURS: LazyLock<(Solution, Certainty)> = LazyLock::new(|| {
     let scene = Scene::open("two-blocks").expect("an embedded scene");
     let request = Request::new(&scene).variant(Variant::Tied);
-    certain(solve(&request, &mut |_| ()).expect("it runs"), &Session::default())
+    certain(solve(&request, &mut |_| ()).expect("it runs"))
 });
 
 pub fn hold(data: &[u8]) {

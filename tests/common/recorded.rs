@@ -17,14 +17,8 @@ pub const RECORDED_GEOMETRIES: [Geometry; 2] = [Geometry::Current, Geometry::Ini
 pub const RECORDED_RULES: [StatusRule; 3] =
     [StatusRule::Signs, StatusRule::Intersection, StatusRule::Projection];
 pub const RECORDED_INPUTS: [Inputs; 2] = [Inputs::Binary, Inputs::Decimal];
-pub const RECORDED_SOLVERS: [Solver; 6] = [
-    Solver::DenseLu,
-    Solver::SparseLu,
-    Solver::DenseCholesky,
-    Solver::SparseCholesky,
-    Solver::Cg,
-    Solver::Refined,
-];
+pub const RECORDED_SOLVERS: [Solver; 3] =
+    [Solver::DenseLu, Solver::SparseLu, Solver::SparseCholesky];
 
 /// Compares `text` with `golden/recorded/<name>.snap`; `cargo insta review` (or INSTA_UPDATE=always)
 /// changes it. A float is a word with a point in it; behind `~` stands a bound, which may differ more.

@@ -16,14 +16,12 @@ mod common {
 
 mod calculix;
 mod calculix_files;
-mod condensed;
 mod corners;
 mod corrected;
 mod drawn;
 mod faced;
 mod facing;
 mod friction;
-mod gaps;
 mod hard;
 mod invariance;
 mod limits;

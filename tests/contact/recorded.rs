@@ -10,7 +10,7 @@ use plane_contact::Error;
 use plane_contact::engine::contact::Pairing;
 use plane_contact::engine::estimates::arithmetic::rounding;
 use plane_contact::engine::estimates::singular;
-use plane_contact::engine::{Assessment, Detail, Published, Request, Session, Solution, solve};
+use plane_contact::engine::{Assessment, Detail, Published, Request, Solution, solve};
 use plane_contact::numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use plane_contact::paper::mirror::{Reading, Schedule};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
@@ -127,7 +127,7 @@ fn arithmetic(rng: &mut Rng, variant: Variant) -> Arithmetic {
         _ => one_of(rng, &[F64, F64, F64, F64x2, Bounded, BoundedDouble, Exact]),
     };
     let asked = Some(one_of(rng, &RECORDED_SOLVERS)).filter(|_| rng.bool());
-    let of = |solver| Arithmetic { scalar, solver, inputs: Inputs::default(), tol: None };
+    let of = |solver| Arithmetic { scalar, solver, inputs: Inputs::default() };
     let is_offered = variant != Variant::Unilateral && of(asked).check().is_ok();
     Arithmetic { inputs: one_of(rng, &RECORDED_INPUTS), ..of(asked.filter(|_| is_offered)) }
 }
@@ -175,9 +175,9 @@ fn run(rng: &mut Rng, bodies: &Bodies) -> String {
 /// fields of.
 fn fields(request: &Request) -> Result<BTreeMap<String, String>, Error> {
     let solution = solve(request, &mut |_| ())?;
-    let mut assessment = Assessment::new(&solution, &Session::default());
+    let mut assessment = Assessment::new(&solution);
     let nodes = &solution.model.nodes;
-    assessment.probe(&solution, &Session::default(), &[nodes[0], nodes[nodes.len() - 1]])?;
+    assessment.probe(&solution, &[nodes[0], nodes[nodes.len() - 1]])?;
     let result = ResultFile::new(&solution, &assessment, None);
     let document = serde_json::to_value(&result).expect("a result is JSON");
     let mut folded = BTreeMap::new();
@@ -219,7 +219,7 @@ fn beside(solution: &Solution, assessment: &Assessment) -> Value {
             "undetermined": own.undetermined,
         }),
     });
-    let rounding = rounding(solution, &Session::default());
+    let rounding = rounding(solution);
     let steps_bounds = rounding.steps.iter().flatten();
     let bounds =
         steps_bounds.map(|b| json!({ "yt_bound": b.yt, "u_bound": b.u, "w_bound": b.weights }));

@@ -2,15 +2,10 @@
 //! that little holds, under strong friction and several stages, and with surfaces of many nodes.
 
 use std::fmt::Write;
-use std::sync::Arc;
 
 use fastrand::Rng;
 use plane_contact::engine::contact::{Sense, Status};
-use plane_contact::engine::{
-    Detail, Request, Solution, Unilateral, Uniqueness, kept_equations, solve,
-};
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::Model;
+use plane_contact::engine::{Detail, Request, Solution, Unilateral, Uniqueness, solve};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 use serde_json::json;
@@ -86,7 +81,6 @@ fn of(solution: &Solution, watched: usize) -> String {
     let fields = json!({
         "all": all,
         "cycles": cycles,
-        "factors": if solution.kept.is_some() { "condensed" } else { "whole" },
         "feedback": own.iter().map(|own| own.feedback).collect::<Vec<_>>(),
         "forces": forces,
         "rubs": own[own.len() - 1].friction(solution.u.len()).as_slice(),
@@ -305,7 +299,7 @@ fn units_change_nothing_of_a_search() {
     }
 }
 
-/// Surfaces of many nodes, which are not all kept where the bodies are condensed: a round or a wavy
+/// Surfaces of many nodes: a round or a wavy
 /// one over a flat one, clamped, guided or hinged.
 fn many(rng: &mut Rng) -> (SceneBuilder, ContactModel) {
     let (below, above) = (rng.usize(30..60), rng.usize(36..70));
@@ -418,49 +412,6 @@ fn the_force_on_the_target_is_what_contact_passes_on() {
             assert!((force - 2.0).abs() < 1e-11, "{force} under {load}");
         }
     }
-}
-
-/// Bodies that share what was factored are solved as if each were alone.
-#[test]
-fn what_was_factored_serves_the_same_bodies_alone() {
-    let (bodies, model) = on_the_left(0.0, 0.3, &[(9, [0.5, 0.0])]);
-    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
-    let changes: [fn(&mut Model); 5] = [
-        |model| model.plane = Plane::Stress,
-        |model| model.thickness *= 2.0,
-        |model| model.restrained[8 * 2 + 1] = true,
-        |model| model.nodes[9][0] += 0.25,
-        |model| model.triangles.swap(0, 1),
-    ];
-    let digest = |solution: &Solution| {
-        let steps = solution.steps.iter();
-        steps.map(|step| (step.max_displacement, step.target_force)).collect::<Vec<_>>()
-    };
-    for change in changes {
-        let mut request = Request::new(&scene);
-        solve(&request, &mut |_| ()).expect("it rests");
-        let mut other = scene.clone();
-        change(Arc::make_mut(&mut other.model));
-        let alone = solve(&Request::new(&other), &mut |_| ()).expect("it rests");
-        request.scene = other;
-        let shared = solve(&request, &mut |_| ()).expect("it rests");
-        assert_eq!(digest(&shared), digest(&alone));
-    }
-}
-
-/// Of surfaces of up to 64 nodes all are kept, of larger ones those near the contact: a tenth more
-/// than the nodes that come to it, eight on either side, on both surfaces.
-#[test]
-fn the_equations_that_are_kept_are_those_near_the_contact() {
-    let (bodies, model) = on_the_left(0.0, 0.0, &[]);
-    let scene = bodies.modelled(&Writing::default(), model).build().expect("a sound scene");
-    assert_eq!(kept_equations(&scene.model, 1), 8);
-    let (scene, _) = many(&mut Rng::with_seed(MANY[0]));
-    let large = scene.build().expect("a sound scene").model;
-    let kept = [0, 1, 9, 10, 20, 100].map(|near| kept_equations(&large, near));
-    let surfaces = large.contact.nodes.len() + large.contact.target.len() + 1;
-    let all = 2 * surfaces;
-    assert_eq!(kept, [64, 68, 100, 108, 152, 504].map(|kept| all.min(kept)));
 }
 
 /// Why a search ended is told with the part of the load that it had come to.

@@ -167,7 +167,7 @@ fn steps_that_are_far_from_other_decisions() {
         let stiffness = bounded(&solution.model);
         let mut is_far = |k: usize, margin: f64, shared: bool, displacement: f64| {
             let mut step = solution.last().clone();
-            (step.k, step.max_displacement) = (k, Some(displacement));
+            (step.k, step.max_displacement) = (k, displacement);
             let own = own(&mut step);
             (own.margin, own.undetermined[0]) = (margin, shared);
             solution.steps = vec![step];

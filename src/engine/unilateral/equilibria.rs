@@ -73,7 +73,7 @@ pub(super) fn uniqueness(
 
 fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
     let load = problem.load(step.to);
-    Setting { load, before: &step.before, statuses: None, whole: false }
+    Setting { load, before: &step.before, statuses: None }
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing

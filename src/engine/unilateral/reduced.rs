@@ -1,146 +1,68 @@
-//! The bodies under imposed statuses: on the condensed bodies alone, or by the reduced equations
-//! Tᵀ K T q = f of the whole ones.
+//! The bodies under imposed statuses: the equations Tᵀ K T q = f, factored.
 
-use std::rc::Rc;
-
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::problem::Problem;
 use crate::elimination::{Constraint, Elimination};
-use crate::fast::condensation::{Eliminated, Interior, KeptState, WholeFactors, refined};
-use numbers::solve::{Normed, Singular, SparseCholesky};
+use crate::refinement::refined;
+use numbers::solve::{Singular, SparseCholesky};
 
-/// What the bodies under imposed statuses do under a load.
-pub(super) trait Response {
-    /// Returns the displacements by degree of freedom, length, from those of its own equations, and what
-    /// gives those inside the bodies where its equations have none of them and they are 0.
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>);
-
-    /// Returns K u − f by degree of freedom, force, for displacements of its own, which is that of contact
-    /// on the equations that contact can bind.
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64>;
-
-    /// Returns the same for the displacements under another load, on the contact surface alone, without
-    /// the shift of the constraints.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular>;
-
-    /// Returns those displacements of its own, and K u by degree of freedom.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular>;
-}
-
-/// The equations on the condensed bodies alone.
-pub(super) struct OnSurface {
-    pub(super) state: KeptState,
-    pub(super) load: Rc<Eliminated>,
-}
-
-impl Response for OnSurface {
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>) {
-        let interior = self.state.interior(&self.load, u);
-        (interior.on_surfaces(), Some(interior))
-    }
-
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
-        self.state.reaction(u, &self.load)
-    }
-
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        Ok(self.state.response(load))
-    }
-
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
-        Ok(self.state.unshifted(load))
-    }
-}
-
-/// The equations of the whole bodies.
-pub(super) struct WholeBodies<'a> {
+/// The equations of the bodies under constraints.
+pub(super) struct HeldBodies<'a> {
     problem: &'a Problem<'a>,
-    t: &'a Elimination,
-    /// By degree of freedom, force.
-    load: &'a DVector<f64>,
-    factors: Factors,
+    t: Elimination,
+    factors: SparseCholesky,
 }
 
-/// The factors of Tᵀ K T.
-enum Factors {
-    Condensed(WholeFactors),
-    Sparse(Box<SparseCholesky>),
-}
-
-impl<'a> WholeBodies<'a> {
-    /// Factors on the condensed bodies; where that cannot be, factors the whole matrix.
+impl<'a> HeldBodies<'a> {
+    /// Factors Tᵀ K T.
     ///
     /// # Errors
     /// The matrix is singular.
-    pub(super) fn new(
-        problem: &'a Problem<'a>,
-        t: &'a Elimination,
-        constraints: &[Constraint],
-        load: &'a DVector<f64>,
-    ) -> Result<Self, Singular> {
-        let stiffness = &problem.stiffness;
-        let factors = match problem.bodies.whole_factors(stiffness, t, constraints) {
-            Some(condensed) => Factors::Condensed(condensed),
-            None => Factors::Sparse(Box::new(SparseCholesky::new(stiffness.reduced(t))?)),
-        };
-        Ok(WholeBodies { problem, t, load, factors })
+    pub(super) fn new(problem: &'a Problem<'a>, t: Elimination) -> Result<Self, Unheld> {
+        match SparseCholesky::new(problem.stiffness.reduced(&t)) {
+            Ok(factors) => Ok(HeldBodies { problem, t, factors }),
+            Err(singular) => Err(Unheld { t, singular }),
+        }
     }
 
-    /// Returns the displacements by degree of freedom, length, and their relative residual.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn displacements(&self) -> Result<(DVector<f64>, f64), Singular> {
+    /// Binds the same motions to other places.
+    pub(super) fn move_to(&mut self, constraints: &[Constraint]) {
+        self.t = Elimination::closing(&self.problem.model.restrained, constraints);
+    }
+
+    /// Returns the displacements by degree of freedom under a load, length, and the relative residual
+    /// of their equations.
+    pub(super) fn displacements(&self, load: &DVector<f64>) -> (DVector<f64>, f64) {
         let shifted = self.problem.stiffness.times(self.t.shift());
-        let f = self.t.load(&(self.problem.model.free_part(self.load) - shifted));
-        let (q, residual) = self.solve(&f)?;
-        Ok((self.t.expand(&q), residual))
+        let f = self.t.load(&(self.problem.model.free_part(load) - shifted));
+        let (q, residual) = refined(&self.problem.stiffness, &self.t, &self.factors, &f);
+        (self.t.expand(&q), residual)
     }
 
-    /// Returns q, and its relative residual.
-    fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
-        let stiffness = &self.problem.stiffness;
-        let by = |factors: &dyn Normed| refined(stiffness, self.t, factors, f);
-        match &self.factors {
-            Factors::Condensed(condensed) => match by(condensed) {
-                Ok(solved) => Ok(solved),
-                Err(_) => by(&SparseCholesky::new(stiffness.reduced(self.t))?).or_else(Ok),
-            },
-            Factors::Sparse(sparse) => by(&**sparse).or_else(Ok),
-        }
+    /// Returns the displacements by degree of freedom under a load without the shift of the
+    /// constraints, length.
+    pub(super) fn unshifted(&self, load: &DVector<f64>) -> DVector<f64> {
+        let f = self.t.load(&self.problem.model.free_part(load));
+        self.t.motion(&refined(&self.problem.stiffness, &self.t, &self.factors, &f).0)
+    }
+
+    /// Returns for each of some loads on the contact surface, by degree of freedom, K u − f of the
+    /// displacements under it without the shift of the constraints, force; 0 but on the surfaces.
+    pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
+        let Problem { model, stiffness, surface_triangles, .. } = self.problem;
+        let f: Vec<_> = loads.iter().map(|load| self.t.load(&model.free_part(load))).collect();
+        let q = self.factors.solve_all(DMatrix::from_columns(&f));
+        let of_load = |(q, load): (_, &DVector<f64>)| {
+            let u = self.t.motion(&q);
+            stiffness.times_of(surface_triangles.iter().copied(), &u) - load
+        };
+        q.column_iter().map(|q| q.into_owned()).zip(loads).map(of_load).collect()
     }
 }
 
-impl Response for WholeBodies<'_> {
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>) {
-        (u, None)
-    }
-
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
-        self.problem.stiffness.times(u) - self.load
-    }
-
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        match &self.factors {
-            Factors::Condensed(condensed) => Ok(condensed.response(load)),
-            Factors::Sparse(_) => {
-                let [_, force] = self.unshifted(load)?;
-                Ok(force - load)
-            }
-        }
-    }
-
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
-        let (q, _) = self.solve(&self.t.load(&self.problem.model.free_part(load)))?;
-        let u = self.t.motion(&q);
-        let force = self.problem.stiffness.times(&u);
-        Ok([u, force])
-    }
+/// Constraints that do not hold the bodies.
+pub(super) struct Unheld {
+    pub(super) t: Elimination,
+    pub(super) singular: Singular,
 }
