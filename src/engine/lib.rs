@@ -15,6 +15,7 @@ mod probe;
 mod published;
 pub mod quantities;
 mod range;
+pub mod reduction;
 mod refinement;
 mod request;
 mod residual;

@@ -72,13 +72,9 @@ tolerances! {
     RECORDED_FLOOR = 1e-9,
         "gaps and residuals are 0 but for rounding; stresses are of order 100";
 
-    /// Solutions of 430 equations in two parts, relative to 1.
-    TWO_PARTS = 1e-13,
-        "the matrix is close to its diagonal: some hundred roundings of 1e-16, summed";
-
-    /// Displacements of small blocks in terms of gaps beside those by elimination, relative to 1.
-    GAPS = 1e-11,
-        "both are refined to a few epsilons of their residuals, times a condition number of some 1e3";
+    /// Displacements by the stiffness reduced to the surfaces beside those by the whole, over the largest.
+    REDUCED = 1e-10,
+        "both leave a few epsilons of their residuals, times a condition number of some 1e4";
 
     /// Recorded bounds on rounding, relative to themselves.
     RECORDED_BOUND = 0.5, "they follow residuals, which are noise, in part";

@@ -29,6 +29,7 @@ mod orders;
 mod page_iterations;
 mod quadratic_programme;
 mod recorded;
+mod reduced;
 mod searched;
 mod status;
 mod ties;

@@ -7,7 +7,7 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 use plane_contact::numbers::solve::{
-    Arithmetic, Factors, Precision, ScalarName, Singular, Solver, SparseCholesky, SparseLu,
+    Arithmetic, Factors, Precision, ScalarName, Schur, Singular, Solver, SparseCholesky, SparseLu,
     SparseSquare, SparseSymmetric, error_bound, error_of_rest, inverse_norm, solve_dense,
 };
 
@@ -96,6 +96,74 @@ fn no_weight_is_no_norm_even_where_solutions_overflow() {
     let overflowing = Inverse::from_rows(1, &[f64::INFINITY]);
     assert_eq!(inverse_norm(&overflowing, &dvector![0.0]), 0.0);
     assert_eq!(inverse_norm(&overflowing, &DVector::zeros(0)), 0.0);
+}
+
+/// The pivot of the second equation is `part` of its entry, that of the third all of it.
+#[test]
+fn what_little_holds_is_not_reduced() {
+    let reduced = |part: f64, size: f64, last: &[usize]| {
+        let springs = [(0, 0, 1.0), (1, 0, -1.0), (1, 1, 1.0 + part), (2, 1, -part), (2, 2, 1.0)];
+        let springs = springs.map(|(i, j, k)| (i, j, size * k));
+        let schur = Schur::new(&SparseSymmetric::new(3, springs.into_iter()), last.to_vec());
+        schur.map(|schur| schur.complement().clone())
+    };
+    for size in [1e-6, 1.0, 1e6] {
+        assert!(reduced(1e-9, size, &[2]).is_none(), "of the first, {size}");
+        assert!(reduced(1e-7, size, &[2]).is_some(), "of the first, {size}");
+        assert!(reduced(1e-9, size, &[1]).is_none(), "of the last, {size}");
+        let schur = reduced(1e-7, size, &[1]).expect("it is held");
+        assert!((schur[(0, 0)] / (1e-7 * size) - 1.0).abs() < 1e-6, "{schur}");
+    }
+}
+
+/// Compares what is left of a matrix on its last equations, and a solution by it, with elimination.
+#[track_caller]
+fn reduced_as_by_elimination(dense: &DMatrix<f64>, last: &[usize]) {
+    let n = dense.nrows();
+    let b = DVector::from_fn(n, |i, _| (i % 11) as f64 - 4.0);
+    let reduced = Schur::new(&SparseSymmetric::of_lower(dense), last.to_vec()).expect("it is held");
+    let first: Vec<usize> = (0..n).filter(|e| !last.contains(e)).collect();
+    let block = |rows: &[usize], columns: &[usize]| dense.select_rows(rows).select_columns(columns);
+    let factors = block(&first, &first).cholesky().expect("it is held");
+    let joining = block(&first, last);
+    let schur = block(last, last) - joining.transpose() * factors.solve(&joining);
+    assert!((reduced.complement() - &schur).amax() < 1e-11);
+    let eliminated = reduced.eliminate(&b);
+    let left = b.select_rows(last) - joining.transpose() * factors.solve(&b.select_rows(&first));
+    assert!((&eliminated.last - &left).amax() < 1e-11);
+    let moved = schur.cholesky().expect("it is held").solve(&eliminated.last);
+    assert!((dense * reduced.expand(&eliminated, &moved) - &b).amax() < 1e-11);
+}
+
+/// Two full blocks and equations that both reach: factors of several dense blocks. The last equations
+/// stand anywhere.
+#[test]
+fn full_blocks_are_reduced_as_by_elimination() {
+    let (n, ends) = (450, 200);
+    let reaches = |block: usize, k: usize| k >= 2 * ends || k / ends == block;
+    let dense = DMatrix::from_fn(n, n, |i, j| {
+        let joined = (0..2).any(|block| reaches(block, i) && reaches(block, j));
+        let apart = 1.0 / (1.0 + i.abs_diff(j) as f64);
+        if i == j { 40.0 + (i % 7) as f64 } else { f64::from(joined) * apart }
+    });
+    for last in [vec![440, 3, 190, 397, 441, 210], (0..60).map(|k| 7 * k + 1).collect()] {
+        reduced_as_by_elimination(&dense, &last);
+    }
+}
+
+/// A chain from a full block, all of whose equations are the last ones, in an order in which neighbours
+/// stand apart.
+#[test]
+fn a_chain_beside_a_full_block_is_what_is_left() {
+    let (full, n) = (240, 400);
+    let dense = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+        0 => 40.0 + (i % 7) as f64,
+        1 => 1.0,
+        apart if i.max(j) < full => 1.0 / (1.0 + apart as f64),
+        _ => 0.0,
+    });
+    let last: Vec<usize> = (0..n - full).map(|k| full + 77 * k % (n - full)).collect();
+    reduced_as_by_elimination(&dense, &last);
 }
 
 /// Free pairs of equations that are alike, the first and the last of nine: the first is named.

@@ -17,10 +17,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
 use super::nonnegative::least;
-use super::reduced::HeldBodies;
+use super::problem::Outcome;
 use super::search::StateSearch;
 use crate::contact::{Pairing, Sense, Status};
-use crate::elimination::{Constraint, Elimination, Motion};
+use crate::elimination::{Constraint, Motion};
 
 /// The number of contact nodes up to which the problem is set up.
 const MOST: usize = 150;
@@ -155,49 +155,35 @@ impl StateSearch<'_> {
             if self.problem.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
         entries.iter().for_each(|i| statuses[*i] = held);
         let constraints = self.constraints(&statuses);
-        let t = Elimination::closing(&self.problem.model.restrained, &constraints);
-        let mut bodies = HeldBodies::new(self.problem, t).ok()?;
-        let at_rest = self.forces_held(entries, size, &statuses, &bodies, &self.setting.load);
-        let unloaded = DVector::zeros(self.setting.load.len());
+        let n = entries.len();
+        let forces = |reaction: &DVector<f64>| {
+            let forces = self.problem.forces(self.config, &statuses, reaction);
+            DVector::from_fn(size, |row, _| {
+                let force = forces[entries[row % n]];
+                if row < n { force.normal } else { force.tangent }
+            })
+        };
+        let Ok(Outcome::Solved(solution)) = self.solve(&statuses, &constraints) else {
+            return None;
+        };
+        let at_rest = forces(&solution.reaction);
+        let unloaded = self.problem.setting(0.0 * &self.setting.load, self.setting.before, None);
+        let search = StateSearch { setting: &unloaded, ..*self };
         let mut stiffness = DMatrix::zeros(size, size);
         for column in 0..size {
             let apart = |row: usize| if row == column { 1.0 } else { 0.0 };
-            let moved: Option<Vec<Constraint>> = constraints
-                .iter()
-                .zip(entries)
-                .enumerate()
-                .map(|(k, (constraint, i))| {
-                    let pairing = self.config.pairings[*i].as_ref()?;
-                    let apart = [apart(k), apart(entries.len() + k)];
-                    Some(at_distance(constraint, pairing, apart))
-                })
-                .collect();
-            bodies.move_to(&moved?);
-            let forces = self.forces_held(entries, size, &statuses, &bodies, &unloaded);
-            stiffness.set_column(column, &forces);
+            let moved = constraints.iter().zip(entries).enumerate().map(|(k, (constraint, i))| {
+                let pairing = self.config.pairings[*i].as_ref()?;
+                Some(at_distance(constraint, pairing, [apart(k), apart(n + k)]))
+            });
+            let moved: Vec<Constraint> = moved.collect::<Option<_>>()?;
+            let Ok(Outcome::Solved(solution)) = search.solve(&statuses, &moved) else {
+                return None;
+            };
+            stiffness.set_column(column, &forces(&solution.reaction));
         }
         let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
         (unit > 0.0).then(|| (stiffness / scale, at_rest / unit))
-    }
-
-    /// Returns the first `size` of the forces along all normals, then along all tangents, with every node
-    /// held to its place, under a load.
-    fn forces_held(
-        &self,
-        entries: &[usize],
-        size: usize,
-        statuses: &[Status],
-        bodies: &HeldBodies,
-        load: &DVector<f64>,
-    ) -> DVector<f64> {
-        let (u, _) = bodies.displacements(load);
-        let reaction = self.problem.stiffness.times(&u) - load;
-        let forces = self.problem.forces(self.config, statuses, &reaction);
-        let n = entries.len();
-        DVector::from_fn(size, |row, _| {
-            let force = forces[entries[row % n]];
-            if row < n { force.normal } else { force.tangent }
-        })
     }
 }
 

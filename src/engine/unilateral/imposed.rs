@@ -4,11 +4,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, ContactForce, forces};
-use super::problem::{Configuration, Outcome, Problem, StateSolution};
+use super::problem::{Configuration, Outcome, Problem, Setting, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
 use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
-use crate::elimination::{Constraint, Elimination};
+use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
 use numbers::solve::SparseCholesky;
 use problem::model::Dof;
@@ -26,35 +26,49 @@ impl StateSearch<'_> {
         statuses: &[Status],
         constraints: &[Constraint],
     ) -> Result<Outcome, Error> {
-        let t = Elimination::closing(&self.problem.model.restrained, constraints);
-        match HeldBodies::new(self.problem, t) {
-            Ok(bodies) => self.solved(statuses, &bodies),
+        let Setting { load, .. } = self.setting;
+        if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
+            && let Some(solved) = self.solved(statuses, &bodies)?
+        {
+            return Ok(Outcome::Solved(solved));
+        }
+        match HeldBodies::whole(self.problem, load, constraints) {
+            Ok(bodies) => {
+                let solved = self.solved(statuses, &bodies)?;
+                Ok(Outcome::Solved(solved.expect("the whole equations have a solution")))
+            }
             Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
-                let load = t.load(&self.problem.model.free_part(&self.setting.load));
+                let load = t.load(&self.problem.model.free_part(load));
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(Outcome::Free { dof: t.dof(singular.column), motion })
             }
         }
     }
 
-    /// Adds the forces of contact, and what friction does, to the bodies' own displacements.
-    fn solved(&self, statuses: &[Status], bodies: &HeldBodies) -> Result<Outcome, Error> {
-        let Problem { stiffness, .. } = self.problem;
-        let (mut u, residual) = bodies.displacements(&self.setting.load);
-        let mut reaction = stiffness.times(&u) - &self.setting.load;
+    /// Adds the forces of contact, and what friction does, to the bodies' own displacements; None where the
+    /// equations of the surfaces do not serve.
+    fn solved(
+        &self,
+        statuses: &[Status],
+        bodies: &HeldBodies,
+    ) -> Result<Option<StateSolution>, Error> {
+        let none = DVector::zeros(self.setting.load.len());
+        let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
+        let mut reaction = bodies.reaction(&u);
         let mut forces = self.problem.forces(self.config, statuses, &reaction);
         let (mut friction, mut feedback) = (Vec::new(), 0.0);
         if let Some(slide) = self.slide(statuses, &forces, bodies)? {
-            u += bodies.unshifted(&slide.friction);
-            reaction = stiffness.times(&u) - &self.setting.load;
+            let Some(solved) = bodies.displacements(&slide.friction) else { return Ok(None) };
+            (u, residual) = solved;
+            reaction = bodies.reaction(&u);
             forces = self.problem.forces(self.config, statuses, &(&reaction - &slide.friction));
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
             feedback = slide.feedback;
         }
-        Ok(Outcome::Solved(StateSolution { u, forces, friction, feedback, reaction, residual }))
+        Ok(Some(StateSolution { u, forces, friction, feedback, reaction, residual }))
     }
 
     /// Returns the friction of sliding nodes, whose size is μ times the normal forces that it leads to,

@@ -14,6 +14,10 @@
 //! In each step the statuses are looked for by these methods, in this order. What each of them finds is
 //! checked against the same conditions.
 //!
+//! The search goes on with the stiffness on the contact surfaces alone ([`reduction`](crate::reduction)) where
+//! there is one; the contact state with which the path ends is solved again on the whole bodies, and must ask
+//! for itself there too.
+//!
 //! 1. A primal-dual active set (`search`): each iteration imposes statuses, and takes as the next ones those
 //!    that the forces, gaps and slips ask for. Statuses that return, other than the last, would return
 //!    without end: from then on one node changes at a time, the last along the surface of those that should;

@@ -82,6 +82,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         problem.in_range([&point.u, &equilibrium.last.solution.u], [point.load, to])?;
         run.check_memory(step, total)?;
         if step == total {
+            let confirmed = run.confirmed(to, equilibrium);
+            let end = confirmed.map_err(|why| with_load(why, to, stages, true))?;
             let path = with_friction.then(|| Path {
                 steps: per_stage,
                 stages,
@@ -89,7 +91,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
                 start: run.start,
                 changes: changes(&run.steps),
             });
-            return Ok(run.solution(equilibrium, path));
+            return Ok(run.solution(end, path));
         }
         point = Point::after(to, equilibrium);
     }
@@ -251,11 +253,30 @@ impl<'a> Run<'a> {
     /// Goes to the load `to` in one step by a search.
     fn step(&mut self, from: &Point, to: f64, search: Search<'a>) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
-        let statuses = from.statuses.as_deref();
-        let setting = Setting { load: load.clone(), before: &from.u, statuses };
+        let setting = self.problem.setting(load.clone(), &from.u, from.statuses.as_deref());
         search(self.problem, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
         })
+    }
+
+    /// Solves the last contact state, at the load `to`, on the whole bodies.
+    fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
+        let load = self.problem.load(to);
+        let mut last = self.taken.pop().expect("a path has a step");
+        let setting =
+            Setting { load: load.clone(), reduced: None, before: &last.before, statuses: None };
+        let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
+            self.keep(to, &load, config, iteration);
+        })?;
+        let k = self.steps.len();
+        if let Some(last) = self.steps.last_mut() {
+            *last = step(self.problem, (k, to), &load, &end.config, &end.last);
+        }
+        last.config = end.config.clone();
+        last.statuses = end.last.statuses.clone();
+        last.u = end.last.solution.u.clone();
+        self.taken.push(last);
+        Ok(end)
     }
 
     /// Adds an iteration to the steps.

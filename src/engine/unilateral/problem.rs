@@ -11,6 +11,7 @@ use super::search::StateSearch;
 use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
+use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
 use crate::solution::{Choice, Cycle};
 use crate::stiffness::Stiffness;
@@ -45,6 +46,8 @@ pub(super) struct Problem<'a> {
     pub(super) closed: f64,
     /// The triangles at a restraint of the body to which contact passes its force.
     pub(super) supports: Vec<usize>,
+    /// The stiffness on the contact surfaces, on which statuses are looked for; None where they are not.
+    pub(super) reduction: Option<Reduction>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
     /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
@@ -57,6 +60,8 @@ pub(super) struct Problem<'a> {
 pub(super) struct Setting<'a> {
     /// The load by degree of freedom, restrained ones included, force.
     pub(super) load: DVector<f64>,
+    /// The same on the contact surfaces; None where equations of the whole bodies are to be solved.
+    pub(super) reduced: Option<ReducedLoad>,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
@@ -166,6 +171,7 @@ impl<'a> Problem<'a> {
             closed: CLOSED * size(model),
             supports: stiffness.about(&supports(model, &model.restrained)),
             surface_triangles: stiffness.about(&is_on_surface),
+            reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
             friction: request.contact.friction.coefficient(),
             initial,
@@ -179,6 +185,7 @@ impl<'a> Problem<'a> {
             surfaces: Arc::clone(&self.surfaces),
             supports: self.supports.clone(),
             surface_triangles: self.surface_triangles.clone(),
+            reduction: None,
             stiffness: Stiffness::on_springs(self.model, stiffness),
             initial: Arc::clone(&self.initial),
             springs: stiffness,
@@ -190,6 +197,17 @@ impl<'a> Problem<'a> {
     pub(super) fn load(&self, part: f64) -> DVector<f64> {
         // Without friction the path is the whole load.
         if self.friction > 0.0 { self.model.load_after(part) } else { &self.model.load * part }
+    }
+
+    /// Returns the setting of a search on the contact surfaces.
+    pub(super) fn setting<'s>(
+        &self,
+        load: DVector<f64>,
+        before: &'s DVector<f64>,
+        statuses: Option<&'s [Status]>,
+    ) -> Setting<'s> {
+        let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
+        Setting { load, reduced, before, statuses }
     }
 
     /// Returns whether contact is measured in the current shape.
@@ -264,7 +282,8 @@ impl<'a> Problem<'a> {
         let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
         let before = DVector::zeros(self.model.dofs());
-        let setting = Setting { load: before.clone(), before: &before, statuses: None };
+        let setting =
+            Setting { load: before.clone(), reduced: None, before: &before, statuses: None };
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 

@@ -1,68 +1,102 @@
-//! The bodies under imposed statuses: the equations Tᵀ K T q = f, factored.
+//! The bodies under imposed statuses: on the contact surfaces alone, or by the whole equations
+//! Tᵀ K T q = f.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::problem::Problem;
+use super::problem::{Problem, Setting};
 use crate::elimination::{Constraint, Elimination};
+use crate::reduction::{ReducedLoad, ReducedState};
 use crate::refinement::refined;
 use numbers::solve::{Singular, SparseCholesky};
 
-/// The equations of the bodies under constraints.
-pub(super) struct HeldBodies<'a> {
-    problem: &'a Problem<'a>,
-    t: Elimination,
-    factors: SparseCholesky,
+/// The equations of the bodies under constraints and a load, factored.
+pub(super) enum HeldBodies<'a> {
+    /// Those of the surfaces alone.
+    Reduced { state: ReducedState<'a>, load: &'a ReducedLoad },
+    /// The whole ones.
+    Whole(WholeBodies<'a>),
 }
 
-impl<'a> HeldBodies<'a> {
-    /// Factors Tᵀ K T.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn new(problem: &'a Problem<'a>, t: Elimination) -> Result<Self, Unheld> {
-        match SparseCholesky::new(problem.stiffness.reduced(&t)) {
-            Ok(factors) => Ok(HeldBodies { problem, t, factors }),
-            Err(singular) => Err(Unheld { t, singular }),
-        }
-    }
-
-    /// Binds the same motions to other places.
-    pub(super) fn move_to(&mut self, constraints: &[Constraint]) {
-        self.t = Elimination::closing(&self.problem.model.restrained, constraints);
-    }
-
-    /// Returns the displacements by degree of freedom under a load, length, and the relative residual
-    /// of their equations.
-    pub(super) fn displacements(&self, load: &DVector<f64>) -> (DVector<f64>, f64) {
-        let shifted = self.problem.stiffness.times(self.t.shift());
-        let f = self.t.load(&(self.problem.model.free_part(load) - shifted));
-        let (q, residual) = refined(&self.problem.stiffness, &self.t, &self.factors, &f);
-        (self.t.expand(&q), residual)
-    }
-
-    /// Returns the displacements by degree of freedom under a load without the shift of the
-    /// constraints, length.
-    pub(super) fn unshifted(&self, load: &DVector<f64>) -> DVector<f64> {
-        let f = self.t.load(&self.problem.model.free_part(load));
-        self.t.motion(&refined(&self.problem.stiffness, &self.t, &self.factors, &f).0)
-    }
-
-    /// Returns for each of some loads on the contact surface, by degree of freedom, K u − f of the
-    /// displacements under it without the shift of the constraints, force; 0 but on the surfaces.
-    pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
-        let Problem { model, stiffness, surface_triangles, .. } = self.problem;
-        let f: Vec<_> = loads.iter().map(|load| self.t.load(&model.free_part(load))).collect();
-        let q = self.factors.solve_all(DMatrix::from_columns(&f));
-        let of_load = |(q, load): (_, &DVector<f64>)| {
-            let u = self.t.motion(&q);
-            stiffness.times_of(surface_triangles.iter().copied(), &u) - load
-        };
-        q.column_iter().map(|q| q.into_owned()).zip(loads).map(of_load).collect()
-    }
+/// The whole equations.
+pub(super) struct WholeBodies<'a> {
+    problem: &'a Problem<'a>,
+    t: Elimination,
+    load: &'a DVector<f64>,
+    factors: SparseCholesky,
 }
 
 /// Constraints that do not hold the bodies.
 pub(super) struct Unheld {
     pub(super) t: Elimination,
     pub(super) singular: Singular,
+}
+
+impl<'a> HeldBodies<'a> {
+    /// Factors the equations of the surfaces; None where the setting has no load on them, and where the
+    /// whole ones are to be factored.
+    pub(super) fn reduced(
+        problem: &'a Problem<'a>,
+        setting: &'a Setting,
+        constraints: &[Constraint],
+    ) -> Option<Self> {
+        let (reduction, load) = (problem.reduction.as_ref()?, setting.reduced.as_ref()?);
+        let state = ReducedState::new(reduction, constraints)?;
+        Some(HeldBodies::Reduced { state, load })
+    }
+
+    /// Factors the whole equations.
+    ///
+    /// # Errors
+    /// The matrix is singular.
+    pub(super) fn whole(
+        problem: &'a Problem<'a>,
+        load: &'a DVector<f64>,
+        constraints: &[Constraint],
+    ) -> Result<Self, Unheld> {
+        let t = Elimination::closing(&problem.model.restrained, constraints);
+        match SparseCholesky::new(problem.stiffness.reduced(&t)) {
+            Ok(factors) => Ok(HeldBodies::Whole(WholeBodies { problem, t, load, factors })),
+            Err(singular) => Err(Unheld { t, singular }),
+        }
+    }
+
+    /// Returns the displacements by degree of freedom, length, under the load and `more` on the contact
+    /// surface; and the relative residual. None where the equations of the surfaces do not serve.
+    pub(super) fn displacements(&self, more: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
+        match self {
+            HeldBodies::Reduced { state, load } => state.displacements(load, more),
+            HeldBodies::Whole(WholeBodies { problem, t, load, factors }) => {
+                let Problem { model, stiffness, .. } = problem;
+                let load = model.free_part(&(*load + more));
+                let f = t.load(&(load - stiffness.times(t.shift())));
+                let (q, residual) = refined(stiffness, t, factors, &f);
+                Some((t.expand(&q), residual))
+            }
+        }
+    }
+
+    /// Returns K u − F under the load alone, force, which on the equations that contact can bind is that of
+    /// contact.
+    pub(super) fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
+        match self {
+            HeldBodies::Reduced { state, load } => state.reaction(u, load),
+            HeldBodies::Whole(whole) => whole.problem.stiffness.times(u) - whole.load,
+        }
+    }
+
+    /// Returns for each of some loads on the contact surface, by degree of freedom, K u − f of the
+    /// displacements under it without the shift of the constraints, force.
+    pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
+        let WholeBodies { problem, t, factors, .. } = match self {
+            HeldBodies::Reduced { state, .. } => return state.responses(loads),
+            HeldBodies::Whole(whole) => whole,
+        };
+        let Problem { model, stiffness, surface_triangles, .. } = problem;
+        let f: Vec<_> = loads.iter().map(|load| t.load(&model.free_part(load))).collect();
+        let q = factors.solve_all(DMatrix::from_columns(&f));
+        let of_load = |(q, load): (_, &DVector<f64>)| {
+            stiffness.times_of(surface_triangles.iter().copied(), &t.motion(&q)) - load
+        };
+        q.column_iter().map(|q| q.into_owned()).zip(loads).map(of_load).collect()
+    }
 }

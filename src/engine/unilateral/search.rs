@@ -98,6 +98,29 @@ impl Problem<'_> {
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
+    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was found on
+    /// them; where that asks for other statuses, searches on from it there.
+    pub(super) fn confirmed(
+        &self,
+        found: Equilibrium,
+        setting: &Setting,
+        watch: &mut Watch,
+    ) -> Result<Equilibrium, Error> {
+        if self.reduction.is_none() || found.springs.is_some() {
+            return Ok(found);
+        }
+        let search = self.search(&found.config, setting);
+        let Iteration { statuses, constraints, cycle, choice, .. } = found.last.clone();
+        if let Outcome::Solved(solution) = search.solve(&statuses, &constraints)? {
+            let last = search.completed_iteration((statuses, constraints), cycle, solution);
+            if search.wanted(&last, false) == last.statuses {
+                return Ok(Equilibrium { last: Iteration { choice, ..last }, ..found });
+            }
+        }
+        let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
+        self.equilibrium(&Setting { load, reduced: None, statuses, ..*setting }, watch)
+    }
+
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
     /// before the step and those that the statuses before the step, those of the `first` iteration, led
     /// to.

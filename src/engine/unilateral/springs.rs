@@ -60,7 +60,7 @@ impl Problem<'_> {
             history.move_on();
             config = self.configuration(&u);
             let load = &setting.load + self.force_of(&springs, &u);
-            let own = Setting { load, ..*setting };
+            let own = Setting { load, reduced: None, ..*setting };
             let settled = springs.search(&config, &own).settle(statuses, &mut history, watch);
             let last = settled.map_err(|why| why.prefixed("on springs "))?;
             let moved = &last.solution.u - &u;

@@ -2,22 +2,24 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::SparseColMatRef;
+use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 use super::factors::of_columns_mut;
+use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
 /// matrix whose entries are of very different sizes.
-fn is_large(pivot: f64, a: f64) -> bool {
+pub(super) fn is_large(pivot: f64, a: f64) -> bool {
     /// The least part of `a`.
     const LEAST: f64 = 1e-8;
     pivot > LEAST * a
@@ -42,7 +44,20 @@ enum Lower<'a> {
 impl Cholesky {
     /// Factors a matrix in an order of small fill; None where a pivot is not positive.
     pub(super) fn new(matrix: &SparseSymmetric) -> Option<Self> {
-        let (side, order) = (Side::Lower, SymmetricOrdering::Amd);
+        Self::factored(matrix, SymmetricOrdering::Amd)
+    }
+
+    /// Factors a matrix with some equations, in their order, behind all others; None where a pivot is not
+    /// positive.
+    pub(super) fn with_last(matrix: &SparseSymmetric, last: &[usize]) -> Option<Self> {
+        let order = order_with_last(matrix, last);
+        let place = places(&order);
+        let order = PermRef::new_checked(&order, &place, order.len());
+        Self::factored(matrix, SymmetricOrdering::Custom(order))
+    }
+
+    fn factored(matrix: &SparseSymmetric, order: SymmetricOrdering<usize>) -> Option<Self> {
+        let side = Side::Lower;
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold(BY_SUPERNODES),
             ..CholeskySymbolicParams::default()
@@ -99,6 +114,36 @@ impl Cholesky {
         pivots
     }
 
+    /// Returns the lower triangle of L from the row and column `from` on.
+    pub(super) fn last_block(&self, from: usize) -> DMatrix<f64> {
+        let last = self.symbolic.nrows() - from;
+        let mut block = DMatrix::zeros(last, last);
+        match self.lower() {
+            Lower::Entries(l) => {
+                for j in from..l.ncols() {
+                    let entries = l.row_idx_of_col(j).zip(l.val_of_col(j));
+                    entries.for_each(|(i, l)| block[(i - from, j - from)] = *l);
+                }
+            }
+            Lower::Blocks(l) => {
+                let ends = l.symbolic().supernode_end();
+                for s in ends.partition_point(|end| *end <= from)..l.symbolic().n_supernodes() {
+                    let supernode = l.supernode(s);
+                    let (start, values) = (supernode.start(), supernode.val());
+                    let columns = values.ncols();
+                    for j in from.saturating_sub(start)..columns {
+                        let rows =
+                            (start + j..start + columns).chain(supernode.pattern().iter().copied());
+                        for (i, k) in rows.zip(j..) {
+                            block[(i - from, start + j - from)] = values[(k, j)];
+                        }
+                    }
+                }
+            }
+        }
+        block
+    }
+
     /// Returns L in the form in which it was made.
     fn lower(&self) -> Lower<'_> {
         match self.symbolic.raw() {
@@ -110,4 +155,21 @@ impl Cholesky {
             }
         }
     }
+}
+
+/// Returns the other equations in an order of small fill, then the `last` ones.
+fn order_with_last(matrix: &SparseSymmetric, last: &[usize]) -> Vec<usize> {
+    const LAST: usize = usize::MAX;
+    let mut number = vec![0; matrix.size()];
+    last.iter().for_each(|e| number[*e] = LAST);
+    let first: Vec<usize> = (0..matrix.size()).filter(|e| number[*e] != LAST).collect();
+    first.iter().enumerate().for_each(|(k, e)| number[*e] = k);
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for j in &first {
+        rows.extend(matrix.column(*j).map(|(i, _)| number[i]).filter(|i| *i != LAST));
+        starts.push(rows.len());
+    }
+    let n = first.len();
+    let order = order(SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows));
+    order.into_iter().map(|k| first[k]).chain(last.iter().copied()).collect()
 }

@@ -1,14 +1,16 @@
-//! Dense LU with partial pivoting, by the library faer.
+//! Dense LU with partial pivoting, and Cholesky factors of what is left of a matrix, by the library faer.
 
-use faer::Par;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::linalg::solvers::Llt;
 use faer::perm::Perm;
+use faer::{Accum, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 use super::factors::{
-    Factors, Lu, Singular, backward_error, column, largest, of_columns, of_columns_mut,
+    Factors, Lu, Singular, backward_error, column, largest, of_columns, of_columns_mut, solve,
 };
 use super::square::SparseSquare;
 
@@ -74,4 +76,40 @@ impl Lu for DenseLu {
         }
         backward_error(&(product - b), largest(row_sums.as_slice()), x, b)
     }
+}
+
+/// Cholesky factors of a dense symmetric positive definite matrix.
+pub struct DenseCholesky(Llt<f64>);
+
+impl DenseCholesky {
+    /// Factors a `matrix`, of which the lower triangle is read; None where it is not positive definite.
+    pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
+        faer::set_global_parallelism(Par::Seq);
+        Llt::new(of_columns(matrix), Side::Lower).ok().map(DenseCholesky)
+    }
+}
+
+impl Factors for DenseCholesky {
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        solve(&self.0, b)
+    }
+}
+
+/// Returns L Lᵀ of a lower triangle L.
+pub(super) fn square(l: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut square = DMatrix::zeros(l.nrows(), l.nrows());
+    let view = of_columns(l);
+    matmul(
+        of_columns_mut(&mut square),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        view,
+        BlockStructure::TriangularLower,
+        view.transpose(),
+        BlockStructure::TriangularUpper,
+        1.0,
+        Par::Seq,
+    );
+    square.fill_upper_triangle_with_lower_triangle();
+    square
 }

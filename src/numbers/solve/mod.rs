@@ -4,12 +4,12 @@
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
 //! | `factors`, `square` | what factorisations share; sparse matrices that need not be symmetric |
-//! | `dense` | faer's LU factors of a dense matrix |
+//! | `dense` | faer's factors of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations and
 //!   where a factor has entries; faer's factor of one |
 //! | [`cost`], `symbolic` | what a solution needs: time, entries of factors |
-//! | `sparse` | factors that tell a singular matrix |
+//! | `sparse`, `schur` | factors that tell a singular matrix; what is left of one on its last equations |
 //! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |
 //! | `elimination`, `ldlt` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
@@ -24,6 +24,7 @@ mod factors;
 mod ldlt;
 mod ordering;
 mod precision;
+mod schur;
 mod sparse;
 mod sparse_lu;
 mod square;
@@ -31,13 +32,14 @@ mod symbolic;
 mod symmetric;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
-pub use dense::DenseLu;
+pub use dense::{DenseCholesky, DenseLu};
 pub use elimination::{Field, solve_dense};
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
 pub use ldlt::Ldlt;
 pub use precision::{Outcome, Precision, Solved};
-pub use sparse::SparseCholesky;
+pub use schur::{EliminatedLoad, Schur};
+pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;
 pub use symbolic::FactorSize;

@@ -81,13 +81,14 @@ impl Factors for SparseCholesky {
     }
 }
 
-fn solve(factors: &Cholesky, b: &DVector<f64>) -> DVector<f64> {
+/// Returns the solution x of A x = `b` by the factors of A.
+pub(super) fn solve(factors: &Cholesky, b: &DVector<f64>) -> DVector<f64> {
     factors.solve(DMatrix::from_column_slice(b.len(), 1, b.as_slice())).column(0).into_owned()
 }
 
 /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single trial
 /// load is sure to find.
-pub(super) fn largest_motion(factors: &impl Factors, diagonal: &DVector<f64>) -> f64 {
+pub fn largest_motion(factors: &impl Factors, diagonal: &DVector<f64>) -> f64 {
     let scale = diagonal.map(|d| d.sqrt());
     let ones = DVector::from_element(scale.len(), 1.0);
     inverse_norm(&Scaled { factors, scale }, &ones)
