@@ -167,10 +167,7 @@ fn runs<'a>(args: &Args, case: &'a Case) -> Vec<Run<'a>> {
         false => [case.reference(), case.equilibrium()],
     };
     let runs = ran.map(|(solution, _)| solution).chain(others.into_iter().flatten());
-    let assessed = |solution| Run {
-        solution,
-        assessment: Assessment::against(solution, case.session(), others),
-    };
+    let assessed = |solution| Run { solution, assessment: Assessment::against(solution, others) };
     runs.map(assessed).collect()
 }
 

@@ -63,13 +63,9 @@ tolerances! {
     CORRECTED_CONDITIONS = 1e-9,
         "a factorisation of up to 2,300 equations in f64, whose residual is 1e-12 of the loads";
 
-    /// Solutions of 430 equations in two parts, relative to 1.
-    TWO_PARTS = 1e-13,
-        "the matrix is close to its diagonal: some hundred roundings of 1e-16, summed";
-
-    /// Displacements of small blocks in terms of gaps beside those by elimination, relative to 1.
-    GAPS = 1e-11,
-        "both are refined to a few epsilons of their residuals, times a condition number of some 1e3";
+    /// Displacements by the stiffness reduced to the surfaces beside those by the whole, over the largest.
+    REDUCED = 1e-10,
+        "both leave a few epsilons of their residuals, times a condition number of some 1e4";
 
     /// Displacements by Octave's solver against ours, relative to the largest.
     OCTAVE = 1e-12, "two LU factorisations of some 30 equations of condition 1e3 in f64";
