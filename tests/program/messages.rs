@@ -3,10 +3,12 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use plane_contact::paper::corrected::FAULTS;
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::Reading;
+use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
 use plane_contact::report::language::messages;
 use plane_contact::report::prices::ORDER;
@@ -56,7 +58,10 @@ fn in_body() -> BTreeSet<String> {
 /// What the registers say: scenes, readings and other switches, findings, faults.
 fn in_registers() -> BTreeSet<String> {
     let open = |name| Scene::open(name).expect("an embedded scene");
-    let scenes: Vec<Scene> = SCENES.iter().map(|scene| open(scene.name)).collect();
+    let mut scenes: Vec<Scene> = SCENES.iter().map(|scene| open(scene.name)).collect();
+    let mut plate = scenes[0].clone();
+    Arc::make_mut(&mut plate.model).plane = Plane::Stress;
+    scenes.push(plate);
     let edited = Switch::edited(Which::CCnt, Which::CCnt.under(&Reading::default()));
     let switches = scenes.iter().flat_map(switches).chain(FINDINGS.iter().flat_map(chapter));
     let switches = switches.chain([edited]).flat_map(of_switch);
