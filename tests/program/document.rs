@@ -34,14 +34,3 @@ fn a_report_in_markdown() {
     let lines: Vec<&str> = lines.collect();
     assert_golden_by("fig1", "report", &lines.join("\n"), same_text);
 }
-
-/// What stays English are names, commands, quotations, and what stops a run.
-#[test]
-fn a_report_in_russian() {
-    let folder = TempDir::new().expect("a folder");
-    let args = ["report", "fig1", "--lang", "ru", "--format", "markdown", "--out", "markdown"];
-    output(folder.path(), &args);
-    let report = std::fs::read_to_string(folder.path().join("markdown")).expect("it was written");
-    let lines = report.lines().filter(|line| !line.starts_with("| программа, SHA-256 |"));
-    assert_golden_by("fig1", "report-ru", &lines.collect::<Vec<_>>().join("\n"), same_text);
-}
