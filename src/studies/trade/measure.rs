@@ -13,7 +13,7 @@ use super::trials::{ErrorReference, Setting, Trial, trials};
 use crate::audit::Case;
 use engine::error::Error;
 use engine::estimates::{Certainty, certain};
-use engine::{Request, Session, Solution, Stiffness, max_displacement, over, solve, summaries};
+use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
 use problem::scene::{Refined, Scene};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
@@ -142,7 +142,7 @@ fn timed(
 fn judged(parameter: Varied, run: Run) -> Run {
     match run.solution {
         Ok(solution) if judges(parameter) => {
-            let (solution, certainty) = certain(solution, &Session::default());
+            let (solution, certainty) = certain(solution);
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
         solution => Run { solution, ..run },
