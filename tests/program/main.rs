@@ -25,7 +25,6 @@ mod edited;
 mod examples;
 mod exercises;
 mod explained;
-mod factors;
 mod faults;
 mod fuzz;
 mod gmsh;

@@ -11,10 +11,8 @@ use std::path::{Path, PathBuf};
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::memory;
 use plane_contact::problem::scene::sha256;
 use plane_contact::report::sweep::{Engine, Jobs, TRY_AGAIN};
-use plane_contact::studies::plan::Plan;
 use plane_contact::studies::sweep::{Cases, Row, Sweep, row};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -24,13 +22,6 @@ use journal::Journal;
 
 /// The bytes of a sweep.
 const MOST: u64 = 1 << 24;
-
-/// The most bytes that a byte of the file takes: a case has its values several times, and its row too.
-const COPIES: f64 = 500.0;
-
-/// The bytes that a case takes while a sweep runs: its key, and its row twice, as what is known and as
-/// text.
-const CASE: f64 = 4000.0;
 
 /// Run a scene under many values of its fields and of options.
 #[derive(clap::Args)]
@@ -87,9 +78,6 @@ pub fn run(args: &Args) -> Result<u8> {
         let what = format!("the sweep cannot be read: {why}");
         InputError::new(&place, what, "see `plane-contact sweep --help`")
     })?;
-    let needed = COPIES * text.len() as f64;
-    let what = format!("{place}: the sweep");
-    memory::check_bytes(needed, &what, "its values and their copies in a case", "give fewer")?;
     let sweep = Sweep::read(&text).map_err(|error| error.within(&place))?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let cases = sweep.cases(folder).map_err(|error| error.within(&place))?;
@@ -128,8 +116,6 @@ fn whole(args: &Args, cases: &Cases) -> Result<u8> {
     let stem = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let default = || Path::new("out").join(format!("{stem}.jsonl"));
     let out = args.out.clone().unwrap_or_else(default);
-    let whose = format!("the rows of {} cases", cases.len());
-    memory::check_bytes(CASE * cases.len() as f64, "the sweep", &whose, "divide it")?;
     let mut journal = Journal::open(&out)?;
     let mut known: HashMap<String, Row> = journal.known(&out)?;
     if let Some(folder) = &args.rows {
@@ -198,12 +184,6 @@ fn one(cases: &Cases, case: usize, file: &Path) -> Result<u8> {
 
 /// Prints the job file of an engine.
 fn emit(args: &Args, cases: &Cases, engine: Engine) -> Result<u8> {
-    let bytes = |case: usize| {
-        let request = cases.document(case).and_then(|document| document.request()).ok();
-        let plan = request.and_then(|request| Plan::new(&request).ok());
-        plan.map_or(0.0, |plan| plan.cost.bytes.total())
-    };
-    let memory = (0..cases.len()).into_par_iter().map(bytes).reduce(|| 0.0, f64::max);
     if cases.is_empty() {
         let what = "the sweep has no case";
         return Err(InputError::new("grid and list", what, "give each pointer a value").into());
@@ -215,7 +195,7 @@ fn emit(args: &Args, cases: &Cases, engine: Engine) -> Result<u8> {
         sweep: name(&args.file)?,
         rows: name(&rows)?,
         cases: cases.len(),
-        memory,
+        memory: 1e9,
     };
     if engine == Engine::Commands && [jobs.program, jobs.sweep, jobs.rows].concat().contains('\n') {
         let what = "a line holds no name with a line break";

@@ -6,7 +6,6 @@ use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use base::error::{InputError, Result};
-use base::memory;
 
 /// A file beside a scene file, which is read once, as it comes.
 pub struct FileBeside {
@@ -71,7 +70,7 @@ pub fn mesh(
     let length = file.length;
     gmsh::read(file, length).map_err(|error| {
         let is_memory = matches!(error.fault, Fault::Memory { .. });
-        let fix = if is_memory { memory::FIX } else { "save the mesh again from Gmsh" };
+        let fix = if is_memory { "use a coarser mesh" } else { "save the mesh again from Gmsh" };
         let what = if let Fault::Unexpected { expected, .. } = &error.fault
             && expected.starts_with("$MeshFormat")
         {

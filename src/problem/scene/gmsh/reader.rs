@@ -7,8 +7,8 @@ use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
 use super::numbered::Numbered;
 use super::tokens::Tokens;
-use crate::scene::mesh::{ELEMENT, Element, Mesh, NODE, Node, PhysicalName};
-use base::memory;
+use crate::scene::mesh::{Element, Mesh, Node, PhysicalName};
+use base::limits;
 
 /// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.
 const SHORTEST: usize = 8;
@@ -166,7 +166,7 @@ impl Reader<'_> {
     /// # Errors
     /// There is no memory for a scene with so many.
     pub fn expect_nodes(&mut self, declared: usize) -> Result<()> {
-        let count = self.within_memory(declared, "nodes", NODE)?;
+        let count = self.within_limit(declared)?;
         self.nodes.reserve(count);
         Ok(())
     }
@@ -176,16 +176,16 @@ impl Reader<'_> {
     /// # Errors
     /// There is no memory for a scene with so many.
     pub fn expect_elements(&mut self, declared: usize) -> Result<()> {
-        let count = self.within_memory(declared, "elements", ELEMENT)?;
+        let count = self.within_limit(declared)?;
         self.elements.reserve(count);
         Ok(())
     }
 
-    /// Returns how many of those that are declared the file is long enough for, where there is memory
-    /// for so many, of which each takes `bytes`.
-    fn within_memory(&self, declared: usize, items: &str, bytes: f64) -> Result<usize> {
+    /// Returns how many of those that are declared the file is long enough for, where there may be so many.
+    fn within_limit(&self, declared: usize) -> Result<usize> {
         let count = declared.min(self.length / SHORTEST);
-        memory::check_bytes(bytes * count as f64, "", &format!("{count} {items}"), "")
+        limits::MESH
+            .check(count, "")
             .map_err(|why| self.tokens.error(Fault::Memory { why: why.what }))?;
         Ok(count)
     }
