@@ -41,7 +41,7 @@ fn candidates_are_those_whose_boxes_overlap() {
     let fig1 = plan("fig1", Variant::Stepped).contact.expect("fig1 has contact").candidates;
     assert_eq!((fig1.nodes, fig1.edges, fig1.pairs, fig1.near), (5, 3, 8, 5));
     let blocks = plan("two-blocks", Variant::Tied).contact.expect("they touch").candidates;
-    assert_eq!((blocks.edges, blocks.pairs, blocks.near, blocks.touching), (2, 4, 3, 3));
+    assert_eq!((blocks.edges, blocks.pairs, blocks.near), (2, 4, 3));
     let strand = plan("strand", Variant::Stepped).contact.expect("strand has contact").candidates;
     assert_eq!((strand.nodes, strand.edges), (55, 78));
     assert_eq!((strand.pairs, strand.near), (110, 55));
