@@ -1,4 +1,4 @@
-//! Documents in JSON: snapshots, sweeps, results and answers. Each is refused with its fault, or is
+//! Documents in JSON: snapshots, sweeps and results. Each is refused with its fault, or is
 //! written and reads back the same; what is small is run.
 
 use std::path::Path;
@@ -6,9 +6,7 @@ use std::path::Path;
 use plane_contact::Request;
 use plane_contact::error::InputError;
 use plane_contact::report::ResultFile;
-use plane_contact::report::answers::{self, MarkedAnswers};
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
-use plane_contact::studies::lesson::exercise::Answers;
 use plane_contact::studies::snapshot::{Numbers, Snapshot, difference, verify};
 use plane_contact::studies::sweep::{Document, Sweep, row};
 
@@ -20,7 +18,6 @@ use super::sound;
 const MOST: usize = 30;
 
 pub fn hold(data: &[u8]) {
-    let Ok(text) = std::str::from_utf8(data) else { return };
     if let Some(snapshot) = reads_back(Snapshot::read, data, report::file) {
         of_snapshot(&snapshot);
     }
@@ -30,15 +27,6 @@ pub fn hold(data: &[u8]) {
     }
     let result = |data: &[u8]| ResultFile::from_json(&String::from_utf8_lossy(data));
     reads_back(result, data, ResultFile::to_json);
-    let Ok(answers) = serde_json::from_str::<Answers>(text) else { return };
-    match answers.marks() {
-        Ok(marks) => {
-            let marked = [MarkedAnswers { file: "fuzz".into(), marks, answers }];
-            assert!(!answers::json(&marked).is_empty());
-            assert!(!answers::report(&marked).blocks.is_empty());
-        }
-        Err(error) => sound::input_error(&error),
-    }
 }
 
 /// Reads a document; None where it is refused.

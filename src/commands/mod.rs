@@ -417,17 +417,6 @@ impl TablesArgs {
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &command, &[]))?)
     }
 
-    /// Refuses `--csv` where a command prints no table.
-    ///
-    /// # Errors
-    /// Says that it has none, and why.
-    pub fn refuse(&self, why: &str) -> Result<()> {
-        match self.csv {
-            Some(_) => Err(InputError::new("--csv", why, "leave out --csv").into()),
-            None => Ok(()),
-        }
-    }
-
     /// Prints a report that `command` made.
     pub fn print(&self, command: &str, report: Report) -> Result<()> {
         if let Some(folder) = &self.csv {

@@ -11,7 +11,6 @@
 //! | `audit`, `claims`, `conclusion`, `prices`          | the audit                              |
 //! | `document`, `glossary`                             | the audit report that is handed in     |
 //! | `comparison`, `extremes`, `plan`, `trace`          | a study each                           |
-//! | `answers`                                          | the marks of answers to exercises      |
 //! | `snapshot`, `statuses`, `trade`                    | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
@@ -25,7 +24,6 @@
 //! | `language`                                         | the words in Russian                   |
 #![forbid(unsafe_code)]
 
-pub mod answers;
 pub mod audit;
 pub mod changes;
 pub mod claims;

@@ -300,7 +300,7 @@ fn what_standard_error_cannot_take_changes_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let code = |line: &str| shell(folder.path(), line).status.code();
     assert_eq!(code("$P solve nosuch 2>/dev/full"), Some(2));
-    assert_eq!(code("$P lesson --exercise 1 2>/dev/full"), Some(0));
+    assert_eq!(code("$P lesson fig1 2>/dev/full"), Some(0));
     let line = "$P solve fig1 --accuracy 1e-3 --json";
     let [plain, full] = [line, &format!("{line} 2>/dev/full")].map(|l| shell(folder.path(), l));
     assert_eq!(full.status.code(), Some(0));

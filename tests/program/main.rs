@@ -24,7 +24,6 @@ mod document;
 mod drawing;
 mod edited;
 mod examples;
-mod exercises;
 mod explained;
 mod factors;
 mod faults;

@@ -1,7 +1,6 @@
 //! `plane-contact snapshot`.
 
 mod accept;
-mod answers;
 mod diff;
 mod explain;
 mod record;

@@ -10,8 +10,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{self, Snapshot, Verified};
 
-use super::answers;
-use crate::commands::{TablesArgs, print_either, progress, report_error, waiting, within};
+use crate::commands::{print_either, progress, report_error, waiting, within};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -25,16 +24,12 @@ A difference is explained: its first cause, and how that is known. The exit stat
 difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
 all the same.
 
-Files that the page of an exercise saved (`lesson --exercise`) are marked: each student's score, how
-many answers to each question are right, and what the others should be.
-
 Examples:
   plane-contact snapshot verify out/fig1.snapshot.json
   plane-contact snapshot verify my/*.json --junit verify.xml --report summary.markdown
-  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today
-  plane-contact snapshot verify answers/*.json --csv marks                a class")]
+  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
 pub struct Args {
-    /// Snapshots; or answers to exercises.
+    /// Snapshots.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Run this scene in place of the one in the snapshot.
@@ -43,8 +38,6 @@ pub struct Args {
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
-    #[command(flatten)]
-    tables: TablesArgs,
     /// Write a file of JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -54,14 +47,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<u8> {
-    // Each is read once: it may be a pipe.
-    let texts: Vec<_> = args.files.iter().map(|file| files::read(file)).collect();
-    if texts.iter().flatten().any(|text| answers::are_in(text)) {
-        return answers::verify(&args.files, texts, args.json, &args.tables);
-    }
-    args.tables.refuse("snapshots have no table; answers to exercises do")?;
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let snapshots = args.files.iter().zip(texts).map(|(file, text)| snapshot_of(file, text));
+    let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
     let checked = check(&args.files, snapshots.collect(), scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;

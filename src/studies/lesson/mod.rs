@@ -1,7 +1,6 @@
 //! A lesson: both listings executed on a small scene, every step kept, under each reading that the
 //! lesson offers.
 
-pub mod exercise;
 mod iterations;
 mod repairs;
 mod switches;
