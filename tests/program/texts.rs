@@ -108,17 +108,7 @@ fn c_cnt() {
         .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
 }
 
-#[test]
-fn trace() {
-    assert_text("fig1", "trace-c_cnt", &["listing", "trace", "fig1"]);
-    assert_text(
-        "fig1",
-        "trace-Km",
-        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
-    );
-}
-
-/// Returns the names of all commands, such as `listing trace`, by the lists on the pages of help.
+/// Returns the names of all commands, such as `listing run`, by the lists on the pages of help.
 pub fn commands() -> Vec<String> {
     let mut commands = inner(&[]);
     let mut k = 0;
