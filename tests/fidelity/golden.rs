@@ -28,7 +28,7 @@ fn integers_are_exact_and_floats_within_the_tolerance_of_their_line() {
 
 /// `golden/<scene>/snapshot.json` of every shipped scene: facts of every iteration, displacements,
 /// stresses, reactions and the contact surface of every variant. A golden snapshot changes by
-/// `plane-contact snapshot accept` only, with its reason.
+/// `plane-contact snapshot accept` only.
 #[test]
 fn snapshots_of_every_scene_and_variant() {
     for scene in SCENES {
