@@ -334,7 +334,7 @@ pub fn print(text: &str) -> Result<()> {
 }
 
 /// Prints to standard output what `write` writes, as it comes.
-pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
@@ -414,17 +414,6 @@ impl TablesArgs {
     pub fn check(&self, command: &str) -> Result<()> {
         let command = format!("{command} --csv");
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &command, &[]))?)
-    }
-
-    /// Refuses `--csv` where a command prints no table.
-    ///
-    /// # Errors
-    /// Says that it has none, and why.
-    pub fn refuse(&self, why: &str) -> Result<()> {
-        match self.csv {
-            Some(_) => Err(InputError::new("--csv", why, "leave out --csv").into()),
-            None => Ok(()),
-        }
     }
 
     /// Prints a report that `command` made.

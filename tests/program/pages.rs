@@ -8,7 +8,6 @@ use std::process::Command;
 use plane_contact::paper::corrected::{Program, program};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::lesson::Repairs;
-use plane_contact::studies::lesson::exercise::Exercise;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -159,27 +158,6 @@ fn a_report_has_hertz_charts_and_calculix_beside_the_runs() {
     if is_there(ccx, "REQUIRE_CCX") {
         report("calculix", &["fig1", "--ccx"]);
     }
-}
-
-/// The page of an exercise, filled in with what `c_cnt` finds on its scene; the file that it saves is right.
-#[test]
-fn answers_are_saved_by_the_page_of_an_exercise() {
-    let Some(modules) = browser() else { return };
-    let folder = TempDir::new().expect("a folder");
-    let args = ["lesson", "--exercise", "7", "--seed", "2026"];
-    let page = made(folder.path(), "exercise.html", &args);
-    let answer = |[node, ct, dy, k1]: [f64; 4]| {
-        let k1 = (100.0 * k1).round() / 100.0;
-        json!({ "node": node as usize, "ct": ct, "dy": dy, "k1": k1 })
-    };
-    let found = Exercise { exercise: 7, seed: 2026 }.found().into_iter().map(answer);
-    let answers = json!({ "student": "A. Student", "answers": found.collect::<Vec<_>>() });
-    let [typed, saved] = ["typed.json", "saved.json"]
-        .map(|name| folder.path().join(name).to_string_lossy().into_owned());
-    std::fs::write(&typed, answers.to_string()).expect("a file");
-    in_browser(&modules, "exercise.cjs", &[&page, &typed, &saved]);
-    let output = run(folder.path(), &["snapshot", "verify", "saved.json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stdout));
 }
 
 #[test]

@@ -9,7 +9,6 @@ pub mod prices;
 pub mod range;
 pub mod readings;
 pub mod statuses;
-pub mod trace;
 pub mod variants;
 
 use rayon::prelude::*;

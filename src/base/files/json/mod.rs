@@ -1,4 +1,4 @@
-//! The one reader of JSON: scenes, snapshots, sweeps, results, answers, inputs of programs.
+//! The one reader of JSON: scenes, snapshots, sweeps, results, inputs of programs.
 
 mod fields;
 mod strict;
