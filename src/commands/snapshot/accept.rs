@@ -44,11 +44,13 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
+    // What cannot be read is named below.
+    let was = files::read(&args.file).unwrap_or_default();
     let (mut snapshot, verified) = verify_one(&args.file, args.scene.as_deref())?;
     let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
     let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
     if !args.dry_run {
-        files::write(&args.file, &report::file(&snapshot))?;
+        files::rewrite(&args.file, &was, &report::file(&snapshot))?;
     }
     print_report(report::accepted(&accepted))
 }

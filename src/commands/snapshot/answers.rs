@@ -30,7 +30,7 @@ pub fn verify(
     let marked: Vec<MarkedAnswers> = marked.into_iter().flatten().collect();
     match json {
         true => print(&report::json(&marked))?,
-        false => tables.print("snapshot verify", report::report(&marked))?,
+        false => tables.print(report::report(&marked))?,
     }
     let failures = failures.into_iter().filter_map(Result::err);
     let statuses: Vec<u8> = failures.map(|error| report_error(&error)).collect();
