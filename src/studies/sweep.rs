@@ -16,7 +16,7 @@ use crate::snapshot::{Options, VERSION};
 use base::error::{InputError, Result};
 use base::files::json::{Kind, read, read_field};
 use engine::error::Error;
-use engine::{Solution, max_displacement, solve, summaries};
+use engine::{Request, Solution, max_displacement, solve, summaries};
 use problem::scene::{SceneBuilder, SceneFile, sha256, sha256_of};
 
 /// Files of sweeps.
@@ -146,19 +146,26 @@ impl Jobs {
         sha256(&json!([VERSION, document, mesh]))
     }
 
+    /// Returns what a job asks for.
+    ///
+    /// # Errors
+    /// A pointer leads nowhere, or the scene or the options are at fault.
+    pub fn request(&self, job: &Job) -> Result<Request> {
+        let document = self.document(&job.values)?;
+        let text = document["scene"].to_string();
+        let beside = |name: &str| self.scene.beside(name);
+        let scene = SceneBuilder::read(&self.scene.name, text.as_bytes(), beside)?.build()?;
+        let options: Options = read_field(&document["options"], &SWEEP, "options")?;
+        Ok(options.request(&scene))
+    }
+
     /// Runs a job; what fails is a row too.
     ///
     /// # Errors
     /// The mesh was changed since the jobs were listed.
     pub fn run(&self, job: &Job) -> Result<Row> {
-        let request = self.document(&job.values).and_then(|document| {
-            let text = document["scene"].to_string();
-            let beside = |name: &str| self.scene.beside(name);
-            let scene = SceneBuilder::read(&self.scene.name, text.as_bytes(), beside)?.build()?;
-            let options: Options = read_field(&document["options"], &SWEEP, "options")?;
-            Ok(options.request(&scene))
-        });
-        let solved = request.map_err(Error::Input).and_then(|r| solve(&r, &mut |_| ()));
+        let request = self.request(job).map_err(Error::Input);
+        let solved = request.and_then(|request| solve(&request, &mut |_| ()));
         if self.key(&job.values, &mut HashMap::new()) != job.key {
             let what = "a mesh was changed while the sweep ran";
             return Err(InputError::new("field mesh", what, "run the sweep again"));
@@ -234,12 +241,16 @@ fn set(document: &mut Value, pointer: &str, value: &Value) -> Option<()> {
     Some(())
 }
 
-/// Returns what a solution says, flat, for a data frame.
+/// Returns what a solution says, flat, for a data frame; what has no value is left out.
 fn row(solution: &Solution) -> Row {
     let mut row = Row::new();
     let last = solution.last();
     let several = solution.equilibrium.as_ref().is_some_and(|e| e.uniqueness.is_refuted());
-    let mut set = |name: &str, value: Value| drop(row.insert(name.into(), value));
+    let mut set = |name: &str, value: Value| {
+        if !value.is_null() {
+            row.insert(name.into(), value);
+        }
+    };
     set("exit_status", json!(if several { 4 } else { 0 }));
     set("error", json!(several.then_some("the equilibrium is not the only one")));
     set("iterations", json!(solution.steps.len()));
