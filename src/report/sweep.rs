@@ -19,11 +19,11 @@ use studies::sweep::{Job, Row};
 choices! {
     /// An engine that runs jobs.
     Engine {
-        /// HyperQueue: a Python script for the package on PyPI.
+        /// A Python script for its package on PyPI.
         HyperQueue = "hyperqueue",
-        /// Snakemake: a rule for all jobs.
+        /// A rule for all jobs.
         Snakemake = "snakemake",
-        /// Make: a target for each job, named by its number.
+        /// A target for each job, named by its number.
         Make = "make",
     }
 }

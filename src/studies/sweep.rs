@@ -98,6 +98,9 @@ impl Jobs {
         let fields: Value = read(&scene.text, &kind).map_err(|error| error.within(&scene.name))?;
         let base = json!({"scene": fields, "options": sweep.options});
         let mut all = if sweep.list.is_empty() { vec![Map::new()] } else { sweep.list };
+        if all.len() > MOST_JOBS {
+            return Err(too_many());
+        }
         all.iter().flat_map(Map::keys).chain(sweep.grid.keys()).try_for_each(check_pointer)?;
         for (pointer, values) in sweep.grid {
             let values = listed(&pointer, values)?;
