@@ -64,7 +64,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    args.tables.check("trade")?;
+    args.tables.check()?;
     let scene = Scene::open(&args.scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
@@ -80,7 +80,7 @@ pub fn run(args: &Args) -> Result<()> {
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, "trade", &["trade.json", "trade.csv"])?;
+        files::check_folder(&out, &["trade.csv", "trade.json"])?;
     }
     let bar = progress(trade::steps(&request, &options)?, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<()> {
         return print(&json);
     }
     let report = report::report(&measured).line(format!("Written to {}", out.display()));
-    args.tables.print("trade", report)
+    args.tables.print(report)
 }
 
 fn finest(text: &str) -> std::result::Result<f64, String> {

@@ -16,7 +16,7 @@
 //! | `page`                                             | pages of HTML, each one file           |
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
 //! | `matrix_market`, `output`                          | other files                            |
-//! | `sweep`                                            | job files of engines                   |
+//! | `sweep`                                            | job files of engines, table of results |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `edited`, `scenes`                                 | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |

@@ -90,8 +90,8 @@ fn solve_leaves_out_pictures_and_estimates() {
         names.sort();
         names
     };
-    assert_eq!(files(&pictures.1), ["SHA256SUMS", "fields.vtu", "result.json"]);
-    assert_eq!(files(&estimates.1).len(), 7);
+    assert_eq!(files(&pictures.1), ["fields.vtu", "result.json"]);
+    assert_eq!(files(&estimates.1).len(), 6);
     assert_eq!(pictures.0.replace("no-pictures", "all"), all);
     assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
     assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));
@@ -355,26 +355,58 @@ fn a_change_of_a_scene_is_named_by_its_option() {
     }
 }
 
-/// A link is written through, a pipe is written to: neither is replaced.
+/// No link is followed, and no pipe is written to: neither is replaced.
 #[cfg(unix)]
 #[test]
-fn links_and_pipes_stay_what_they_are() {
+fn links_and_pipes_are_refused() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("real.mtx"), "old").unwrap();
     std::os::unix::fs::symlink("real.mtx", at("link.mtx")).unwrap();
-    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "link.mtx"]);
-    assert!(std::fs::symlink_metadata(at("link.mtx")).unwrap().is_symlink());
-    assert!(std::fs::read_to_string(at("real.mtx")).unwrap().starts_with("%%MatrixMarket"));
+    std::os::unix::fs::symlink("nowhere", at("dangling.mtx")).unwrap();
     let made = Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
     assert!(made.success());
-    let reader = std::thread::spawn({
-        let pipe = at("pipe");
-        move || std::fs::read_to_string(pipe).unwrap()
-    });
-    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "pipe"]);
-    assert!(reader.join().unwrap().starts_with("%%MatrixMarket"));
-    assert!(!std::fs::metadata(at("pipe")).unwrap().is_file());
+    for (name, words) in [
+        ("link.mtx", "it is a link"),
+        ("dangling.mtx", "it is a link"),
+        ("pipe", "it is no ordinary file"),
+        ("/dev/null", "it is no ordinary file"),
+    ] {
+        let args = ["listing", "run", "Km", "fig1", "--matrix-market", name];
+        let output = run(folder.path(), &args);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && error.contains(words), "{name}: {error}");
+    }
+    assert_eq!(std::fs::read_to_string(at("real.mtx")).unwrap(), "old");
+    assert!(!at("nowhere").exists());
+}
+
+/// An output that would replace what the run reads is refused.
+#[test]
+fn no_output_replaces_an_input() {
+    let folder = TempDir::new().unwrap();
+    succeeds(folder.path(), &["scene", "copy", "fig1", "--out", "my"]);
+    succeeds(folder.path(), &["snapshot", "record", "fig1", "--out", "s.json"]);
+    let c_cnt = concat!(env!("CARGO_MANIFEST_DIR"), "/listings/c_cnt.txt");
+    std::fs::copy(c_cnt, folder.path().join("l.txt")).unwrap();
+    for (line, file) in [
+        ("report my --no-audit --out my/scene.json", "my/scene.json"),
+        ("lesson ./my/../my/scene.json --out my/scene.json", "my/scene.json"),
+        ("scene export my --out my/scene.json", "my/scene.json"),
+        ("mathcad export my --out my/scene.json", "my/scene.json"),
+        ("lesson fig1 --listing l.txt --out l.txt", "l.txt"),
+        ("snapshot verify s.json --report s.json", "s.json"),
+        ("snapshot verify s.json --junit s.json", "s.json"),
+    ] {
+        let before = std::fs::read(folder.path().join(file)).unwrap();
+        let output = run(folder.path(), &line.split(' ').collect::<Vec<_>>());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(2) && error.contains("this run reads it"),
+            "{line}: {error}"
+        );
+        assert!(std::fs::read(folder.path().join(file)).unwrap() == before, "{line}");
+    }
 }
 
 /// A scene by path: its mesh is resolved beside it, its name is that of its folder.

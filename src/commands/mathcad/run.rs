@@ -1,6 +1,5 @@
 //! `plane-contact mathcad run`.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -72,9 +71,9 @@ fn open(file: &Path) -> Result<document::Worksheet, InputError> {
 /// Reads the text of a worksheet, packed or not.
 fn read_text(file: &Path) -> io::Result<String> {
     let most = document::LARGEST as u64;
-    let bytes = files::read_up_to(File::open(file)?, most)?;
+    let bytes = files::read_most(file, most)?;
     let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
-        true => files::read_up_to(GzDecoder::new(&*bytes), most)?,
+        true => files::read_from(GzDecoder::new(&*bytes), most)?,
         false => bytes,
     };
     files::text(bytes)

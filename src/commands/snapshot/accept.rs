@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
-use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
@@ -34,16 +33,12 @@ pub fn run(args: &Args) -> Result<()> {
     let file = args.file.display().to_string();
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let text = files::read(&args.file);
-    let before = text.as_ref().ok().cloned();
+    // What cannot be read is named below.
+    let was = text.as_ref().ok().cloned().unwrap_or_default();
     let old = snapshot_of(&args.file, text)?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let new = new.map_err(|error| within(error, &file))?;
-    // What another process or a user wrote meanwhile is not lost.
-    if files::read(&args.file).ok() != before {
-        let what = "the snapshot was changed while it was recorded again";
-        return Err(InputError::new(file, what, "accept it again").into());
-    }
-    files::write(&args.file, &report::file(&new))?;
+    files::rewrite(&args.file, &was, &report::file(&new))?;
     let verified = Ok(difference(&old, &new));
     print_report(report::report(&[VerifiedFile { file, verified }]))
 }

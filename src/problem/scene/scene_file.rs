@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use super::source::FileBeside;
 use base::error::{InputError, Result};
-use base::files::{self, Folder};
+use base::files;
 use base::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -39,7 +39,7 @@ impl SceneFile {
             return Ok(embedded);
         }
         if name_or_path == "-" {
-            let text = files::read_from(std::io::stdin()).map_err(|why| {
+            let text = files::read_from(std::io::stdin(), files::MOST).map_err(|why| {
                 let what = format!("the scene cannot be read: {why}");
                 InputError::new("standard input", what, "direct a scene file to it")
             })?;
@@ -64,7 +64,7 @@ impl SceneFile {
         let name = Path::new(name_or_path);
         let is_folder = folder.join(name).is_dir();
         let name = if is_folder { name.join("scene.json") } else { name.into() };
-        let text = Folder::open(folder).and_then(|folder| folder.read(&name, files::MOST));
+        let text = files::read_in(folder, &name, files::MOST);
         Self::from_read(&folder.join(name), text, name_or_path)
     }
 
@@ -111,7 +111,7 @@ impl SceneFile {
                 found.map(|(_, bytes)| (*bytes).into()).ok_or_else(|| "not embedded".to_string())
             }
             Files::Folder(folder, _) => {
-                let opened = Folder::open(folder).and_then(|folder| folder.file(file));
+                let opened = files::open_in(folder, Path::new(file));
                 let (file, length) = opened.map_err(|why| why.to_string())?;
                 Ok(FileBeside::new(file, length as usize))
             }
