@@ -202,7 +202,6 @@ const TEXTS: &[&str] = &[
     "snapshot diff fig1 --variant tied,stepped",
     "snapshot accept out/fig1.snapshot.json --scene two-blocks --reason because",
     "sweep run sweep.json",
-    "sweep table sweep.json",
     "listing evaluate fact.txt --call fact(3)",
     "listing evaluate fact.txt --call g(3)",
     "listing evaluate wrong.txt --call f(1)",
