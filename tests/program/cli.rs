@@ -60,7 +60,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 8, "with the list of them, and no temporary file is left");
+    assert_eq!(count, 7, "no temporary file is left");
 }
 
 /// Returns `fields.vtu` of a run's folder without its arrays.

@@ -354,3 +354,21 @@ fn a_poor_environment_changes_nothing_but_the_width() {
     }
     assert_eq!(shell(folder.path(), "$P --help | true").status.code(), Some(0));
 }
+
+/// Of several that read a file and replace it, one does; the others are told that it was changed.
+#[test]
+fn no_update_is_lost() {
+    let folder = TempDir::new().expect("a folder");
+    let file = folder.path().join("s.json");
+    std::fs::write(&file, "old").expect("it is written");
+    let replace = |_| plane_contact::files::rewrite(&file, b"old", "new!");
+    let replaced: Vec<_> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..8).map(|k| scope.spawn(move || replace(k))).collect();
+        threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
+    });
+    let (done, refused): (Vec<_>, Vec<_>) = replaced.into_iter().partition(Result::is_ok);
+    assert_eq!((done.len(), refused.len()), (1, 7));
+    let changed = |why: &plane_contact::error::InputError| why.what.contains("was changed since");
+    assert!(refused.iter().filter_map(|refused| refused.as_ref().err()).all(changed));
+    assert_eq!(std::fs::read_to_string(&file).expect("a file"), "new!");
+}

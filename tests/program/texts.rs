@@ -228,7 +228,6 @@ fn an_old_command_is_answered_by_the_new_one() {
         "scene fig1",
         "mesh cook --n 2",
         "plan fig1 --json",
-        "key fig1",
         "statuses --scenes 3",
     ];
     for line in old {

@@ -104,14 +104,6 @@ pub fn names(folder: &Path, extension: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// Reads a text in UTF-8 of up to 268 MB.
-///
-/// # Errors
-/// The file cannot be read, is longer, or is not in UTF-8, with the line where it is not.
-pub fn read_text(path: &Path) -> io::Result<String> {
-    text(read(path)?)
-}
-
 /// Returns a text in UTF-8.
 ///
 /// # Errors

@@ -95,12 +95,15 @@ pub fn rewrite(path: &Path, was: &[u8], content: &str) -> Result<()> {
     let write = || {
         ordinary(path)?;
         let staged = staged(path, content.as_bytes())?;
+        // Of several processes only one compares and replaces; a file system may have no locks.
+        let there = fs::File::open(path)?;
+        let _ = there.lock();
         match is_same(path, was)? {
             true => put(vec![staged]),
             false => Err(io::Error::other("it was changed since it was read")),
         }
     };
-    write().map_err(|why| unwritable(path, &why))
+    write().map_err(|why| InputError { fix: "run it again".into(), ..unwritable(path, &why) })
 }
 
 /// Writes files by their names in `folder`; the last, which marks the folder as this program's, last. All
