@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::common::program::run;
 use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
 use plane_contact::problem::element;
-use plane_contact::problem::scene::{FileBeside, Mesh, SceneBuilder};
+use plane_contact::problem::scene::{Mesh, SceneBuilder};
 use plane_contact::studies::benchmark::{
     Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch, Strand,
 };
@@ -165,7 +165,6 @@ fn the_files_read_back_to_the_same_mesh_and_description() {
         let beside =
             |file: &str| std::fs::read(folder.path().join(file)).map_err(|e| e.to_string());
         let text = beside("scene.json").unwrap();
-        let beside = |file: &str| beside(file).map(FileBeside::from);
         let read = SceneBuilder::read(&benchmark.name, &text, beside).expect("the files are sound");
         assert_eq!(read, benchmark);
         assert_eq!(case.kind.generate().unwrap(), benchmark, "the same every time");

@@ -280,7 +280,7 @@ fn friction_is_a_coefficient_or_stick() {
     let read = |friction: &str| {
         let text = file::write(&scene.description, "m.msh");
         let text = text.replace("\"friction\":0", &format!("\"friction\":{friction}"));
-        let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes().into());
+        let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());
         SceneBuilder::read("stacked", text.as_bytes(), beside)
     };
     for wrong in ["-0.1", "\"slippery\"", "\"NaN\"", "null"] {

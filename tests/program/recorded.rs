@@ -180,7 +180,7 @@ fn edited_mesh_files() {
                 Ok(lines) => edited_text(&mut rng, lines),
                 Err(_) => edited_bytes(&mut rng, file),
             };
-            let read = match gmsh::read(edited.as_slice(), edited.len()) {
+            let read = match gmsh::read(&edited) {
                 Err(error) => format!("! {error}"),
                 Ok(mesh) => {
                     let judged = mesh.check().err().map(|error| error.to_string());

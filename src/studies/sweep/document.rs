@@ -2,7 +2,6 @@
 //! pointers set values; and its key.
 
 use std::collections::HashMap;
-use std::io::Read;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{Command, FromArgMatches, Subcommand};
@@ -18,9 +17,6 @@ use problem::scene::{SceneBuilder, SceneFile, file, sha256};
 /// Files of sweeps.
 pub(super) const SWEEP: files::json::Kind =
     files::json::Kind { name: "sweep", fix: "see `plane-contact sweep --help`", has_values: true };
-
-/// The most bytes of a mesh file that tell it from another.
-const MOST_OF_MESH: u64 = 1 << 32;
 
 /// What a case runs.
 #[derive(Clone)]
@@ -43,8 +39,8 @@ impl Source {
     fn mesh_sha256(&self, name: &str) -> Result<String, String> {
         let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
         let read = || {
-            let file = self.file.beside(name)?.take(MOST_OF_MESH);
-            files::sum_of(file).map_err(|why| why.to_string())
+            let file = self.file.beside(name)?;
+            files::sum_of(&file[..]).map_err(|why| why.to_string())
         };
         meshes.entry(name.into()).or_insert_with(read).clone()
     }
