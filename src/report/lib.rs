@@ -12,7 +12,7 @@
 //! | `document`, `glossary`                             | the audit report that is handed in     |
 //! | `comparison`, `extremes`, `plan`, `trace`          | a study each                           |
 //! | `answers`                                          | the marks of answers to exercises      |
-//! | `snapshot`, `statuses`, `trade`                    | a study each                           |
+//! | `snapshot`, `trade`                                | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
@@ -57,7 +57,6 @@ pub mod quantities;
 mod result_file;
 pub mod scenes;
 pub mod snapshot;
-pub mod statuses;
 pub mod sweep;
 pub mod tables;
 pub mod text;

@@ -54,6 +54,7 @@ mod schema;
 mod sentences;
 mod snapshots;
 mod soak;
+mod statuses;
 mod sweeps;
 mod tables;
 mod texts;

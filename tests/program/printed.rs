@@ -188,7 +188,6 @@ const TEXTS: &[&str] = &[
     "listing trace fig1 --listing c_cnt.txt",
     "extremes --list",
     "extremes offset",
-    "audit --statuses --scenes 3",
     "trade fig1 --runs 1 --only solver",
     "trade fig1 --runs 1 --only mesh,c_tll",
     "compare fig1",

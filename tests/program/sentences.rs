@@ -555,36 +555,6 @@ fn sentences_and_tables_of_audit_are_those_of_its_json() {
     }
 }
 
-#[test]
-fn tables_of_statuses_are_those_of_their_json() {
-    let folder = TempDir::new().expect("a folder");
-    let args = ["audit", "--statuses", "--scenes", "5"];
-    printed(folder.path(), &[&args[..], &["--csv", "csv"]].concat());
-    let json = json_of(folder.path(), &args);
-    let rows = json["by_depth"].as_array().expect("rows");
-    let printed = cells(folder.path(), "1-wrong-statuses");
-    assert_eq!(printed.len(), rows.len());
-    for (row, of) in printed.iter().zip(rows) {
-        for (rule, cells) in of["rules"].as_array().expect("rules").iter().zip(row[4..].chunks(2)) {
-            let (missed, wrong) = (number(&rule["missed"]), number(&rule["false_contacts"]));
-            assert_eq!(cells[0], format!("{missed} + {wrong}"));
-            assert_shows(
-                &cells[1],
-                &(100.0 * ((missed + wrong) / number(&of["nodes"]))).into(),
-                &cells[1],
-            );
-        }
-    }
-    let rows = json["by_size"].as_array().expect("rows");
-    for (row, of) in
-        cells(folder.path(), "2-operations-of-one-call-for-each-contact-node").iter().zip(rows)
-    {
-        for (rule, cell) in of["rules"].as_array().expect("rules").iter().zip(&row[2..]) {
-            assert_shows(cell, &(number(&rule["operations"]) / number(&of["nodes"])).into(), cell);
-        }
-    }
-}
-
 /// The tables of `compare`, of two runs of our own: CalculiX need not be installed.
 #[test]
 fn tables_of_compare_are_those_of_its_json() {

@@ -32,7 +32,6 @@ const COMMANDS: &[&str] = &[
     "scene list",
     "scene copy C4 --out c4",
     "scene plan fig1",
-    "audit --statuses --scenes 2",
     "listing trace fig1",
     "listing evaluate sum.txt --call f(3)",
     "mathcad run fig1.xmcd",

@@ -8,11 +8,10 @@ use std::sync::LazyLock;
 use plane_contact::engine::{Assessment, Session, Solution, SolutionDistance, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::report;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price};
-use plane_contact::studies::audit::statuses;
 use plane_contact::studies::benchmark::{
     Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
 };
@@ -53,14 +52,14 @@ fn assert_table(name: &str, title: &str, command: &str, table: &str) {
 }
 
 /// A table in Markdown, from its head and its rows, the cells of each apart by `|`.
-fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
+pub fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
     let rule = "---|".repeat(head.split('|').count());
     let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
     format!("| {head} |\n|{rule}\n{rows}")
 }
 
 /// A share in per cent; what is rounding alone is 0.
-fn percent(share: f64, decimals: usize) -> String {
+pub fn percent(share: f64, decimals: usize) -> String {
     if share.abs() < 1e-9 { "0".into() } else { format!("{:.decimals$} %", 100.0 * share) }
 }
 
@@ -448,31 +447,5 @@ fn settings() {
          rounding decides nothing.",
         "trade strand --only c_tll,iterations,symmetry",
         &table,
-    );
-}
-
-/// Status rules on random scenes.
-#[test]
-fn status_rules() {
-    let measured = statuses::measure(200, 1);
-    let row = |row: &statuses::Row| {
-        let wrong = row.rules.iter().map(|rule| percent(rule.wrong_share(row.nodes), 1));
-        let wrong = wrong.collect::<Vec<_>>().join(" | ");
-        format!("{} | {} | {wrong}", row.depth, row.target)
-    };
-    let cells = |cell: &dyn Fn(usize) -> String| {
-        (0..StatusRule::ALL.len()).map(cell).collect::<Vec<_>>().join(" | ")
-    };
-    let heads = cells(&|k| format!("`{}`, wrong", StatusRule::ALL[k]));
-    let head = format!("depth of the jump over c_tll | target lies | {heads}");
-    let operations =
-        |k: usize| -> u64 { measured.by_size.iter().map(|row| row.rules[k].operations).sum() };
-    let ratios = cells(&|k| format!("{:.1}", operations(k) as f64 / operations(0) as f64));
-    let last = format!("operations, over those of `{}` | both | {ratios}", StatusRule::ALL[0]);
-    assert_table(
-        "statuses",
-        "Status rules on random scenes whose contact is known.",
-        "audit --statuses",
-        &markdown(&head, measured.by_depth.iter().map(row).chain([last])),
     );
 }
