@@ -13,7 +13,6 @@ use std::time::Instant;
 
 use clap::Parser;
 use nalgebra::DVector;
-use plane_contact::engine::fast::listings as fast;
 use plane_contact::engine::{Elimination, Stiffness};
 use plane_contact::numbers::solve::SparseCholesky;
 use plane_contact::paper::door;
@@ -66,9 +65,8 @@ fn main() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let sizes: Vec<usize> =
         [59, 116, 340].into_iter().filter(|size| *size <= args.largest).collect();
-    let tables: [&dyn Fn() -> Table; 9] = [
+    let tables: [&dyn Fn() -> Table; 8] = [
         &interpreter,
-        &search,
         &iteration,
         &|| octave(folder.path()),
         &long_surfaces,
@@ -452,27 +450,6 @@ fn octave(folder: &Path) -> Table {
     let fast = 1e3 * (twenty - one) / 19.0;
     let values = [octave, mirror, octave / mirror, 100.0, fast, octave / fast, 1000.0];
     table.row("one iteration", &values.map(Some));
-    table
-}
-
-/// `c_cnt` by the mirror and by the tree.
-fn search() -> Table {
-    let mut table =
-        Table::new("One call of `c_cnt`", &["mirror, ms", "tree, ms", "ratio", "goal ms"]);
-    let reading = Reading::default();
-    for n in [1_000, 10_000] {
-        let sheet = door::worksheet(&strips(n).model, |x| x);
-        let mirror = || c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
-        let tree = || fast::c_cnt(&sheet, &reading, &sheet.node).expect("it runs");
-        assert_eq!(mirror(), tree());
-        let mirror = 1e3 * least(2, || drop(black_box(mirror())));
-        let tree = 1e3 * least(5, || drop(black_box(tree())));
-        let goal = (n == 10_000).then_some(20.0);
-        table.row(
-            format!("{n} contact nodes, {n} edges"),
-            &[Some(mirror), Some(tree), Some(mirror / tree), goal],
-        );
-    }
     table
 }
 

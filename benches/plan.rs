@@ -33,7 +33,7 @@ const CASES: [Case; 19] = [
     ("strand", Some(Variant::Unilateral), None),
     ("strand", Some(Variant::Tied), SPARSE),
     ("strand", Some(Variant::Stepped), SPARSE),
-    ("strand", Some(Variant::Stepped), Some(Solver::DenseCholesky)),
+    ("strand", Some(Variant::Stepped), Some(Solver::DenseLu)),
     ("hertz --size 10", None, None),
     ("hertz --size 20", None, None),
     ("hertz --size 40", None, None),

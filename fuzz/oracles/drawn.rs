@@ -121,7 +121,7 @@ pub fn request(u: &mut Unstructured, scene: &Scene) -> Result<Request> {
     };
     let inputs = *u.choose(Inputs::ALL)?;
     let request = Request::new(scene).reading(reading(u)?);
-    Ok(request.arithmetic(Arithmetic { scalar, solver, inputs, tol: None }))
+    Ok(request.arithmetic(Arithmetic { scalar, solver, inputs }))
 }
 
 pub fn reading(u: &mut Unstructured) -> Result<Reading> {

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use arbitrary::{Result, Unstructured};
-use plane_contact::engine::fast::listings as fast;
 use plane_contact::mathcad::array::Table;
 use plane_contact::mathcad::xmcd::document::{self, Content};
 use plane_contact::mathcad::xmcd::page;
@@ -180,8 +179,6 @@ fn is_mirrored(sheet: &Worksheet<f64>, node_n: &Table<f64>, reading: &Reading) -
     let listing = printed(Which::CCnt, reading);
     let executed = listings::c_cnt(&listing, &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(stop);
-    let fast = fast::c_cnt(sheet, reading, node_n);
-    assert_eq!(of_mirror, fast.as_ref().map(pair_bits).map_err(stop));
     assert_eq!(of_mirror, executed.map(|(p, _)| pair_bits(&p)).map_err(|f| printed_stop(&f)));
     let k_cnt = mirror.map_or_else(|_| Table::filled(sheet.R(), 4, 0.0), |pairs| pairs.k_cnt);
     let mirror = Km(sheet, reading, &k_cnt).map(|m| m.to_table());

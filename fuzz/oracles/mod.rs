@@ -3,12 +3,9 @@
 //! `tests/program/fuzz.rs` the inputs that are kept in `corpus/`.
 #![forbid(unsafe_code)]
 
-pub mod documents;
 mod drawn;
 pub mod gmsh;
 pub mod listing;
-pub mod options;
-pub mod results;
 pub mod scene;
 pub mod solve;
 pub mod sound;
@@ -18,12 +15,9 @@ pub mod worksheets;
 pub type Hold = fn(&[u8]);
 
 /// The targets by name.
-pub const TARGETS: [(&str, Hold); 8] = [
-    ("documents", documents::hold),
+pub const TARGETS: [(&str, Hold); 5] = [
     ("gmsh", gmsh::hold),
     ("listing", listing::hold),
-    ("options", options::hold),
-    ("results", results::hold),
     ("scene", scene::hold),
     ("solve", solve::hold),
     ("worksheets", worksheets::hold),

@@ -4,7 +4,6 @@
 
 use arbitrary::{Result, Unstructured};
 use plane_contact::engine::Assessment;
-use plane_contact::engine::Session;
 use plane_contact::engine::contact::pulling;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
 use plane_contact::numbers::solve::cost;
@@ -51,7 +50,7 @@ fn of_draws(u: &mut Unstructured) -> Result<Option<Request>> {
 
 /// The result and its tables have no number without a value, and the result reads back the same.
 fn is_written(solution: &Solution) {
-    let assessment = Assessment::new(solution, &Session::default());
+    let assessment = Assessment::new(solution);
     let plan = Plan::new(&solution.request).expect("what ran can be planned");
     let text = ResultFile::new(solution, &assessment, Some(&plan)).to_json();
     sound::document(&text);
@@ -62,20 +61,20 @@ fn is_written(solution: &Solution) {
     sound::text(&tables::distance(solution, &assessment).text(usize::MAX));
 }
 
-/// Condensed and dense equations lead to the same displacements within the bounds that both runs keep
+/// Sparse and dense equations lead to the same displacements within the bounds that both runs keep
 /// on their own rounding, and so do exact numbers where they take no time.
 fn is_confirmed(solution: &Solution) {
     let Request { arithmetic, reading, iterations, .. } = solution.request;
     let bounded = |solver| {
         let scalar = ScalarName::Bounded;
-        let arithmetic = Arithmetic { scalar, solver, tol: None, ..arithmetic };
+        let arithmetic = Arithmetic { scalar, solver, ..arithmetic };
         let run = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ()).ok()?;
         let bound = run.error_bound.filter(|bound| bound.is_finite())?;
         Some((run, bound))
     };
-    let Some((condensed, bound)) = bounded(None) else { return };
+    let Some((sparse, bound)) = bounded(None) else { return };
     let within = |other: &Solution, bound: f64| {
-        let apart = (&condensed.u - &other.u).amax();
+        let apart = (&sparse.u - &other.u).amax();
         assert!(apart <= bound, "{apart:e} apart, {bound:e} at most: {:?}", solution.request);
     };
     if let Some((dense, own)) = bounded(Some(Solver::DenseLu)) {
@@ -83,8 +82,7 @@ fn is_confirmed(solution: &Solution) {
     }
     let equations = solution.model.free_dofs();
     if cost::seconds(equations, reading.r5.follows_the_shape(), iterations) < 0.01 {
-        let arithmetic =
-            Arithmetic { scalar: ScalarName::Exact, solver: None, tol: None, ..arithmetic };
+        let arithmetic = Arithmetic { scalar: ScalarName::Exact, solver: None, ..arithmetic };
         let exact = solve(&solution.request.clone().arithmetic(arithmetic), &mut |_| ());
         match exact {
             // Its displacements are rounded to be written.

@@ -27,7 +27,7 @@ pub fn failed_run(error: &Error, variant: Variant) {
 }
 
 /// The fields that are null where there is nothing to say, and are never made of a number.
-const ABSENT: [&str; 5] = ["condensed", "contact", "half", "idle", "path"];
+const ABSENT: [&str; 4] = ["contact", "half", "idle", "path"];
 
 /// A document is JSON, and gives a reason for every number that is null: JSON has no other way to
 /// write what is infinite or no number.

@@ -11,11 +11,6 @@ pub struct ArithmeticArgs {
         Solver::help()
     ))]
     solver: Option<Solver>,
-    /// Largest relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; cg also
-    /// takes that of A scaled to a unit diagonal, refined the next change of x over x [default: 16 eps
-    /// of the scalar].
-    #[arg(long, value_name = "T")]
-    tol: Option<f64>,
     #[arg(long, value_name = "NAME", default_value = "binary", help = format!(
         "What the numbers of the scene stand for. {}",
         Inputs::help()
@@ -25,7 +20,7 @@ pub struct ArithmeticArgs {
 
 impl From<ArithmeticArgs> for Arithmetic {
     fn from(args: ArithmeticArgs) -> Self {
-        let ArithmeticArgs { scalar, solver, tol, inputs } = args;
-        Arithmetic { scalar, solver, tol, inputs }
+        let ArithmeticArgs { scalar, solver, inputs } = args;
+        Arithmetic { scalar, solver, inputs }
     }
 }

@@ -225,7 +225,7 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     let others = [case.reference(), case.equilibrium()];
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
-            let assessment = Assessment::against(solution, case.session(), others);
+            let assessment = Assessment::against(solution, others);
             let of_run = folder::contents(solution, &assessment, None, FolderOptions::default());
             let named =
                 of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));

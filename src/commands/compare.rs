@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use plane_contact::engine::Session;
 use plane_contact::engine::error::Result;
 use plane_contact::engine::estimates::certain;
 use plane_contact::files;
@@ -62,7 +61,7 @@ pub fn run(args: &Args) -> Result<()> {
     calculix::check(&args.ccx)?;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
-    let (solution, certainty) = certain(solution, &Session::default());
+    let (solution, certainty) = certain(solution);
     let parts = args.deck.parts(&solution)?;
     let (scene, model) = (&solution.request.scene, &solution.model);
     let ran = waiting("running ccx", || calculix::run(&args.ccx, scene, model, &parts))?;

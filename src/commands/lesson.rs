@@ -64,7 +64,7 @@ pub fn run(args: &Args) -> Result<()> {
     let (name, page) = match args.exercise {
         Some(number) => {
             let exercise = Exercise { exercise: number, seed: args.seed };
-            (format!("exercise-{number}"), exercise::html(exercise, args.lang))
+            (format!("exercise-{number}"), exercise::html(exercise))
         }
         None => ("lesson".into(), lesson(args)?),
     };
@@ -80,8 +80,7 @@ fn lesson(args: &Args) -> Result<String> {
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
         let edited = Edited::new(file, &read_listing(file)?)?;
-        let about = format!("{} as edited", edited.which.name());
-        asked.push(Switch::edited("edited", about, edited.which, edited.listing()));
+        asked.push(Switch::edited(edited.which, edited.listing()));
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
         // Refuses what a page cannot show.

@@ -281,7 +281,6 @@ pub fn folder_name(start: String, request: &Request, more: &[String]) -> String 
     add(contact.status != own.status, contact.status.to_string());
     add(arithmetic.scalar != plain.scalar, arithmetic.scalar.to_string());
     add(arithmetic.solver != plain.solver, request.solver().to_string());
-    add(arithmetic.tol.is_some(), format!("tol-{:e}", arithmetic.tol.unwrap_or_default()));
     add(arithmetic.inputs != plain.inputs, arithmetic.inputs.to_string());
     add(*reading != Reading::default(), reading.to_string());
     more.iter().for_each(|option| add(true, option.clone()));

@@ -13,7 +13,6 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::comparison;
 use plane_contact::report::document::{Contents, Run, document};
-use plane_contact::report::language::Language;
 use plane_contact::report::page::report as page;
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::prices::{Compared, Price};
@@ -53,7 +52,6 @@ long as solve with --no-audit.
 Examples:
   plane-contact report
   plane-contact report fig1 --out fig1.html
-  plane-contact report --lang ru                           in Russian
   plane-contact report --format markdown                   with its figures beside it
   plane-contact report --ccx                               CalculiX beside it
   plane-contact report --charts out/strand-geometry        with the charts that trade wrote there
@@ -80,10 +78,6 @@ pub struct Args {
     /// A folder whose charts, *.svg, are shown.
     #[arg(long, value_name = "DIR")]
     charts: Option<PathBuf>,
-    /// The language: en, ru. Units, commands, messages of the interpreter and words within figures stay
-    /// English.
-    #[arg(long, default_value_t)]
-    lang: Language,
     /// The file [default: out/report, and .html or .md].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -128,9 +122,9 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
         calculix: beside.as_ref().map(|beside| beside.compared(case)),
         charts,
     };
-    let report = args.lang.say_report(document(&contents));
+    let report = document(&contents);
     match args.format {
-        Format::Html => files::write(out, &page::html(&report, &contents, args.lang))?,
+        Format::Html => files::write(out, &page::html(&report, &contents))?,
         Format::Markdown => {
             files::write(out, &report.markdown())?;
             for (name, svg) in report.figures() {
@@ -167,20 +161,13 @@ fn runs<'a>(args: &Args, case: &'a Case) -> Vec<Run<'a>> {
         false => [case.reference(), case.equilibrium()],
     };
     let runs = ran.map(|(solution, _)| solution).chain(others.into_iter().flatten());
-    let assessed = |solution| Run {
-        solution,
-        assessment: Assessment::against(solution, case.session(), others),
-    };
+    let assessed = |solution| Run { solution, assessment: Assessment::against(solution, others) };
     runs.map(assessed).collect()
 }
 
 /// Returns the command that makes the report again, but for the place of its file.
 fn command(args: &Args) -> String {
     let mut command = format!("plane-contact report {} --format {}", args.scene, args.format);
-    match args.lang {
-        Language::En => (),
-        Language::Ru => command += " --lang ru",
-    }
     if !args.variant.is_empty() {
         command += &format!(" --variant {}", variants(args));
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::{Cause, NoEquilibrium, Result};
-use plane_contact::engine::{self, Assessment, Request, Session, Solution, Step};
+use plane_contact::engine::{self, Assessment, Request, Solution, Step};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Solver;
@@ -57,7 +57,7 @@ pub struct Args {
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
     /// largest.
     #[arg(long, value_name = "A",
-        conflicts_with_all = ["scalar", "solver", "tol", "inputs", "c_cnt", "km"])]
+        conflicts_with_all = ["scalar", "solver", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,
     /// Print displacement, stress and strain at a point of the undeformed mesh, with their errors;
     /// may be given more than once.
@@ -99,12 +99,10 @@ pub fn run(args: &Args) -> Result<u8> {
         let names = report::folder::names(wanted);
         files::check_folder(&out, "solve", &names.iter().map(String::as_str).collect::<Vec<_>>())?;
     }
-    let session = Session::default();
     // The plan's count of the factors takes a fifth of the time of a large run.
-    let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request, &session));
+    let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request));
     let ((solution, accuracy), plan) = (solved?, plan?);
-    let assessment = waiting("assessing", || assess(args, &solution, &session))?;
-    session.release();
+    let assessment = waiting("assessing", || assess(args, &solution))?;
     let result = if is_written {
         report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
     } else {
@@ -152,15 +150,15 @@ fn own_folder(args: &Args, request: &Request) -> String {
 ///
 /// # Errors
 /// A point of `--probe` lies outside every body.
-fn assess<'a>(args: &Args, solution: &'a Solution, session: &Session) -> Result<Assessment<'a>> {
+fn assess<'a>(args: &Args, solution: &'a Solution) -> Result<Assessment<'a>> {
     let mut assessment = if args.no_assessment {
         Assessment::none(solution)
     } else if args.no_error_estimate {
-        Assessment::without_estimates(solution, session)
+        Assessment::without_estimates(solution)
     } else {
-        Assessment::new(solution, session)
+        Assessment::new(solution)
     };
-    assessment.probe(solution, session, &args.probe)?;
+    assessment.probe(solution, &args.probe)?;
     Ok(assessment)
 }
 
@@ -217,9 +215,9 @@ fn status(solution: &Solution) -> u8 {
 }
 
 /// Returns the solution, and under `--accuracy` how its precision was found.
-fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution, Report)> {
+fn solve(args: &Args, request: &Request) -> Result<(Solution, Report)> {
     if let Some(asked) = args.accuracy {
-        let reached = solve_to(request, session, asked)?;
+        let reached = solve_to(request, asked)?;
         let words = report::trade::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
@@ -230,7 +228,7 @@ fn solve(args: &Args, request: &Request, session: &Session) -> Result<(Solution,
             progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}")
         }
     };
-    let solution = session.solve(request, &mut |_: &Step| progress.inc(1))?;
+    let solution = engine::solve(request, &mut |_: &Step| progress.inc(1))?;
     progress.finish_and_clear();
     Ok((solution, Report::default()))
 }

@@ -12,8 +12,8 @@ use super::hertz::Hertz;
 use super::probe::{Probe, probes};
 use super::quantities::{BodySummary, summaries};
 use super::request::Request;
-use super::session::Session;
 use super::solution::{Solution, Start};
+use super::solve::solve;
 use base::error::InputError;
 use problem::modelling::{ContactModel, Friction, Variant};
 
@@ -49,13 +49,13 @@ pub struct SolutionDistance<'a> {
 }
 
 impl<'a> Assessment<'a> {
-    /// Assesses a solution, and solves in `session` for the reference solution and for the equilibrium
+    /// Assesses a solution, and solves for the reference solution and for the equilibrium
     /// under the scene's own friction and geometry, unless it is one of them.
-    pub fn new(solution: &'a Solution, session: &Session) -> Self {
+    pub fn new(solution: &'a Solution) -> Self {
         let request = &solution.request;
         let ((others, half), estimates) = rayon::join(
-            || rayon::join(|| others(solution, session), || half_as_many_steps(request, session)),
-            || Estimates::new(solution, session),
+            || rayon::join(|| others(solution), || half_as_many_steps(request)),
+            || Estimates::new(solution),
         );
         let assessment = Assessment::beside(solution, others);
         Assessment { estimates: Some(estimates), path_change: change(half, solution), ..assessment }
@@ -63,8 +63,8 @@ impl<'a> Assessment<'a> {
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
     /// another run, are computed.
-    pub fn without_estimates(solution: &'a Solution, session: &Session) -> Self {
-        Assessment::beside(solution, others(solution, session))
+    pub fn without_estimates(solution: &'a Solution) -> Self {
+        Assessment::beside(solution, others(solution))
     }
 
     /// Takes a solution as it is: only the largest values of its bodies are computed.
@@ -74,13 +74,9 @@ impl<'a> Assessment<'a> {
 
     /// Assesses a solution against solutions that are already known: the reference solution, and
     /// the equilibrium under the scene's own friction and geometry.
-    pub fn against(
-        solution: &'a Solution,
-        session: &Session,
-        others: [Option<&'a Solution>; 2],
-    ) -> Self {
-        let estimates = Some(Estimates::new(solution, session));
-        let path_change = change(half_as_many_steps(&solution.request, session), solution);
+    pub fn against(solution: &'a Solution, others: [Option<&'a Solution>; 2]) -> Self {
+        let estimates = Some(Estimates::new(solution));
+        let path_change = change(half_as_many_steps(&solution.request), solution);
         let others = others.map(|other| other.map(|other| Ok(Cow::Borrowed(other))));
         Assessment { estimates, path_change, ..Assessment::beside(solution, others) }
     }
@@ -114,18 +110,13 @@ impl<'a> Assessment<'a> {
     ///
     /// # Errors
     /// A point lies outside every body.
-    pub fn probe(
-        &mut self,
-        solution: &Solution,
-        session: &Session,
-        points: &[[f64; 2]],
-    ) -> Result<(), InputError> {
+    pub fn probe(&mut self, solution: &Solution, points: &[[f64; 2]]) -> Result<(), InputError> {
         if points.is_empty() {
             return Ok(());
         }
-        let own = self.estimates.is_none().then(|| Estimates::new(solution, session));
+        let own = self.estimates.is_none().then(|| Estimates::new(solution));
         let estimates = self.estimates.as_ref().or(own.as_ref()).expect("one of the two");
-        self.probes = probes(solution, session, estimates, points)?;
+        self.probes = probes(solution, estimates, points)?;
         Ok(())
     }
 
@@ -155,7 +146,7 @@ type OtherSolution<'a> = Result<Cow<'a, Solution>, Error>;
 
 /// Returns the reference solution and the equilibrium under the scene's own friction and geometry; None without
 /// contact, and of an equilibrium that is the reference solution.
-fn others<'a>(solution: &'a Solution, session: &Session) -> [Option<OtherSolution<'a>>; 2] {
+fn others<'a>(solution: &'a Solution) -> [Option<OtherSolution<'a>>; 2] {
     if solution.model.target().is_none() {
         return [None, None];
     }
@@ -163,7 +154,7 @@ fn others<'a>(solution: &'a Solution, session: &Session) -> [Option<OtherSolutio
         if solution.request.is_same_equilibrium(wanted) {
             Ok(Cow::Borrowed(solution))
         } else {
-            session.solve(wanted, &mut |_| ()).map(Cow::Owned)
+            solve(wanted, &mut |_| ()).map(Cow::Owned)
         }
     };
     let (reference, own) = (solution.request.reference(), solution.request.equilibrium());
@@ -182,10 +173,10 @@ fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
 }
 
 /// Follows the path of a request's load in half as many steps; returns the displacements at its end.
-fn half_as_many_steps(request: &Request, session: &Session) -> Option<DVector<f64>> {
+fn half_as_many_steps(request: &Request) -> Option<DVector<f64>> {
     let ContactModel { friction, load_steps, .. } = request.contact;
     let has_path = request.variant == Variant::Unilateral && friction != Friction::NONE;
     let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
     let contact = ContactModel { load_steps: steps, ..request.contact };
-    Some(session.solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
+    Some(solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
 }

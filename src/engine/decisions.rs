@@ -10,7 +10,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::distance::finite;
-use super::fast::listings::Boxes;
 use mathcad::Conjunction;
 use mathcad::array::{Table, rows};
 use numbers::scalar::{Scalar, Unsure};
@@ -98,12 +97,9 @@ pub fn decisions<T: Scalar>(
     pairs: &Pairs<T>,
     iteration: usize,
 ) -> Vec<Decision> {
-    let boxes = Boxes::new(sheet, node_n);
     let mut decisions = Vec::new();
     for i1 in 1..=rows(&sheet.cnt) {
-        let near = boxes.as_ref().map(|boxes| boxes.containing(i1));
-        let near = near.unwrap_or_else(|| (1..=rows(&sheet.trg)).collect());
-        let mut unsure = edge(sheet, reading, node_n, i1, &near);
+        let mut unsure = edge(sheet, reading, node_n, i1);
         unsure.extend(status(sheet, reading, pairs, i1));
         for (operand, by) in unsure {
             let condition = format!("c_cnt {}: {}", operand.line, operand.text);
@@ -114,18 +110,16 @@ pub fn decisions<T: Scalar>(
     decisions
 }
 
-/// Returns what leaves the target edge of contact node `i1` to rounding, lines 4 to 7; the boxes of
-/// all rows of `trg` but those `near` it surely do not have it.
+/// Returns what leaves the target edge of contact node `i1` to rounding, lines 4 to 7.
 fn edge<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
     node_n: &Table<T>,
     i1: usize,
-    near: &[usize],
 ) -> Vec<(Operand<T>, Unsure)> {
     let mut left = Vec::new();
     // The last edge whose box has the node is its edge: those before a sure one do not count.
-    for &i2 in near.iter().rev() {
+    for i2 in (1..=rows(&sheet.trg)).rev() {
         let (ntx, nty) = edge_box(sheet, node_n, i1, i2).expect("the listing has run");
         match truth(reading.r4, &is_in_box(ntx, nty, node_n, sheet.cnt[i1])) {
             Truth::True => break,

@@ -1,6 +1,5 @@
 //! The equations A(c)·u = f of an iteration of a published variant, assembled and solved.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -9,19 +8,16 @@ use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::request::Request;
-use super::session::Session;
-use super::sparse::{SparseScalar, SparseSolver, StateEquations, takes_sparse};
+use super::sparse::takes_sparse;
 use super::stiffness::Stiffness;
 use super::support::{support, supports};
-use base::error::InputError;
-use base::plain::six_digits;
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
-use numbers::solve::{Solved, Solver, SparseSquare, Unsolved};
+use numbers::solve::{Precision, Singular, Solved, SparseSquare};
 use paper::door;
 use paper::edited::Interpreter;
 use paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
-use problem::model::{Dof, Model, NodeId};
+use problem::model::{Dof, Model};
 use problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
@@ -31,7 +27,7 @@ enum Assembly<T> {
     /// Elimination from the matrix of `Km` without contact and without restraints.
     Dense(Table<T>),
     /// Elimination from the triangles' matrices.
-    Sparse(Box<SparseSolver>),
+    Sparse,
 }
 
 /// The parts of the equations that every iteration of a run shares.
@@ -67,7 +63,7 @@ pub(super) struct Increment<T> {
     pub support: [T; 2],
 }
 
-impl<'a, T: SparseScalar> Equations<'a, T> {
+impl<'a, T: Precision> Equations<'a, T> {
     /// Prepares the equations of `request`, in numbers that `number` makes of those of the scene.
     ///
     /// # Errors
@@ -76,7 +72,6 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
         request: &'a Request,
         model: &'a Arc<Model>,
         sheet: &'a Worksheet<T>,
-        session: &Session,
         interpreter: Option<&'a Interpreter>,
         number: &dyn Fn(f64) -> T,
     ) -> Result<Self, Error> {
@@ -94,8 +89,8 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
             );
         let assembly = if request.variant == Variant::Printed {
             Assembly::Printed
-        } else if takes_sparse(request.solver(), request.arithmetic.scalar) {
-            Assembly::Sparse(Box::new(SparseSolver::new(request.arithmetic, model, session)))
+        } else if takes_sparse(request.solver()) {
+            Assembly::Sparse
         } else {
             Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
                 Some(edited) => edited?,
@@ -122,14 +117,14 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
     /// Solves A(c)·u = f in iteration `k`.
     ///
     /// # Errors
-    /// A singular matrix, a solver that does not converge, an overflow of `Km`.
+    /// A singular matrix, an overflow of `Km`.
     pub fn solve(
         &self,
         pairs: &Pairs<T>,
         constraints: &[Constraint<T>],
         k: usize,
     ) -> Result<Increment<T>, Error> {
-        let (solver, tol) = (self.request.solver(), self.request.arithmetic.tol);
+        let solver = self.request.solver();
         match &self.assembly {
             Assembly::Printed => {
                 let solved = T::sweep(|| {
@@ -140,26 +135,21 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
                             .into_sparse(),
                     };
                     let matrix = door::holding_dropped(self.model, matrix);
-                    let solved = if solver == Solver::SparseLu {
-                        T::solve_sparse(&matrix, &self.f)
-                    } else {
-                        T::solve(matrix.dense(), &self.f, solver, tol)
-                    };
-                    solved.map_err(|why| self.unsolved(why, pairs, k, Dof::new))
+                    let solved = T::solve(&matrix, &self.f, solver);
+                    solved.map_err(|why| self.singular(why, pairs, k, Dof::new))
                 })?;
                 Ok(self.solved(solved.residual, solved.x, &[]))
             }
             Assembly::Dense(matrix) => self.eliminate(pairs, constraints, k, |t, f| {
-                Ok(T::solve(t.matrix(matrix.as_matrix()), f, solver, tol))
+                Ok(T::solve(&SparseSquare::from_dense(&t.matrix(matrix.as_matrix())), f, solver))
             }),
-            Assembly::Sparse(sparse) => self.eliminate(pairs, constraints, k, |t, f| {
-                let Equations { model, stiffness, .. } = self;
-                let state = StateEquations { model, stiffness, constraints, t, f };
-                let solved = T::solve_state(sparse, &state);
-                if !solved.as_ref().is_ok_and(|solved| solved.residual.is_finite()) {
-                    self.check_overflow(t)?;
+            Assembly::Sparse => self.eliminate(pairs, constraints, k, |t, f| {
+                let matrix = self.stiffness.reduced(t);
+                if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
+                    // It is reported in the words of `Km`.
+                    door::free_stiffness(self.sheet, &self.request.reading)?;
                 }
-                Ok(solved)
+                Ok(T::solve_symmetric(&matrix, f))
             }),
         }
     }
@@ -170,34 +160,14 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
         pairs: &Pairs<T>,
         constraints: &[Constraint<T>],
         k: usize,
-        solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Unsolved>, Error>,
+        solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Singular>, Error>,
     ) -> Result<Increment<T>, Error> {
         let t = Elimination::new(&self.model.restrained, constraints);
         let solved = T::sweep(|| {
             let solved = solve(&t, &t.load(&self.f))?;
-            solved.map_err(|why| self.unsolved(why, pairs, k, |column| t.dof(column)))
+            solved.map_err(|why| self.singular(why, pairs, k, |column| t.dof(column)))
         })?;
         Ok(self.solved(solved.residual, t.expand(&solved.x), constraints))
-    }
-
-    /// Checks Tᵀ K T without a dense K.
-    ///
-    /// # Errors
-    /// An entry overflows, reported in the words of `Km`.
-    fn check_overflow(&self, t: &Elimination<T>) -> Result<(), Error> {
-        let matrix = self.stiffness.reduced(t);
-        if matrix.entries().any(|(_, _, value)| !Scalar::is_finite(value)) {
-            door::free_stiffness(self.sheet, &self.request.reading)?;
-        }
-        Ok(())
-    }
-
-    /// Returns the nodes to which the bodies were condensed last; None where they were not.
-    pub fn kept(&self) -> Option<BTreeSet<NodeId>> {
-        match &self.assembly {
-            Assembly::Sparse(sparse) => sparse.kept(),
-            Assembly::Printed | Assembly::Dense(_) => None,
-        }
     }
 
     /// Returns K u − F of the whole load: the forces of contact and restraints, force.
@@ -215,28 +185,14 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
         Increment { residual, support, u }
     }
 
-    /// Returns the error of a system without solution; `dof` maps a column to a degree of freedom.
-    fn unsolved(
+    /// Returns the error of a singular matrix; `dof` maps a column to a degree of freedom.
+    fn singular(
         &self,
-        why: Unsolved,
+        singular: Singular,
         pairs: &Pairs<T>,
         iteration: usize,
         dof: impl Fn(usize) -> Dof,
     ) -> Error {
-        let singular = match why {
-            Unsolved::Singular(singular) => singular,
-            Unsolved::NotConverged(stopped) => {
-                let what = format!(
-                    "{} in {} stopped after {} iterations at a relative residual of {}",
-                    self.request.solver(),
-                    self.request.arithmetic.scalar,
-                    stopped.iterations,
-                    six_digits(stopped.residual)
-                );
-                let fix = "give a larger residual at which it stops (tol), or another solver";
-                return InputError::new("solver", what, fix).into();
-            }
-        };
         let dof = dof(singular.column);
         let body = self.model.body_of(dof.node());
         let in_contact = pairs.dy.iter().sum();
@@ -249,7 +205,7 @@ impl<'a, T: SparseScalar> Equations<'a, T> {
             pivot: singular.pivot,
             in_contact,
             no_contact: first.then(|| self.no_contact()).flatten(),
-            untried: None,
+            scalar: self.request.arithmetic.scalar,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }
         .into()

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use base::error::InputError;
+use numbers::solve::ScalarName;
 use paper::mirror::Failure;
 
 /// A value, or the reason why there is none.
@@ -115,10 +116,12 @@ impl fmt::Display for Cause {
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
-    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &.untried.map_or(String::new(), |bytes| format!(
-        "; whether it is so in double-doubles too was not looked at, which takes {:.1} GB",
-        bytes / 1e9
-    ))
+    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &match .scalar {
+        ScalarName::Exact => String::new(),
+        rounded => format!(
+            "; {rounded} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
+        ),
+    }
 )]
 pub struct SingularMatrix {
     /// The name of the variant that was run.
@@ -135,9 +138,8 @@ pub struct SingularMatrix {
     pub in_contact: usize,
     /// Where the first contact fails, why, and what to do, in words.
     pub no_contact: Option<String>,
-    /// The bytes that a run in more digits would take, which would tell whether rounding is the cause;
-    /// None where that was run.
-    pub untried: Option<f64>,
+    /// The scalar of the run, whose rounding may be the cause.
+    pub scalar: ScalarName,
     /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }

@@ -9,16 +9,16 @@ mod elimination;
 mod equations;
 pub mod error;
 pub mod estimates;
-pub mod fast;
 mod hertz;
 mod memory;
 mod probe;
 mod published;
 pub mod quantities;
 mod range;
+pub mod reduction;
+mod refinement;
 mod request;
 mod residual;
-mod session;
 mod solution;
 mod solve;
 mod sparse;
@@ -30,7 +30,6 @@ pub use assessment::{Assessment, SolutionDistance};
 pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
-pub use fast::condensation::kept_equations;
 pub use hertz::Hertz;
 pub use memory::Bytes;
 pub use probe::{Probe, ProbeValue, check_points};
@@ -40,7 +39,6 @@ pub use quantities::{
 };
 pub use range::{beyond_range, locking};
 pub use request::Request;
-pub use session::Session;
 pub use solution::{
     Choice, Cycle, Detail, Equilibrium, FoundPairs, OtherEquilibrium, Path, Published, Solution,
     Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,

@@ -10,7 +10,6 @@ use super::estimates::arithmetic::{bounded, stress_bounds, within};
 use super::estimates::discretisation::{SAFETY, compliance, von_mises};
 use super::estimates::{Cause, Dual, Estimates, Singular, StateFactors, singular};
 use super::quantities::{Quantity, TriangleState, TriangleValues, Unit};
-use super::session::Session;
 use super::solution::Solution;
 use base::error::InputError;
 use base::plain::six_digits;
@@ -64,7 +63,6 @@ pub struct ProbeValue {
 /// A point lies outside every body.
 pub fn probes(
     solution: &Solution,
-    session: &Session,
     estimates: &Estimates,
     points: &[[f64; 2]],
 ) -> Result<Vec<Probe>, InputError> {
@@ -77,8 +75,7 @@ pub fn probes(
     let bench = Bench {
         solution,
         estimates,
-        dual: StateFactors::new(solution, session)
-            .map(|state| Dual::new(solution, state, &estimates.mesh)),
+        dual: StateFactors::new(solution).map(|state| Dual::new(solution, state, &estimates.mesh)),
         singular: singular(solution),
         of_stress: stress_bounds(solution, &stiffness, estimates.errors.displacement_arithmetic),
         bounded: stiffness.stresses(&within(solution, estimates.errors.displacement_arithmetic)),

@@ -15,13 +15,11 @@ use super::decisions::{Decision, decisions};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::Error;
-use super::fast::listings::c_cnt;
 use super::request::Request;
-use super::session::Session;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
-use super::sparse::{SparseScalar, dense_matrices};
+use super::sparse::dense_matrices;
 use super::support::transmitted_force;
 use base::error::InputError;
 use base::memory;
@@ -47,15 +45,13 @@ pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
     iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
 }
 
-/// Solves a request for one of the variants that the paper describes, up to the step after which `continues`
-/// is false.
+/// Solves a request for one of the variants that the paper describes; `watch` is called after each step.
 ///
 /// # Errors
 /// The published algorithm fails as printed, a matrix is singular, or it does not fit in memory.
-pub(super) fn published<T: SparseScalar>(
+pub(super) fn published<T: Precision>(
     request: &Request,
-    session: &Session,
-    continues: &mut dyn FnMut(&Step) -> bool,
+    watch: &mut dyn FnMut(&Step),
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     let number = |x: f64| number_of(request, x);
@@ -64,7 +60,7 @@ pub(super) fn published<T: SparseScalar>(
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
     let interpreter = interpreter.as_ref();
     let mut run = Run {
-        equations: Equations::new(request, &model, &sheet, session, interpreter, &number)?,
+        equations: Equations::new(request, &model, &sheet, interpreter, &number)?,
         surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
         u: DVector::from_element(model.dofs(), T::zero()),
         support: [T::zero(), T::zero()],
@@ -73,11 +69,8 @@ pub(super) fn published<T: SparseScalar>(
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
     for k in 1..=request.iterations {
         let step = run.iterate(k)?;
-        let ends = !continues(&step);
+        watch(&step);
         steps.push(step);
-        if ends {
-            break;
-        }
     }
     let in_contact = steps.last().expect("a request has an iteration").statuses();
     Ok(Solution {
@@ -88,7 +81,6 @@ pub(super) fn published<T: SparseScalar>(
         equilibrium: None,
         error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
-        kept: run.equations.kept(),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
@@ -205,7 +197,7 @@ struct FoundState<T> {
     undecided: Option<Vec<Decision>>,
 }
 
-impl<T: SparseScalar> Run<'_, T> {
+impl<T: Precision> Run<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search(k)?;
         let k_cnt = not_zero(&found.pairs.k_cnt);
@@ -243,7 +235,7 @@ impl<T: SparseScalar> Run<'_, T> {
         let pairs = if let Some(pairs) = edited {
             pairs?
         } else if by_listing {
-            c_cnt(sheet, reading, &node_n)?
+            mirror::c_cnt(sheet, reading, &node_n)?
         } else {
             let found = status::statuses(rule, model, sheet, reading, &node_n)?;
             door::pairs(model, sheet, reading, &node_n, &found)?
@@ -324,12 +316,9 @@ impl<T: SparseScalar> Run<'_, T> {
             shape: Arc::new(numbers(&door::shape(node_n))),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
-            max_displacement: Some(max_displacement(&self.u)),
+            max_displacement: max_displacement(&self.u),
             cycle,
-            target_force: Some(transmitted_force(
-                self.equations.model,
-                self.support.map(T::to_f64),
-            )),
+            target_force: transmitted_force(self.equations.model, self.support.map(T::to_f64)),
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),

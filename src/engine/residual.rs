@@ -15,7 +15,7 @@ use problem::model::Dof;
 /// a singular matrix. `factors` are those of that matrix rounded to `f64`.
 pub(super) fn error_of_solution<V: Rounded + Send + Sync>(
     (stiffness, t): (&Stiffness<WithBound<V>>, &Elimination<WithBound<V>>),
-    factors: &dyn Factors<f64>,
+    factors: &dyn Factors,
     f: &DVector<WithBound<V>>,
     q: &DVector<V>,
 ) -> f64 {

@@ -1,6 +1,5 @@
 //! The solution of a request: displacements, stresses, the contact surface, and the steps.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use dashu_ratio::RBig;
@@ -28,17 +27,14 @@ pub struct Step {
     pub constraints: Vec<Constraint>,
     /// The number of entries of the contact surface in contact.
     pub in_contact: usize,
-    /// The largest total displacement |u| of a node, length; None of an iteration of `unilateral` with which
-    /// no step of the load ends: the search goes on with the contact surfaces alone.
-    pub max_displacement: Option<f64>,
+    /// The largest total displacement |u| of a node, length.
+    pub max_displacement: f64,
     /// The earlier steps with this contact state; None where it is new.
     pub cycle: Option<Cycle>,
     /// The force that contact passes from one body to the other, force: along the load where that acts
-    /// on one of the two bodies alone, else its size. 0 without contact; None where `max_displacement`
-    /// is.
-    pub target_force: Option<f64>,
-    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations: under `unilateral`, but for
-    /// the last step, mostly those of the condensed bodies.
+    /// on one of the two bodies alone, else its size. 0 without contact.
+    pub target_force: f64,
+    /// The relative residual |A x − b| / (|A| |x| + |b|) of the equations.
     pub solve_residual: f64,
     /// The results that only this kind of variant has.
     pub detail: Detail,
@@ -367,9 +363,6 @@ pub struct Solution {
     pub error_bound: Option<f64>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
-    /// The nodes to which the bodies were condensed at the end; None where the whole matrix of a contact
-    /// state was factored.
-    pub kept: Option<BTreeSet<NodeId>>,
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
@@ -406,7 +399,7 @@ impl Solution {
 
     /// Returns the force that contact passes on at the end ([`Step::target_force`]).
     pub fn target_force(&self) -> f64 {
-        self.last().target_force.expect("the whole bodies are solved for in the last step")
+        self.last().target_force
     }
 
     /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has

@@ -22,7 +22,7 @@
 //! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
-//! | `language`                                         | the words in Russian                   |
+//! | `language`                                         | the lesson's words in Russian          |
 #![forbid(unsafe_code)]
 
 pub mod answers;

@@ -89,11 +89,6 @@ fn built(plan: &Plan) -> Table {
     rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
     let numbers = format!("{} numbers in its factors", plan.factors.nonzeros);
     rows.push(row("matrix", plan.storage.to_string(), numbers));
-    if let Some(kept) = plan.condensed {
-        let why =
-            "equations of the surfaces: the bodies are factored once, each contact state on these";
-        rows.push(row("condensed to", kept, why));
-    }
     Table::new(["", "", "why"], rows)
 }
 

@@ -14,7 +14,7 @@ use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use studies::audit::range::ParameterValue;
 
 /// How the order of repairs is found, in words.
-pub(crate) const ORDER: &str = "The order is found from the end: \
+pub const ORDER: &str = "The order is found from the end: \
     into the corrected algorithm the faults are put back one at a time, each time the one that \
     leaves the least error. The last to be put back is the first to be repaired.";
 
@@ -193,7 +193,7 @@ fn way(repairs: &[Price]) -> String {
 }
 
 /// Names the repairs behind those that lead to the solution.
-pub(crate) fn not_needed(repairs: &[Price]) -> String {
+fn not_needed(repairs: &[Price]) -> String {
     let others: Vec<&str> = repairs.iter().filter_map(|price| price.name.as_deref()).collect();
     match &others[..] {
         [] => "All are needed.".into(),

@@ -3,7 +3,6 @@
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::language::Language;
 use super::model::{Cell, Table};
 use super::numbers::quantity as with_its_unit;
 use engine::quantities::{
@@ -165,23 +164,23 @@ pub fn measured(values: &TriangleValues) -> Vec<(&'static str, MeasuredValue)> {
 }
 
 /// Returns what a page needs to know of the quantities, by the place where they live.
-pub fn on_pages(language: Language) -> Json {
+pub fn on_pages() -> Json {
     json!({
-        "iteration": of_place(IterationRow::QUANTITIES, language),
-        "body": of_place(BodySummary::QUANTITIES, language),
-        "node": of_place(NodeFields::QUANTITIES, language),
-        "triangle": of_place(TriangleValues::QUANTITIES, language),
-        "contact": of_place(ContactNode::QUANTITIES, language),
+        "iteration": of_place(IterationRow::QUANTITIES),
+        "body": of_place(BodySummary::QUANTITIES),
+        "node": of_place(NodeFields::QUANTITIES),
+        "triangle": of_place(TriangleValues::QUANTITIES),
+        "contact": of_place(ContactNode::QUANTITIES),
     })
 }
 
-fn of_place<T>(quantities: &[Quantity<T>], language: Language) -> Vec<Json> {
+fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
     let shown = quantities.iter().filter(|quantity| !quantity.title.is_empty());
     shown
         .map(|quantity| {
             json!({
                 "name": quantity.name,
-                "title": language.say(quantity.title),
+                "title": quantity.title,
                 "symbols": quantity.symbols.iter().map(|s| s.replace('_', "")).collect::<Vec<_>>(),
                 "unit": quantity.unit,
             })

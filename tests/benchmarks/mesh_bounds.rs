@@ -16,7 +16,7 @@ use crate::common::json::build;
 use crate::common::recovery::solved;
 use crate::common::tolerances::{FLAMANT, MESH_BOUND_WIDTH, RECOVERED, assert_near};
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit};
-use plane_contact::engine::{Assessment, Probe, Session, Solution, max_displacement};
+use plane_contact::engine::{Assessment, Probe, Solution, max_displacement};
 use plane_contact::error::InputError;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::tables::error_estimates;
@@ -25,8 +25,8 @@ use plane_contact::{Request, solve};
 use serde_json::json;
 
 fn probed(solution: &Solution, at: [f64; 2]) -> Vec<Probe> {
-    let mut assessment = Assessment::new(solution, &Session::default());
-    assessment.probe(solution, &Session::default(), &[at]).expect("a body has the point");
+    let mut assessment = Assessment::new(solution);
+    assessment.probe(solution, &[at]).expect("a body has the point");
     assessment.probes
 }
 
@@ -99,11 +99,7 @@ fn a_point_on_a_node_names_every_triangle_that_has_it() {
 #[test]
 fn a_point_outside_every_body_is_refused_with_the_nearest_one() {
     let solution = solved(Annulus { radial: 4, around: 8 }.generate());
-    let refused = Assessment::new(&solution, &Session::default()).probe(
-        &solution,
-        &Session::default(),
-        &[[25.0, 0.0]],
-    );
+    let refused = Assessment::new(&solution).probe(&solution, &[[25.0, 0.0]]);
     let InputError { what, place, fix } = refused.expect_err("the wall ends at 20");
     assert!(what.contains("25,0") && place == "probe", "{what} {place}");
     assert!(fix.contains("20,0 of body wall, 5.000e0 away"), "{fix}");
@@ -111,12 +107,7 @@ fn a_point_outside_every_body_is_refused_with_the_nearest_one() {
 
 /// The limit of each body's largest stress.
 fn limits(solution: &Solution) -> Vec<Option<NoLimit>> {
-    Estimates::new(solution, &Session::default())
-        .errors
-        .bodies
-        .into_iter()
-        .map(|body| body.no_limit)
-        .collect()
+    Estimates::new(solution).errors.bodies.into_iter().map(|body| body.no_limit).collect()
 }
 
 /// Cook's membrane has an angle of 108 degrees where its held side ends above, one of 48 below: the
@@ -128,7 +119,7 @@ fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
     assert_eq!(found.cause, Cause::Restraint);
     assert_eq!(solution.model.coordinates(found.node), [0.0, 44.0]);
     assert!(found.is_largest);
-    assert!(Estimates::new(&solution, &Session::default()).errors.bodies[0].mesh.is_none());
+    assert!(Estimates::new(&solution).errors.bodies[0].mesh.is_none());
     let corner = &probed(&solution, [0.0, 44.0])[0];
     assert_eq!(corner.no_limit, Some(Cause::Restraint));
     let stress = corner.quantities.iter().find(|q| q.name == "von Mises stress");
@@ -198,13 +189,13 @@ fn under_a_force_on_a_node_neither_stress_nor_displacement_has_a_limit() {
     for _ in 0..4 {
         let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is held");
         largest.push(max_displacement(&solution.u));
-        let estimates = Estimates::new(&solution, &Session::default()).errors;
+        let estimates = Estimates::new(&solution).errors;
         let limits = estimates.bodies.iter().map(|body| body.no_limit.clone());
         let loaded = limits.flatten().find(|limit| limit.cause == Cause::Load).expect("the force");
         assert_eq!(solution.model.coordinates(loaded.node), [0.5, 1.0]);
         assert_eq!(estimates.displacement_no_limit, Some((loaded.node, Cause::Load)));
         assert!(estimates.displacement_mesh.is_none());
-        let assessment = Assessment::new(&solution, &Session::default());
+        let assessment = Assessment::new(&solution);
         let words = error_estimates(&solution, &assessment).text(usize::MAX);
         assert!(words.contains("in the plane it diverges under refinement: at node"), "{words}");
         scene = scene.refined().expect("a sound scene").expect("a whole scene").scene;

@@ -5,7 +5,7 @@ use crate::common::tolerances::{
 };
 use plane_contact::engine::contact::Status;
 use plane_contact::engine::error::Error;
-use plane_contact::engine::{self, Assessment, Request, Session, Solution};
+use plane_contact::engine::{self, Assessment, Request, Solution};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::{ContactModel, Friction, Geometry, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -226,7 +226,7 @@ fn friction_reaches_from_none_to_stick() {
     near("much friction", &of(1e3, 16), &of(f64::INFINITY, 16), &LARGE_FRICTION);
     near("steps of the load", &of(0.2, 16), &of(0.2, 32), &LOAD_STEP);
     let solution = of(0.2, 16);
-    let change = Assessment::new(&solution, &Session::default()).path_change.expect("16 is even");
+    let change = Assessment::new(&solution).path_change.expect("16 is even");
     assert!(change < 1e-5 * solution.u.amax(), "{change:e}");
 }
 

@@ -10,7 +10,7 @@ use crate::corners::{Bodies, Writing};
 use crate::drawn::{KINDS, scenes};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::estimates::arithmetic::{Rounding, rounding};
-use plane_contact::engine::{Request, Session, Solution, solve};
+use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 
@@ -171,8 +171,7 @@ fn random_scenes_have_one_answer_however_they_are_written() {
                     let (verdict, difference) = verdict(&plain, &image, writing, &what);
                     if mu > 0.0 || writing.is_exact() {
                         let found = [&plain, &image].into_iter().flatten();
-                        let known: Vec<Rounding> =
-                            found.map(|s| rounding(s, &Session::default())).collect();
+                        let known: Vec<Rounding> = found.map(|s| rounding(s)).collect();
                         let left = |known: &Rounding| known.decisions != Some(Vec::new());
                         let said = known.iter().any(left);
                         assert!(said || verdict != Verdict::OtherPath, "{what}: not a word of it");

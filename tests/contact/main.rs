@@ -16,21 +16,19 @@ mod common {
 
 mod calculix;
 mod calculix_files;
-mod condensed;
 mod corners;
 mod corrected;
 mod drawn;
 mod faced;
 mod facing;
 mod friction;
-mod gaps;
 mod hard;
 mod invariance;
 mod limits;
 mod orders;
 mod page_iterations;
 mod quadratic_programme;
-mod recorded;
+mod reduced;
 mod searched;
 mod status;
 mod ties;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use nalgebra::DVector;
-use plane_contact::engine::{Request, Session};
+use plane_contact::engine::{Request, solve};
 use plane_contact::mathcad::{Settings, unsupported};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::corrected::{Bound, Program, STEPS, iterate, program};
@@ -45,7 +45,7 @@ fn certain(scene: &Scene, variant: Variant) -> usize {
     let mut request = Request::new(scene).variant(variant).arithmetic(arithmetic);
     request.iterations = STEPS;
     let mut steps = vec![];
-    let _ = Session::default().solve(&request, &mut |step| steps.push(step.is_certain()));
+    let _ = solve(&request, &mut |step| steps.push(step.is_certain()));
     steps.into_iter().take_while(|is_certain| *is_certain).count()
 }
 
@@ -54,9 +54,8 @@ type State = (Vec<NodeId>, DVector<f64>);
 
 /// The engine's iterations of the variants of the paper, on a random scene as far as rounding decides nothing.
 fn engine(scene: &Scene, is_drawn: bool) -> Vec<(&'static str, Vec<State>)> {
-    let session = Session::default();
     let published = Variant::OF_THE_PAPER.iter().map(|variant| {
-        let Recorded { states, .. } = recorded(scene, *variant, &session, None);
+        let Recorded { states, .. } = recorded(scene, *variant, None);
         let count = if is_drawn { certain(scene, *variant) } else { states.len() };
         let states = states.into_iter().take(count);
         (variant.name(), states.map(|s| (s.in_contact, s.u)).collect())
@@ -176,7 +175,7 @@ fn recorded_iterations_are_those_of_the_variants() {
     let recorded = iterations.recorded.expect("a large scene is recorded");
     for Recorded { variant, states, failure } in recorded {
         let request = Request::new(&scene).variant(variant);
-        let solution = Session::default().solve(&request, &mut |_| ()).expect("it runs");
+        let solution = solve(&request, &mut |_| ()).expect("it runs");
         assert_eq!((states.len(), failure), (STEPS, None));
         assert_eq!(states.last().expect("states").u, solution.u);
         let error = states.last().and_then(|state| state.error).expect("it has a reference");

@@ -8,14 +8,12 @@
 use crate::common::random::fixed;
 use nalgebra::SMatrix;
 use plane_contact::engine::Request;
-use plane_contact::engine::fast::listings as fast;
 use plane_contact::mathcad::array::{Column, Table};
 use plane_contact::mathcad::worksheet::execute;
 use plane_contact::mathcad::xmcd::document;
 use plane_contact::mathcad::{
     Cause as MathcadCause, Conjunction, Failure as MathcadFailure, Limits,
 };
-use plane_contact::numbers::scalar::{Bounded, Scalar, compared};
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{
@@ -324,8 +322,6 @@ fn agree(
     let mirror = c_cnt(sheet, reading, node_n);
     let listing = listings::c_cnt(&Which::CCnt.under(reading), &settings, sheet, node_n, &mut ());
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone()));
-    let fast = fast::c_cnt(sheet, reading, node_n);
-    prop_assert_eq!(&of_mirror, &fast.as_ref().map(pair_bits).map_err(|f| mirror_stop(f.clone())));
     prop_assert_eq!(
         &of_mirror,
         &listing.map(|(pairs, _)| pair_bits(&pairs)).map_err(|f| listing_stop(&f))
@@ -466,42 +462,40 @@ fn over_an_edge(at: [f64; 2], c_tll: f64) -> Worksheet<f64> {
 #[test]
 fn c_cnt_of_one_node_over_one_edge() {
     let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
-    for find in [c_cnt, fast::c_cnt] {
-        let pairs = |at| {
-            let sheet = over_an_edge(at, 0.25);
-            find(&sheet, &reading, &sheet.node).expect("it runs")
-        };
-        let found = |at| {
-            let Pairs { ct, yt, dy, .. } = pairs(at);
-            (ct[1], yt[1], dy[1])
-        };
-        assert_eq!(found([0.5, 0.125]), (1, -0.125, 1));
-        assert_eq!(found([0.5, -0.125]), (1, 0.125, 1));
-        // At the tolerance it faces the edge, and does not touch it.
-        assert_eq!(found([0.5, 0.25]), (1, -0.25, 0));
-        assert_eq!(found([1.25, 0.0]), (1, 0.0, 1));
-        assert_eq!(found([-0.25, -0.25]), (1, 0.25, 0));
-        for beyond in [[0.5, 0.3], [0.5, -0.3], [1.3, 0.0], [-0.3, 0.0]] {
-            assert_eq!(found(beyond), (0, 0.0, 0), "{beyond:?}");
-        }
-        let touching = pairs([0.75, 0.0]).k_cnt;
-        let expected = [[3.0, 0.25, 0.0, 0.0], [3.0, 0.75, 0.0, 0.0], [1.0, 0.25, 2.0, 0.75]];
-        for (n, row) in (1..).zip(expected) {
-            assert_eq!([1, 2, 3, 4].map(|j| touching[(n, j)]), row, "node {n}");
-        }
-        let words = |place: [f64; 2], c_tll: f64| {
-            let mut sheet = over_an_edge([0.5, 0.0], c_tll);
-            (sheet.node[(2, 2)], sheet.node[(2, 3)]) = (place[0], place[1]);
-            find(&sheet, &reading, &sheet.node).expect_err("it fails").to_string()
-        };
-        // A box that overflows, and an edge of which both ends stand over each other.
-        let box_fails = words([f64::MAX, 0.0], f64::MAX);
-        assert!(box_fails.starts_with("c_cnt, line 5: "), "{box_fails}");
-        assert!(box_fails.contains("i1 = 1, trg[i2] = 1, value = "), "{box_fails}");
-        let vertical = words([0.0, 1.0], 1.0);
-        assert!(vertical.starts_with("c_cnt, line 10: "), "{vertical}");
-        assert!(vertical.contains("i1 = 1, ct[i1] = 1, numerator = 1, "), "{vertical}");
+    let pairs = |at| {
+        let sheet = over_an_edge(at, 0.25);
+        c_cnt(&sheet, &reading, &sheet.node).expect("it runs")
+    };
+    let found = |at| {
+        let Pairs { ct, yt, dy, .. } = pairs(at);
+        (ct[1], yt[1], dy[1])
+    };
+    assert_eq!(found([0.5, 0.125]), (1, -0.125, 1));
+    assert_eq!(found([0.5, -0.125]), (1, 0.125, 1));
+    // At the tolerance it faces the edge, and does not touch it.
+    assert_eq!(found([0.5, 0.25]), (1, -0.25, 0));
+    assert_eq!(found([1.25, 0.0]), (1, 0.0, 1));
+    assert_eq!(found([-0.25, -0.25]), (1, 0.25, 0));
+    for beyond in [[0.5, 0.3], [0.5, -0.3], [1.3, 0.0], [-0.3, 0.0]] {
+        assert_eq!(found(beyond), (0, 0.0, 0), "{beyond:?}");
     }
+    let touching = pairs([0.75, 0.0]).k_cnt;
+    let expected = [[3.0, 0.25, 0.0, 0.0], [3.0, 0.75, 0.0, 0.0], [1.0, 0.25, 2.0, 0.75]];
+    for (n, row) in (1..).zip(expected) {
+        assert_eq!([1, 2, 3, 4].map(|j| touching[(n, j)]), row, "node {n}");
+    }
+    let words = |place: [f64; 2], c_tll: f64| {
+        let mut sheet = over_an_edge([0.5, 0.0], c_tll);
+        (sheet.node[(2, 2)], sheet.node[(2, 3)]) = (place[0], place[1]);
+        c_cnt(&sheet, &reading, &sheet.node).expect_err("it fails").to_string()
+    };
+    // A box that overflows, and an edge of which both ends stand over each other.
+    let box_fails = words([f64::MAX, 0.0], f64::MAX);
+    assert!(box_fails.starts_with("c_cnt, line 5: "), "{box_fails}");
+    assert!(box_fails.contains("i1 = 1, trg[i2] = 1, value = "), "{box_fails}");
+    let vertical = words([0.0, 1.0], 1.0);
+    assert!(vertical.starts_with("c_cnt, line 10: "), "{vertical}");
+    assert!(vertical.contains("i1 = 1, ct[i1] = 1, numerator = 1, "), "{vertical}");
 }
 
 /// On a line that rises from (0, 0) to (1, 1), without a tolerance: a node on it is not below it,
@@ -532,44 +526,6 @@ fn line_18_fails_at_the_first_node_below_its_line() {
     let failure = found([0.5, 0.125]).expect_err("it fails");
     assert!(failure.starts_with("c_cnt, line 18: "), "{failure}");
     assert!(failure.contains("i1 = 1, ct[i1] = 1, index of yt = 0, rows(yt) = 1"), "{failure}");
-}
-
-/// In numbers with a bound, the rows of `trg` that are left out are those that line 7 surely does
-/// not take: the same comparisons are left open.
-#[test]
-fn edges_within_the_bounds_of_a_node_are_looked_at() {
-    let reading = Reading { r4: Conjunction::Guarded, ..Reading::default() };
-    for (k, size) in (0..40).flat_map(|k| [(k, 1.0), (k, 100.0)]) {
-        let at = [-0.5 + 0.05 * f64::from(k), 0.5 - 0.025 * f64::from(k)];
-        for error in [[0.0, 0.2], [0.2, 0.0], [0.1, 0.1]] {
-            let sheet = over_an_edge(at, 0.25);
-            let of = |n: usize, x: f64| Bounded::new(size * x, size * error[usize::from(n == 3)]);
-            let node = Table::from_fn(4, 4, |n, j| of(n, sheet.node[(n, j)]));
-            let sheet = Worksheet {
-                node: node.clone(),
-                elem: sheet.elem,
-                EL: sheet.EL,
-                trg: sheet.trg,
-                cnt: sheet.cnt,
-                c_tll: Bounded::from_f64(size * sheet.c_tll),
-                ind_1: sheet.ind_1,
-                S: sheet.S,
-                Ae: sheet.Ae.map(Bounded::from_f64),
-                B: Column::filled(1, SMatrix::zeros()),
-                E: sheet.E.map(Bounded::from_f64),
-                nu: sheet.nu.map(Bounded::from_f64),
-                plane: sheet.plane,
-            };
-            let all = compared(|| c_cnt(&sheet, &reading, &node));
-            let near = compared(|| fast::c_cnt(&sheet, &reading, &node));
-            assert_eq!(near.1, all.1, "{at:?} {size} {error:?}");
-            assert_eq!(near.0.is_ok(), all.0.is_ok(), "{at:?} {size} {error:?}");
-            if let (Ok(near), Ok(all)) = (near.0, all.0) {
-                let [near, all] = [near, all].map(|pairs| pair_bits(&pairs.map(|x| x.to_f64())));
-                assert_eq!(near, all, "{at:?} {size} {error:?}");
-            }
-        }
-    }
 }
 
 /// The shipped scenes, at the initial shape, under every reading that concerns a listing: 72

@@ -36,10 +36,10 @@ use crate::common::draws::one_of;
 use crate::common::random::fixed;
 use crate::common::tools::has_node;
 
-const SCENES: usize = 1_000;
-const EDITED: usize = 800;
+const SCENES: usize = 300;
+const EDITED: usize = 250;
 /// How many situations of a page are compared, with some 17 steps in each.
-const MOVED: usize = 600;
+const MOVED: usize = 200;
 
 /// An execution of a listing.
 struct Case {
@@ -466,11 +466,11 @@ impl Situation {
     }
 }
 
-/// Over 10,000 moves in the page's own scripts: nodes are dragged, listings edited, readings switched, and steps
+/// Over 3,000 moves in the page's own scripts: nodes are dragged, listings edited, readings switched, and steps
 /// taken in both listings; every statement is that of this interpreter, and stepping forwards and backwards
 /// leads to the same values.
 #[test]
-fn ten_thousand_moves_leave_the_page_where_this_interpreter_is() {
+fn three_thousand_moves_leave_the_page_where_this_interpreter_is() {
     if !has_node() {
         return;
     }
@@ -502,7 +502,7 @@ fn ten_thousand_moves_leave_the_page_where_this_interpreter_is() {
     assert_eq!(counts["differs"], Json::Null, "{said}");
     println!("{said}");
     let count = |name: &str| counts[name].as_u64().expect("a number");
-    assert!(count("moves") > 10_000 && count("failed") > 20 && count("limited") < 50, "{said}");
+    assert!(count("moves") > 3_000 && count("failed") > 5 && count("limited") < 50, "{said}");
 }
 
 /// Says where the page's interpreter differs, and what this one has there.

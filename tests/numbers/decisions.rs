@@ -9,7 +9,7 @@ use crate::common::random::fixed;
 use plane_contact::engine::Decision;
 use plane_contact::engine::estimates::arithmetic::rounding;
 use plane_contact::engine::estimates::{Certainty, certain};
-use plane_contact::engine::{Detail, Request, Session, Solution, Step, solve};
+use plane_contact::engine::{Detail, Request, Solution, Step, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
@@ -148,7 +148,7 @@ fn what_rounding_decides_is_said() {
         }
         for scalar in [ScalarName::F64, ScalarName::F64x2] {
             let Some(solution) = run(scalar) else { continue };
-            let found = rounding(&solution, &Session::default());
+            let found = rounding(&solution);
             let is_sure = found.decisions.as_ref().is_some_and(Vec::is_empty);
             let differs = history(&solution) != history(&exact);
             prop_assert!(!(differs && is_sure), "{scalar}: another history, and not a word of it");
@@ -227,7 +227,7 @@ fn the_part_of_the_target_that_a_node_faces_is_looked_at() {
     let found = |x: f64| {
         let stamp = [[x, 0.0], [2.0, 1.0], [0.0, 1.0]];
         let solution = solve(&block_and_stamp(stamp, &contact, Variant::Unilateral), &mut |_| ());
-        rounding(&solution.expect("there is an equilibrium"), &Session::default())
+        rounding(&solution.expect("there is an equilibrium"))
     };
     for x in [0.3, 1.0, 1.04] {
         let found = found(x);
@@ -258,7 +258,7 @@ fn a_status_that_is_another_one_in_more_digits_is_said() {
         let request =
             block_and_stamp([[0.3, 0.1], [2.0, 1.0], [0.0, 1.0]], &contact, Variant::Tied);
         let request = request.arithmetic(Arithmetic { scalar, ..Arithmetic::default() });
-        rounding(&solve(&request, &mut |_| ()).expect("it runs"), &Session::default())
+        rounding(&solve(&request, &mut |_| ()).expect("it runs"))
     };
     assert_eq!(found(ScalarName::F64).decisions, Some(Vec::new()));
     let found = found(ScalarName::F32);
@@ -309,7 +309,7 @@ fn slips_count_from_the_step_of_the_load_before_the_last() {
         Detail::Published(_) => unreachable!("unilateral was asked for"),
     };
     assert_eq!(solution.steps.iter().map(load).collect::<Vec<_>>(), [1.0, 1.0, 2.0, 2.0]);
-    let found = rounding(&solution, &Session::default());
+    let found = rounding(&solution);
     let left = found.decisions.expect("it is looked at");
     let left: Vec<_> = left.iter().map(|d| (d.iteration, d.node.number(), &*d.condition)).collect();
     assert_eq!(left, [(4, 5, "slips without slip: slip > 0")]);
@@ -323,7 +323,7 @@ fn slips_count_from_the_step_of_the_load_before_the_last() {
 fn what_rounding_decides_of_mortar_is_said() {
     let left = |x: f64, scalar: ScalarName| {
         let request = bound_by_mortar(x, scalar);
-        let found = rounding(&solve(&request, &mut |_| ()).expect("it runs"), &Session::default());
+        let found = rounding(&solve(&request, &mut |_| ()).expect("it runs"));
         let left = found.decisions.expect("it is looked at");
         assert_eq!(found.displacement.is_some(), left.is_empty(), "{x}");
         left
@@ -346,8 +346,7 @@ fn what_rounding_decides_of_mortar_is_said() {
 fn a_run_is_repeated_where_rounding_decides() {
     let taken = |x: f64, scalar: ScalarName| {
         let request = bound_by_mortar(x, scalar);
-        let (solution, how) =
-            certain(solve(&request, &mut |_| ()).expect("it runs"), &Session::default());
+        let (solution, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
         (solution.request.arithmetic.scalar, how)
     };
     let limit = 0.95_f64.sqrt();
@@ -355,17 +354,17 @@ fn a_run_is_repeated_where_rounding_decides() {
     assert_eq!(taken(limit, ScalarName::F64x2), (ScalarName::F64x2, Certainty::Certain));
     let again = (ScalarName::BoundedDouble, Certainty::InDoubleDouble);
     assert_eq!(taken(limit, ScalarName::F64), again);
-    // The solver and its tolerance are those of the first run alone.
-    for (solver, tol) in [(Solver::SparseLu, None), (Solver::Cg, Some(1e-13))] {
-        let arithmetic = Arithmetic { solver: Some(solver), tol, ..Arithmetic::default() };
+    // The solver is that of the first run alone.
+    for solver in [Solver::SparseLu, Solver::DenseLu] {
+        let arithmetic = Arithmetic { solver: Some(solver), ..Arithmetic::default() };
         let request = bound_by_mortar(limit, ScalarName::F64).arithmetic(arithmetic);
-        let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"), &Session::default());
+        let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
         assert_eq!(how, Certainty::InDoubleDouble, "{solver}");
     }
     // The gap is the tolerance in every number.
     let tie = json!({ "cnt": [5], "trg": [1], "c_tll": 0.1 });
     let request = block_and_stamp([[0.3, 0.1], [2.0, 1.0], [0.0, 1.0]], &tie, Variant::Tied);
-    let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"), &Session::default());
+    let (_, how) = certain(solve(&request, &mut |_| ()).expect("it runs"));
     assert_eq!(how, Certainty::Unknown);
     let contact = json!({
         "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": 0, "geometry": "initial"
@@ -373,7 +372,7 @@ fn a_run_is_repeated_where_rounding_decides() {
     let of_part = |x: f64| {
         let stamp = [[x, 0.0], [2.0, 1.0], [0.0, 1.0]];
         let solution = solve(&block_and_stamp(stamp, &contact, Variant::Unilateral), &mut |_| ());
-        certain(solution.expect("there is an equilibrium"), &Session::default()).1
+        certain(solution.expect("there is an equilibrium")).1
     };
     assert_eq!(of_part(1.0), Certainty::Certain);
     assert_eq!(of_part(1.050000001), Certainty::Unknown);

@@ -7,7 +7,6 @@ mod common {
     pub mod json;
     pub mod outcome;
     pub mod random;
-    pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -21,9 +20,7 @@ mod error_estimates;
 mod extremes;
 mod largest;
 mod precisions;
-mod recorded;
 mod scalars;
 mod singular;
 mod solvers;
 mod systems;
-mod tolerances;

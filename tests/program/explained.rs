@@ -68,7 +68,7 @@ fn change(kind: usize, scene: &Scene, rng: &mut Rng) -> Option<Change> {
                 (Class::Reading, format!("reading {}", &reading[..2]))
             }
             5 => {
-                let solvers = [Solver::DenseLu, Solver::DenseCholesky, Solver::Cg, Solver::Refined];
+                let solvers = [Solver::DenseLu, Solver::SparseLu];
                 let solver = Some(solvers[rng.usize(..solvers.len())]);
                 request.arithmetic = Arithmetic { solver, ..Arithmetic::default() };
                 (Class::Solver, "option solver".into())

@@ -36,12 +36,17 @@ fn in_folder(name: &str) -> BTreeSet<PathBuf> {
     entries.map(|entry| entry.expect("an entry").path()).collect()
 }
 
-/// Returns a target's inputs: its corpus and, where it reads scenes, those of the findings.
+/// Returns a target's inputs: its corpus and, where it reads scenes, those of the findings; `scene` begins
+/// with those of `hostile.rs` too.
 fn inputs(target: &str) -> BTreeSet<PathBuf> {
     let mut inputs = in_folder(&format!("fuzz/corpus/{target}"));
     if ["scene", "solve"].contains(&target) {
         let folders = in_folder("golden/findings").into_iter().filter(|path| path.is_dir());
         inputs.extend(folders.map(|folder| folder.join("scene.json")));
+    }
+    if target == "scene" {
+        let hostile = in_folder("tests/program/hostile").into_iter();
+        inputs.extend(hostile.filter(|path| path.extension().is_some_and(|end| end == "json")));
     }
     inputs
 }
@@ -124,4 +129,4 @@ macro_rules! replayed {
     };
 }
 
-replayed! { documents gmsh listing options results scene solve worksheets }
+replayed! { gmsh listing scene solve worksheets }

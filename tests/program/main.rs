@@ -2,7 +2,6 @@
 
 #[path = "../common"]
 mod common {
-    pub mod draws;
     pub mod embedded;
     pub mod fitted_hertz;
     pub mod golden;
@@ -10,7 +9,6 @@ mod common {
     pub mod json;
     pub mod program;
     pub mod random;
-    pub mod recorded;
     pub mod recovery;
     pub mod tolerances;
     pub mod tools;
@@ -43,17 +41,13 @@ mod pictures;
 mod plan;
 mod printed;
 mod printed_numbers;
-mod processors;
 mod prose;
 mod quantities;
-mod recorded;
 mod result_file;
 mod scene_builder;
 mod scenes;
 mod schema;
-mod sentences;
 mod snapshots;
-mod soak;
 mod statuses;
 mod sweeps;
 mod tables;

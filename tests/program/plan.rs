@@ -68,19 +68,10 @@ fn estimates_grow_with_what_is_asked() {
     assert!(large.cost.operations > middle.cost.operations.max(small.cost.operations));
     let strand = Scene::open("strand").unwrap();
     let by = |solver| plan_of(&strand, Variant::Tied, Some(solver));
-    let [lu, dense, sparse] =
-        [Solver::DenseLu, Solver::DenseCholesky, Solver::SparseCholesky].map(by);
-    assert_eq!(
-        [lu.storage, dense.storage, sparse.storage].map(|s| s == Storage::Dense),
-        [true, true, false]
-    );
-    // LU has its matrix's own place.
-    for (more, less) in [(&dense, &lu), (&lu, &sparse)] {
-        assert!(more.cost.bytes.total() > less.cost.bytes.total());
-    }
-    for (more, less) in [(&lu, &dense), (&dense, &sparse)] {
-        assert!(more.cost.operations > less.cost.operations);
-    }
+    let [lu, sparse] = [Solver::DenseLu, Solver::SparseCholesky].map(by);
+    assert_eq!([lu.storage, sparse.storage].map(|s| s == Storage::Dense), [true, false]);
+    assert!(lu.cost.bytes.total() > sparse.cost.bytes.total());
+    assert!(lu.cost.operations > sparse.cost.operations);
 }
 
 /// Megabytes of whole processes, files included, on 2 cores: the estimate is no less, and at most twice as
@@ -193,12 +184,11 @@ fn as_printed_no_load_reaches_the_block() {
     assert_eq!(idle, [Some(Idle::NotCoupled), None]);
 }
 
-/// The line of fig1: the bodies are factored once, and condensed to 18 equations for 5 states of the
-/// run and 3 of the reference solution, 274 + 8 · 18³/3 operations.
+/// The line of fig1: 274 operations for each of 5 states of the run and 3 of the reference solution.
 #[test]
 fn the_line_says_what_is_planned() {
     let text = line(&plan("fig1", Variant::Stepped));
     let expected = "plan: 20 free equations of 26, 8 contact candidates of 15, \
-                    sparse-cholesky in f64; about 31 MB, 1.6e4 operations";
+                    sparse-cholesky in f64; about 31 MB, 2.2e3 operations";
     assert_eq!(text, expected);
 }

@@ -1,6 +1,6 @@
 //! Result files read back as they were written.
 
-use plane_contact::engine::{Assessment, Request, Session, solve};
+use plane_contact::engine::{Assessment, Request, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
@@ -11,7 +11,7 @@ fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
     let scene = Scene::open(scene).expect("an embedded scene");
     let solution = solve(&changed(Request::new(&scene)), &mut |_| ()).expect("it is solved");
     let plan = Plan::new(&solution.request).expect("it was solved");
-    ResultFile::new(&solution, &Assessment::new(&solution, &Session::default()), Some(&plan))
+    ResultFile::new(&solution, &Assessment::new(&solution), Some(&plan))
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
     }
     let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is solved");
     assert!(solution.elements.len() > MOST_TRIANGLES);
-    let assessment = Assessment::without_estimates(&solution, &Session::default());
+    let assessment = Assessment::without_estimates(&solution);
     assert!(assessment.estimates.is_none());
     let written = ResultFile::new(&solution, &assessment, None);
     let text = written.to_json();

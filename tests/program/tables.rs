@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use plane_contact::engine::{Assessment, Session, Solution, SolutionDistance, solve};
+use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
@@ -141,7 +141,7 @@ fn variants() {
     ];
     let row = |(name, solution): (&str, &Solution)| {
         let others = [Some(&VARIANTS[5]), Some(&VARIANTS[4])];
-        let assessment = Assessment::against(solution, &Session::default(), others);
+        let assessment = Assessment::against(solution, others);
         let [fx, fy] = solution.model.total_load();
         let share = percent(solution.target_force() / fx.hypot(fy), 0);
         let stress = assessment.bodies.iter().map(|body| body.max_von_mises_stress);

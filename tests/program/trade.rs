@@ -8,7 +8,7 @@ use crate::common::tolerances::{
 };
 use plane_contact::engine::error::Error;
 use plane_contact::engine::estimates::Certainty;
-use plane_contact::engine::{Request, Session, Solution, distance, max_displacement, solve};
+use plane_contact::engine::{Request, Solution, distance, max_displacement, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::element::{self, Plane};
@@ -465,7 +465,7 @@ fn everything_but_times_is_reproducible() {
 #[test]
 fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
     let request = Request::new(&open("fig1")).variant(Variant::Tied);
-    let reach = |accuracy| solve_to(&request, &Session::default(), accuracy);
+    let reach = |accuracy| solve_to(&request, accuracy);
     for (accuracy, scalar) in [
         (1e-2, ScalarName::F32),
         (1e-10, ScalarName::Bounded),
@@ -490,9 +490,7 @@ fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
 fn the_bar_of_an_accuracy_holds() {
     for name in ["fig1", "two-blocks", "strand"] {
         let request = Request::new(&open(name)).variant(Variant::Tied);
-        let reach = |accuracy| {
-            solve_to(&request, &Session::default(), accuracy).expect("a precision meets it")
-        };
+        let reach = |accuracy| solve_to(&request, accuracy).expect("a precision meets it");
         let best = reach(1e-18).solution.u;
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);

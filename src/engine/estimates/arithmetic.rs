@@ -15,9 +15,7 @@ use super::factors::StateFactors;
 use super::ties::{BoundedState, StateCheck};
 use crate::distance::finite;
 use crate::residual::error_of_solution;
-use crate::{
-    Decision, Detail, Elimination, Request, Session, Solution, Step, StepBounds, Stiffness,
-};
+use crate::{Decision, Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
 use numbers::scalar::{Bounded, Scalar};
 use numbers::solve::{Arithmetic, ScalarName};
 use problem::element::Plane;
@@ -54,16 +52,18 @@ pub enum Certainty {
 }
 
 /// Returns what rounding may do to a solution.
-pub fn rounding(solution: &Solution, session: &Session) -> Rounding {
-    rounding_while(solution, session, &mut |_| true)
+pub fn rounding(solution: &Solution) -> Rounding {
+    published_rounding(solution).unwrap_or_else(|| {
+        let factors = StateFactors::new(solution);
+        equilibrium_rounding(solution, factors.as_ref(), &bounded(&solution.model))
+    })
 }
 
 /// Returns the solution itself where rounding decides nothing in it, else that of the same request in
 /// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
 /// which has no other numbers, the solution stays as it is.
-pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
-    // The run is repeated up to its first doubt only; there is no bound where rounding may have decided.
-    if rounding_while(&solution, session, &mut Step::is_certain).displacement.is_some() {
+pub fn certain(solution: Solution) -> (Solution, Certainty) {
+    if rounding(&solution).displacement.is_some() {
         return (solution, Certainty::Certain);
     }
     if solution.request.variant == Variant::Unilateral {
@@ -72,11 +72,10 @@ pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
     let arithmetic = Arithmetic {
         scalar: ScalarName::BoundedDouble,
         solver: None,
-        tol: None,
         ..solution.request.arithmetic
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    match session.solve_while(&request, &mut Step::is_certain) {
+    match solve(&request, &mut |_| ()) {
         Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
             (again, Certainty::InDoubleDouble)
         }
@@ -84,36 +83,19 @@ pub fn certain(solution: Solution, session: &Session) -> (Solution, Certainty) {
     }
 }
 
-/// Returns what rounding may do, by the run repeated for as long as it `continues` where it is repeated.
-fn rounding_while(
-    solution: &Solution,
-    session: &Session,
-    continues: &mut dyn FnMut(&Step) -> bool,
-) -> Rounding {
-    published_rounding(solution, session, continues).unwrap_or_else(|| {
-        let factors = StateFactors::new(solution, session);
-        equilibrium_rounding(solution, factors.as_ref(), session, &bounded(&solution.model))
-    })
-}
-
 /// Returns the stiffness of each triangle with a bound on its rounding.
 pub fn bounded(model: &Model) -> Stiffness<Bounded> {
     Stiffness::new(model, Bounded::from_f64)
 }
 
-/// Returns what rounding may do to a run of a variant that the paper describes, repeated for as long as
-/// it `continues`; None of another.
-pub(super) fn published_rounding(
-    solution: &Solution,
-    session: &Session,
-    continues: &mut dyn FnMut(&Step) -> bool,
-) -> Option<Rounding> {
+/// Returns what rounding may do to a run of a variant that the paper describes; None of another.
+pub(super) fn published_rounding(solution: &Solution) -> Option<Rounding> {
     let request = &solution.request;
     if request.variant == Variant::Unilateral {
         return None;
     }
     if request.arithmetic.scalar != ScalarName::Exact {
-        return Some(repeated_run_rounding(solution, session, continues));
+        return Some(repeated_run_rounding(solution));
     }
     // What is rounded is the displacements themselves, to be written as f64.
     Some(Rounding {
@@ -128,10 +110,9 @@ pub(super) fn published_rounding(
 pub(super) fn equilibrium_rounding(
     solution: &Solution,
     factors: Option<&StateFactors>,
-    session: &Session,
     stiffness: &Stiffness<Bounded>,
 ) -> Rounding {
-    let checked = factors.and_then(|factors| checked_states(solution, factors, session, stiffness));
+    let checked = factors.and_then(|factors| checked_states(solution, factors, stiffness));
     let Some((u, StateCheck { decisions, only_ties, .. })) = checked else {
         return Rounding::unknown(solution);
     };
@@ -147,7 +128,6 @@ pub(super) fn equilibrium_rounding(
 fn checked_states<'a>(
     solution: &'a Solution,
     factors: &StateFactors,
-    session: &Session,
     stiffness: &'a Stiffness<Bounded>,
 ) -> Option<(DVector<Bounded>, StateCheck<'a>)> {
     let model = &*solution.model;
@@ -183,18 +163,14 @@ fn checked_states<'a>(
     for step in near.map(|i| &way[i]) {
         let Detail::Unilateral(detail) = &step.detail else { return None };
         let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
-        look(step, &StateFactors::of_step(solution, step, session)?, load)?;
+        look(step, &StateFactors::of_step(solution, step)?, load)?;
     }
     look(last, factors, model.load_in(Bounded::from_f64))?;
     Some((reached?.1, check))
 }
 
-fn repeated_run_rounding(
-    solution: &Solution,
-    session: &Session,
-    continues: &mut dyn FnMut(&Step) -> bool,
-) -> Rounding {
-    let Some(again) = bounded_run(solution, session, continues) else {
+fn repeated_run_rounding(solution: &Solution) -> Rounding {
+    let Some(again) = bounded_run(solution) else {
         return Rounding::unknown(solution);
     };
     let undecided = again.steps.iter().map(|step| step.undecided().map(<[Decision]>::to_vec));
@@ -227,7 +203,7 @@ fn written(step: &Step) -> Option<StepBounds> {
     Some(StepBounds {
         yt: half(largest(own.pairs.yt.as_slice())),
         weights: half(own.pairs.k_cnt().as_matrix().amax()),
-        u: half(step.max_displacement?),
+        u: half(step.max_displacement),
     })
 }
 
@@ -241,7 +217,7 @@ fn step_bounds(own: &Step, other: &Step) -> Option<StepBounds> {
         a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs() + f64::EPSILON * b.abs()))
     };
     let bounds = b.bounds?;
-    let steps = [own.max_displacement?, other.max_displacement?];
+    let steps = [own.max_displacement, other.max_displacement];
     Some(StepBounds {
         yt: bounds.yt + far(a.pairs.yt.as_slice(), b.pairs.yt.as_slice()),
         weights: bounds.weights
@@ -279,12 +255,8 @@ fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
     (0..u.len()).map(error).fold(0.0, f64::max)
 }
 
-/// Repeats the run with a bound on each displacement, for as long as it `continues`.
-fn bounded_run(
-    solution: &Solution,
-    session: &Session,
-    continues: &mut dyn FnMut(&Step) -> bool,
-) -> Option<Solution> {
+/// Repeats the run with a bound on each displacement.
+fn bounded_run(solution: &Solution) -> Option<Solution> {
     let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {
         scalar: match own.scalar {
@@ -297,7 +269,7 @@ fn bounded_run(
         ..Arithmetic::default()
     };
     let request = Request { arithmetic, ..solution.request.clone() };
-    session.solve_while(&request, continues).ok()
+    solve(&request, &mut |_| ()).ok()
 }
 
 /// Solves a contact state of `unilateral` again, under its friction, with a bound on each
@@ -317,7 +289,7 @@ fn state(
     let load = model.free_part(&(load + friction));
     let b = t.load(&(load - stiffness.times(t.shift())));
     let x = factors.refined(&b.map(Scalar::to_f64));
-    let bound = error_of_solution((stiffness, &t), &*factors.factors, &b, &x);
+    let bound = error_of_solution((stiffness, &t), &factors.factors, &b, &x);
     // Friction follows the normal forces, whose errors are taken to be those of the displacements.
     let bound = (1.0 + detail.feedback) * bound;
     Some(t.expand(&x.map(|x| Bounded::new(x, bound))))

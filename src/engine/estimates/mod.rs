@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::distance::finite;
 use super::solution::{Solution, max_displacement};
-use crate::{Decision, Session};
+use crate::Decision;
 pub use arithmetic::{Certainty, certain};
 use discretisation::Discretisation;
 pub(super) use dual::Dual;
@@ -89,16 +89,14 @@ pub struct NoLimit {
 }
 
 impl Estimates {
-    /// Estimates the errors of a run in a session, which may have its factors.
-    pub fn new(solution: &Solution, session: &Session) -> Self {
+    /// Estimates the errors of a run.
+    pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
         let of_rounding = || {
             // Another run takes much memory: nothing is held yet that it does not need.
-            let of_run = arithmetic::published_rounding(solution, session, &mut |_| true);
-            let (state, bounded) =
-                (StateFactors::new(solution, session), arithmetic::bounded(model));
-            let of_last =
-                || arithmetic::equilibrium_rounding(solution, state.as_ref(), session, &bounded);
+            let of_run = arithmetic::published_rounding(solution);
+            let (state, bounded) = (StateFactors::new(solution), arithmetic::bounded(model));
+            let of_last = || arithmetic::equilibrium_rounding(solution, state.as_ref(), &bounded);
             let rounding = of_run.unwrap_or_else(of_last);
             let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
             (state, rounding, stress)

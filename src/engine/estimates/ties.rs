@@ -84,7 +84,7 @@ impl<'a> StateCheck<'a> {
         let dofs = model.contact.nodes.iter().flat_map(|node| node.dofs());
         dofs.for_each(|dof| on_surface[dof.index()] = true);
         let at_surface = stiffness.about(&on_surface);
-        let moved = solution.steps.iter().filter_map(|step| step.max_displacement);
+        let moved = solution.steps.iter().map(|step| step.max_displacement);
         let largest = moved.fold(0.0, f64::max);
         let (decisions, only_ties) = (Vec::new(), true);
         StateCheck { solution, stiffness, surfaces, largest, at_surface, decisions, only_ties }

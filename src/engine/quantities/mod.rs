@@ -112,9 +112,8 @@ quantities! {
         statuses: Option<Vec<Status>> = at.step.unilateral().map(|own| own.statuses.clone()),
             "" [] None,
             "Under `unilateral`, the status of each entry of the contact surface.";
-        max_displacement: Option<f64> = at.step.max_displacement, "largest |u|" ["max |u|"] Length,
-            "The largest total displacement of a node; null for an iteration of `unilateral` with \
-             which no step of the load ends, as it is solved on the contact surfaces alone.";
+        max_displacement: f64 = at.step.max_displacement, "largest |u|" ["max |u|"] Length,
+            "The largest total displacement of a node.";
         cycle: Option<Cycle> = at.step.cycle.clone(), "contact state" [] None,
             "The earlier iterations with this contact state; null where it is new.";
         eq1_residual: f64 = at.step.contact_residual(), "residual of contact" [] Length,
@@ -122,16 +121,14 @@ quantities! {
              largest gap or overlap left under `unilateral`.";
         eq1_residual_step: f64 = at.step.contact_residual_step(), "" [] Length,
             "The same in the displacements solved for: the increment where the load is stepped.";
-        target_force: Option<f64> = at.step.target_force, "force on target" [] Force,
+        target_force: f64 = at.step.target_force, "force on target" [] Force,
             "The force that contact passes from one body to the other: along the load where that \
-             acts on one of the two bodies alone, else its size. 0 without contact; null where \
-             max_displacement is.";
+             acts on one of the two bodies alone, else its size. 0 without contact.";
         target_share: Option<f64> = at.target_share(),
             "share of the load" [] Share,
             "That force over the size of the whole load; null without a load.";
         solve_residual: f64 = at.step.solve_residual, "residual" [] One,
-            "The relative residual |A x − b| / (|A| |x| + |b|) of the equations; under \
-             `unilateral`, but for the last iteration, mostly those of the condensed bodies.";
+            "The relative residual |A x − b| / (|A| |x| + |b|) of the equations.";
     }
 }
 

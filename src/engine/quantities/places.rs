@@ -14,7 +14,7 @@ pub(crate) struct IterationPlace<'a> {
 
 impl IterationPlace<'_> {
     pub(super) fn target_share(&self) -> Option<f64> {
-        Some(self.step.target_force? / self.load).filter(|share| share.is_finite())
+        Some(self.step.target_force / self.load).filter(|share| share.is_finite())
     }
 }
 

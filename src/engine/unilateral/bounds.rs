@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
 use super::nonnegative::least;
-use super::problem::{Outcome, Setting};
+use super::problem::Outcome;
 use super::search::StateSearch;
 use crate::contact::{Pairing, Sense, Status};
 use crate::elimination::{Constraint, Motion};
@@ -150,63 +150,49 @@ impl StateSearch<'_> {
     /// the target: gaps and slips in the unit in which stiffness is 1, forces in that of the largest.
     /// None where there are no forces.
     fn scaled(&self, entries: &[usize], size: usize) -> Option<(DMatrix<f64>, DVector<f64>)> {
-        let forces = |apart: &DVector<f64>, loaded: bool| {
-            let all = self.forces_apart(entries, apart, loaded)?;
-            Some(all.rows(0, size).into_owned())
-        };
-        let at_rest = forces(&DVector::zeros(2 * entries.len()), true)?;
-        let mut stiffness = DMatrix::zeros(size, size);
-        for column in 0..size {
-            let mut apart = DVector::zeros(2 * entries.len());
-            apart[column] = 1.0;
-            stiffness.set_column(column, &forces(&apart, false)?);
-        }
-        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
-        (unit > 0.0).then(|| (stiffness / scale, at_rest / unit))
-    }
-
-    /// Returns the forces along all normals, then along all tangents, with every node held `apart`
-    /// from its place on the target: gaps, then slips; `loaded` or by that alone.
-    fn forces_apart(
-        &self,
-        entries: &[usize],
-        apart: &DVector<f64>,
-        loaded: bool,
-    ) -> Option<DVector<f64>> {
-        let n = entries.len();
         let mut statuses = vec![Status::Open; self.config.pairings.len()];
         let held =
             if self.problem.friction == 0.0 { Status::Slip(Sense::Free) } else { Status::Stick };
         entries.iter().for_each(|i| statuses[*i] = held);
-        let mut constraints = self.constraints(&statuses);
-        let mut setting = Setting { load: self.setting.load.clone(), ..*self.setting };
-        if !loaded {
-            setting.load.fill(0.0);
-        }
-        let search = StateSearch { setting: &setting, ..*self };
-        for (k, (constraint, i)) in constraints.iter_mut().zip(entries).enumerate() {
-            let pairing = self.config.pairings[*i].as_ref()?;
-            shift(constraint, pairing, [apart[k], apart[n + k]], loaded);
-        }
-        let Ok(Outcome::Solved(solution)) = search.solve(&statuses, &constraints) else {
+        let constraints = self.constraints(&statuses);
+        let n = entries.len();
+        let forces = |reaction: &DVector<f64>| {
+            let forces = self.problem.forces(self.config, &statuses, reaction);
+            DVector::from_fn(size, |row, _| {
+                let force = forces[entries[row % n]];
+                if row < n { force.normal } else { force.tangent }
+            })
+        };
+        let Ok(Outcome::Solved(solution)) = self.solve(&statuses, &constraints) else {
             return None;
         };
-        let force = |row: usize| {
-            let force = solution.forces[entries[row % n]];
-            if row < n { force.normal } else { force.tangent }
-        };
-        Some(DVector::from_fn(2 * n, |row, _| force(row)))
+        let at_rest = forces(&solution.reaction);
+        let unloaded = self.problem.setting(0.0 * &self.setting.load, self.setting.before, None);
+        let search = StateSearch { setting: &unloaded, ..*self };
+        let mut stiffness = DMatrix::zeros(size, size);
+        for column in 0..size {
+            let apart = |row: usize| if row == column { 1.0 } else { 0.0 };
+            let moved = constraints.iter().zip(entries).enumerate().map(|(k, (constraint, i))| {
+                let pairing = self.config.pairings[*i].as_ref()?;
+                Some(at_distance(constraint, pairing, [apart(k), apart(n + k)]))
+            });
+            let moved: Vec<Constraint> = moved.collect::<Option<_>>()?;
+            let Ok(Outcome::Solved(solution)) = search.solve(&statuses, &moved) else {
+                return None;
+            };
+            stiffness.set_column(column, &forces(&solution.reaction));
+        }
+        let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
+        (unit > 0.0).then(|| (stiffness / scale, at_rest / unit))
     }
 }
 
-/// Moves the place to which a constraint binds by a gap and a slip; or binds to that alone.
-fn shift(constraint: &mut Constraint, pairing: &Pairing, [gap, slip]: [f64; 2], added: bool) {
+/// Binds a node to the place that is a gap and a slip apart from its own on the target.
+fn at_distance(constraint: &Constraint, pairing: &Pairing, [gap, slip]: [f64; 2]) -> Constraint {
     let (n, t) = (pairing.normal, tangent(pairing));
-    let apart = [0, 1].map(|d| gap * n[d] + slip * t[d]);
-    match &mut constraint.motion {
-        Motion::Both(shift) => {
-            *shift = [0, 1].map(|d| apart[d] + if added { shift[d] } else { 0.0 });
-        }
-        Motion::Along(_, shift) => *shift = gap + if added { *shift } else { 0.0 },
-    }
+    let motion = match constraint.motion {
+        Motion::Both(_) => Motion::Both([0, 1].map(|d| gap * n[d] + slip * t[d])),
+        Motion::Along(normal, _) => Motion::Along(normal, gap),
+    };
+    Constraint { motion, ..constraint.clone() }
 }

@@ -72,8 +72,7 @@ pub(super) fn uniqueness(
 }
 
 fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
-    let load = problem.load(step.to);
-    Setting { load, before: &step.before, statuses: None, whole: false }
+    problem.setting(problem.load(step.to), &step.before, None)
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing

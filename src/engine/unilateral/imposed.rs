@@ -4,21 +4,20 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, ContactForce, forces};
-use super::problem::{Configuration, Outcome, Problem, StateSolution};
-use super::reduced::{OnSurface, Response, WholeBodies};
+use super::problem::{Configuration, Outcome, Problem, Setting, StateSolution};
+use super::reduced::{HeldBodies, Unheld};
 use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
-use crate::elimination::{Constraint, Elimination};
+use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
-use numbers::solve::{Singular, SparseCholesky};
+use numbers::solve::SparseCholesky;
 use problem::model::Dof;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
 const SOFT: f64 = 1e-8;
 
 impl StateSearch<'_> {
-    /// Solves for the displacements and forces under imposed statuses: on the condensed bodies, or where
-    /// that cannot be, or `self.setting` asks for it, on the whole ones.
+    /// Solves for the displacements and forces under imposed statuses.
     ///
     /// # Errors
     /// No friction agrees with its own normal forces.
@@ -27,20 +26,18 @@ impl StateSearch<'_> {
         statuses: &[Status],
         constraints: &[Constraint],
     ) -> Result<Outcome, Error> {
-        let load = &self.setting.load;
-        if !self.setting.whole
-            && let Some(state) = self.problem.bodies.state(&self.problem.stiffness, constraints)
+        let Setting { load, .. } = self.setting;
+        if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
+            && let Some(solved) = self.solved(statuses, &bodies)?
         {
-            let load = self.problem.bodies.eliminated(&state, load);
-            if let Some(solved) = state.displacements(&load) {
-                return self.solved(statuses, solved, &OnSurface { state, load });
-            }
+            return Ok(Outcome::Solved(solved));
         }
-        let t = Elimination::closing(&self.problem.model.restrained, constraints);
-        let whole = WholeBodies::new(self.problem, &t, constraints, load);
-        match whole.and_then(|whole| Ok((whole.displacements()?, whole))) {
-            Ok((solved, whole)) => self.solved(statuses, solved, &whole),
-            Err(singular) => {
+        match HeldBodies::whole(self.problem, load, constraints) {
+            Ok(bodies) => {
+                let solved = self.solved(statuses, &bodies)?;
+                Ok(Outcome::Solved(solved.expect("the whole equations have a solution")))
+            }
+            Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
                 let load = t.load(&self.problem.model.free_part(load));
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
@@ -49,38 +46,29 @@ impl StateSearch<'_> {
         }
     }
 
-    /// Adds the forces of contact, and what friction does, to the bodies' own displacements.
+    /// Adds the forces of contact, and what friction does, to the bodies' own displacements; None where the
+    /// equations of the surfaces do not serve.
     fn solved(
         &self,
         statuses: &[Status],
-        (mut u, residual): (DVector<f64>, f64),
-        bodies: &dyn Response,
-    ) -> Result<Outcome, Error> {
+        bodies: &HeldBodies,
+    ) -> Result<Option<StateSolution>, Error> {
+        let none = DVector::zeros(self.setting.load.len());
+        let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
         let mut reaction = bodies.reaction(&u);
         let mut forces = self.problem.forces(self.config, statuses, &reaction);
         let (mut friction, mut feedback) = (Vec::new(), 0.0);
         if let Some(slide) = self.slide(statuses, &forces, bodies)? {
-            let [more, force] = bodies.unshifted(&slide.friction).map_err(|_| jammed())?;
-            u += more;
-            reaction += force;
+            let Some(solved) = bodies.displacements(&slide.friction) else { return Ok(None) };
+            (u, residual) = solved;
+            reaction = bodies.reaction(&u);
             forces = self.problem.forces(self.config, statuses, &(&reaction - &slide.friction));
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
             feedback = slide.feedback;
         }
-        let (u, interior) = bodies.all(u);
-        let whole = interior.is_none();
-        Ok(Outcome::Solved(StateSolution {
-            u,
-            interior,
-            forces,
-            friction,
-            feedback,
-            reaction,
-            residual,
-            whole,
-        }))
+        Ok(Some(StateSolution { u, forces, friction, feedback, reaction, residual }))
     }
 
     /// Returns the friction of sliding nodes, whose size is μ times the normal forces that it leads to,
@@ -92,7 +80,7 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         forces: &[ContactForce],
-        bodies: &dyn Response,
+        bodies: &HeldBodies,
     ) -> Result<Option<Slide>, NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {
@@ -107,17 +95,15 @@ impl StateSearch<'_> {
         }
         let dofs = self.problem.model.dofs();
         let unit = ContactForce { tangent: 1.0, ..ContactForce::default() };
-        let response = |(_, _, pairing): &(usize, f64, &Pairing)| {
+        let load = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(dofs);
             forces::add(pairing, unit, 1.0, &mut load);
-            let reaction = bodies.response(&load)?;
-            Ok((load, reaction))
+            load
         };
-        let responses: Result<Vec<_>, Singular> = sliding.iter().map(response).collect();
-        let responses = responses.map_err(|_| jammed())?;
+        let loads: Vec<DVector<f64>> = sliding.iter().map(load).collect();
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
-        for (column, (_, reaction)) in responses.iter().enumerate() {
+        for (column, reaction) in bodies.responses(&loads).iter().enumerate() {
             let response = self.problem.forces(self.config, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
                 matrix[(row, column)] += sign * self.problem.friction * response[*i].normal;
@@ -133,7 +119,7 @@ impl StateSearch<'_> {
         let rows = matrix.try_inverse().ok_or_else(jammed)?;
         let feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
         let mut friction = DVector::zeros(dofs);
-        for ((load, _), size) in responses.iter().zip(&sizes) {
+        for (load, size) in loads.iter().zip(&sizes) {
             friction.axpy(*size, load, 1.0);
         }
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();

@@ -12,7 +12,11 @@
 //! friction there is one step.
 //!
 //! In each step the statuses are looked for by these methods, in this order. What each of them finds is
-//! checked against the same conditions, on the whole bodies in the end.
+//! checked against the same conditions.
+//!
+//! The search goes on with the stiffness on the contact surfaces alone ([`reduction`](crate::reduction)) where
+//! there is one; the contact state with which the path ends is solved again on the whole bodies, and must ask
+//! for itself there too.
 //!
 //! 1. A primal-dual active set (`search`): each iteration imposes statuses, and takes as the next ones those
 //!    that the forces, gaps and slips ask for. Statuses that return, other than the last, would return
@@ -29,9 +33,6 @@
 //! equilibrium (`rigid`); without it, that none was found proves nothing. In the current geometry normals,
 //! weights and gaps are measured again in the shape reached, until that no longer changes the
 //! displacements.
-//!
-//! The search goes on with the condensed bodies alone where they can be condensed; the contact state that it
-//! ends with is solved again on the whole bodies, refined, and must ask for itself there too.
 //!
 //! # Why has this node this status?
 //!
@@ -67,7 +68,6 @@ pub(super) use search::FIRST_GROWTH;
 
 use super::error::Error;
 use super::request::Request;
-use super::session::Session;
 use super::solution::{Solution, Step};
 
 /// Finds the equilibrium at the end of the load's path, which is the last step; `watch` is called
@@ -77,10 +77,9 @@ use super::solution::{Solution, Step};
 /// Contact and restraints do not restrain the bodies, or no equilibrium was found.
 pub(super) fn unilateral(
     request: &Request,
-    session: &Session,
     watch: &mut dyn FnMut(&Step),
 ) -> Result<Solution, Error> {
     let model = request.model()?;
-    let problem = problem::Problem::new(request, &model, session)?;
+    let problem = problem::Problem::new(request, &model)?;
     path::solve(&problem, watch)
 }

@@ -253,13 +253,10 @@ impl<'a> Run<'a> {
     /// Goes to the load `to` in one step by a search.
     fn step(&mut self, from: &Point, to: f64, search: Search<'a>) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
-        let statuses = from.statuses.as_deref();
-        let setting = Setting { load: load.clone(), before: &from.u, statuses, whole: false };
-        let found = search(self.problem, &setting, &mut |config, iteration| {
+        let setting = self.problem.setting(load.clone(), &from.u, from.statuses.as_deref());
+        search(self.problem, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
-        })?;
-        self.complete(to, &load, &found);
-        Ok(found)
+        })
     }
 
     /// Solves the last contact state, at the load `to`, on the whole bodies.
@@ -267,25 +264,19 @@ impl<'a> Run<'a> {
         let load = self.problem.load(to);
         let mut last = self.taken.pop().expect("a path has a step");
         let setting =
-            Setting { load: load.clone(), before: &last.before, statuses: None, whole: true };
-        let equilibrium = self.problem.confirmed(found, &setting, &mut |config, iteration| {
+            Setting { load: load.clone(), reduced: None, before: &last.before, statuses: None };
+        let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
         })?;
-        self.complete(to, &load, &equilibrium);
-        last.config = equilibrium.config.clone();
-        last.statuses = equilibrium.last.statuses.clone();
-        last.u = equilibrium.last.solution.u.clone();
-        self.taken.push(last);
-        Ok(equilibrium)
-    }
-
-    /// Says of the last step what is known of the whole bodies in the equilibrium that it led to.
-    fn complete(&mut self, to: f64, load: &DVector<f64>, found: &Equilibrium) {
         let k = self.steps.len();
         if let Some(last) = self.steps.last_mut() {
-            let Equilibrium { config, last: iteration, .. } = found;
-            *last = step(self.problem, (k, to), load, config, iteration);
+            *last = step(self.problem, (k, to), &load, &end.config, &end.last);
         }
+        last.config = end.config.clone();
+        last.statuses = end.last.statuses.clone();
+        last.u = end.last.solution.u.clone();
+        self.taken.push(last);
+        Ok(end)
     }
 
     /// Adds an iteration to the steps.
@@ -317,7 +308,6 @@ impl<'a> Run<'a> {
             steps,
             digits: None,
             error_bound: None,
-            kept: problem.bodies.kept(),
             equilibrium: Some(solution::Equilibrium {
                 path,
                 uniqueness,
@@ -340,24 +330,19 @@ fn step(
     iteration: &Iteration,
 ) -> Step {
     let Iteration { statuses, constraints, cycle, solution, violation, .. } = iteration;
-    let target_force = || {
-        let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
-        let at_supports = problem.supports.iter().copied();
-        let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-        transmitted_force(
-            problem.model,
-            support_force(problem.model, &problem.model.restrained, &reaction, load),
-        )
-    };
-    let is_known = solution.interior.is_none();
+    let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
+    let at_supports = problem.supports.iter().copied();
+    let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
+    let support = support_force(problem.model, &problem.model.restrained, &reaction, load);
+    let target_force = transmitted_force(problem.model, support);
     Step {
         k,
         shape: Arc::clone(&config.shape),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
-        max_displacement: is_known.then(|| max_displacement(&solution.u)),
+        max_displacement: max_displacement(&solution.u),
         cycle: cycle.clone(),
-        target_force: is_known.then(target_force),
+        target_force,
         solve_residual: solution.residual,
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,

@@ -11,9 +11,8 @@ use super::search::StateSearch;
 use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
-use crate::fast::condensation::{Bodies, Interior};
+use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
-use crate::session::Session;
 use crate::solution::{Choice, Cycle};
 use crate::stiffness::Stiffness;
 use crate::support::supports;
@@ -39,15 +38,18 @@ const UNSEEN: f64 = 1e-3;
 pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
     pub(super) model: &'a Arc<Model>,
-    pub(super) stiffness: Arc<Stiffness>,
+    pub(super) stiffness: Stiffness,
+    /// The triangles at a node of either contact surface.
+    pub(super) surface_triangles: Vec<usize>,
     pub(super) surfaces: Arc<Surfaces>,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
     /// The triangles at a restraint of the body to which contact passes its force.
     pub(super) supports: Vec<usize>,
+    /// The stiffness on the contact surfaces, on which statuses are looked for; None where they are not.
+    pub(super) reduction: Option<Reduction>,
     /// Coulomb's coefficient, infinite where nodes stick.
     pub(super) friction: f64,
-    pub(super) bodies: Bodies,
     /// The stiffness of the springs on which the nodes stand, over that of the bodies ([`Stiffness`]).
     pub(super) springs: f64,
     /// The target that each contact node faces in the initial shape.
@@ -58,12 +60,12 @@ pub(super) struct Problem<'a> {
 pub(super) struct Setting<'a> {
     /// The load by degree of freedom, restrained ones included, force.
     pub(super) load: DVector<f64>,
+    /// The same on the contact surfaces; None where equations of the whole bodies are to be solved.
+    pub(super) reduced: Option<ReducedLoad>,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
     pub(super) statuses: Option<&'a [Status]>,
-    /// Whether equations are solved, and residuals taken, on the whole bodies.
-    pub(super) whole: bool,
 }
 
 /// A shape and the target that each contact node faces in it.
@@ -85,8 +87,7 @@ pub(super) struct Iteration {
     pub(super) cycle: Option<Cycle>,
     /// What the statuses lead to.
     pub(super) solution: StateSolution,
-    /// The gap of each entry afterwards, length; None where it faces nothing, and where it stands open
-    /// inside the bodies as long as displacements there are unknown.
+    /// The gap of each entry afterwards, length; None where it faces nothing.
     pub(super) gaps: Vec<Option<f64>>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub(super) violation: f64,
@@ -99,11 +100,6 @@ pub(super) struct Iteration {
 }
 
 impl Iteration {
-    /// Returns whether the displacements of both surfaces are known.
-    pub(super) fn knows_surfaces(&self) -> bool {
-        self.solution.interior.as_ref().is_none_or(Interior::knows_surfaces)
-    }
-
     /// Returns the next iteration, to which the statuses of this one return.
     pub(super) fn repeated(&self, history: &mut History) -> Self {
         let cycle = history.keep(&self.statuses);
@@ -114,10 +110,8 @@ impl Iteration {
 /// The displacements and forces under imposed statuses.
 #[derive(Clone)]
 pub(super) struct StateSolution {
-    /// The displacements by degree of freedom, length; 0 inside the bodies as long as `inside` is there.
+    /// The displacements by degree of freedom, length.
     pub(super) u: DVector<f64>,
-    /// What gives the displacements inside; None once they are known.
-    pub(super) interior: Option<Interior>,
     /// The forces on each entry of the contact surface, force.
     pub(super) forces: Vec<ContactForce>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
@@ -129,17 +123,6 @@ pub(super) struct StateSolution {
     pub(super) reaction: DVector<f64>,
     /// The relative residual of the equations that were solved.
     pub(super) residual: f64,
-    /// Whether these were the equations of the whole bodies.
-    pub(super) whole: bool,
-}
-
-impl StateSolution {
-    /// Finds the displacements inside the bodies, where they are not known.
-    pub(super) fn complete(&mut self) {
-        if let Some(interior) = self.interior.take() {
-            self.u = interior.expand();
-        }
-    }
 }
 
 /// The equilibrium under a load.
@@ -170,24 +153,27 @@ pub(super) enum Outcome {
 pub(super) type Watch<'w> = dyn FnMut(&Configuration, &Iteration) + 'w;
 
 impl<'a> Problem<'a> {
-    pub(super) fn new(
-        request: &'a Request,
-        model: &'a Arc<Model>,
-        session: &Session,
-    ) -> Result<Self, InputError> {
+    pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
         let surfaces = Arc::new(Surfaces::new(model)?);
         surfaces.check_initial_penetration(model)?;
         let initial = Arc::new(surfaces.pairings(request.contact.coupling, &model.nodes));
-        let stiffness = session.stiffness(model);
+        let stiffness = Stiffness::new(model, |x| x);
+        let mut is_on_surface = vec![false; model.dofs()];
+        let nodes = model.contact.nodes.iter().copied();
+        nodes
+            .chain(model.target_edges().flat_map(|edge| edge.nodes))
+            .flat_map(NodeId::dofs)
+            .for_each(|dof| is_on_surface[dof.index()] = true);
         Ok(Problem {
             request,
             model,
             surfaces,
             closed: CLOSED * size(model),
             supports: stiffness.about(&supports(model, &model.restrained)),
+            surface_triangles: stiffness.about(&is_on_surface),
+            reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
             friction: request.contact.friction.coefficient(),
-            bodies: bodies(request, model, &initial, session),
             initial,
             springs: 0.0,
         })
@@ -195,13 +181,13 @@ impl<'a> Problem<'a> {
 
     /// Returns the same problem with every node on springs of a stiffness over that of the bodies.
     pub(super) fn with_springs(&self, stiffness: f64) -> Problem<'a> {
-        let initial = Arc::clone(&self.initial);
         Problem {
             surfaces: Arc::clone(&self.surfaces),
             supports: self.supports.clone(),
-            stiffness: Arc::new(Stiffness::on_springs(self.model, stiffness)),
-            bodies: bodies(self.request, self.model, &initial, &Session::default()),
-            initial,
+            surface_triangles: self.surface_triangles.clone(),
+            reduction: None,
+            stiffness: Stiffness::on_springs(self.model, stiffness),
+            initial: Arc::clone(&self.initial),
             springs: stiffness,
             ..*self
         }
@@ -211,6 +197,17 @@ impl<'a> Problem<'a> {
     pub(super) fn load(&self, part: f64) -> DVector<f64> {
         // Without friction the path is the whole load.
         if self.friction > 0.0 { self.model.load_after(part) } else { &self.model.load * part }
+    }
+
+    /// Returns the setting of a search on the contact surfaces.
+    pub(super) fn setting<'s>(
+        &self,
+        load: DVector<f64>,
+        before: &'s DVector<f64>,
+        statuses: Option<&'s [Status]>,
+    ) -> Setting<'s> {
+        let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
+        Setting { load, reduced, before, statuses }
     }
 
     /// Returns whether contact is measured in the current shape.
@@ -239,21 +236,6 @@ impl<'a> Problem<'a> {
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
     pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
         config.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
-    }
-
-    /// Returns the gap of each entry afterwards as far as the displacements are known, length.
-    pub(super) fn known_gaps(
-        &self,
-        config: &Configuration,
-        solution: &StateSolution,
-    ) -> Vec<Option<f64>> {
-        let is_known = |p: &&Pairing| match &solution.interior {
-            Some(interior) => p.nodes().all(|node| interior.knows(node)),
-            None => true,
-        };
-        let known =
-            |p: &Option<Pairing>| p.as_ref().filter(is_known).map(|p| self.gap(p, &solution.u));
-        config.pairings.iter().map(known).collect()
     }
 
     /// Returns the status with which an entry closes.
@@ -301,7 +283,7 @@ impl<'a> Problem<'a> {
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
         let before = DVector::zeros(self.model.dofs());
         let setting =
-            Setting { load: before.clone(), before: &before, statuses: None, whole: false };
+            Setting { load: before.clone(), reduced: None, before: &before, statuses: None };
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 
@@ -345,22 +327,6 @@ impl StateSearch<'_> {
             Some(Constraint { node: pairing.node, masters: pairing.masters.clone(), motion })
         };
         config.pairings.iter().zip(statuses).filter_map(constraint).collect()
-    }
-}
-
-/// Returns the bodies of a model, of which `session` may have factors.
-fn bodies(
-    request: &Request,
-    model: &Arc<Model>,
-    initial: &[Option<Pairing>],
-    session: &Session,
-) -> Bodies {
-    let bodies = Bodies::new(model, session).expecting(initial);
-    match request.contact.geometry {
-        Geometry::Initial => {
-            bodies.with_gaps(initial, request.contact.friction.coefficient() > 0.0)
-        }
-        Geometry::Current => bodies,
     }
 }
 

@@ -1,146 +1,102 @@
-//! The bodies under imposed statuses: on the condensed bodies alone, or by the reduced equations
-//! Tᵀ K T q = f of the whole ones.
+//! The bodies under imposed statuses: on the contact surfaces alone, or by the whole equations
+//! Tᵀ K T q = f.
 
-use std::rc::Rc;
+use nalgebra::{DMatrix, DVector};
 
-use nalgebra::DVector;
-
-use super::problem::Problem;
+use super::problem::{Problem, Setting};
 use crate::elimination::{Constraint, Elimination};
-use crate::fast::condensation::{Eliminated, Interior, KeptState, WholeFactors, refined};
-use numbers::solve::{Normed, Singular, SparseCholesky};
+use crate::reduction::{ReducedLoad, ReducedState};
+use crate::refinement::refined;
+use numbers::solve::{Singular, SparseCholesky};
 
-/// What the bodies under imposed statuses do under a load.
-pub(super) trait Response {
-    /// Returns the displacements by degree of freedom, length, from those of its own equations, and what
-    /// gives those inside the bodies where its equations have none of them and they are 0.
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>);
-
-    /// Returns K u − f by degree of freedom, force, for displacements of its own, which is that of contact
-    /// on the equations that contact can bind.
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64>;
-
-    /// Returns the same for the displacements under another load, on the contact surface alone, without
-    /// the shift of the constraints.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular>;
-
-    /// Returns those displacements of its own, and K u by degree of freedom.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular>;
+/// The equations of the bodies under constraints and a load, factored.
+pub(super) enum HeldBodies<'a> {
+    /// Those of the surfaces alone.
+    Reduced { state: ReducedState<'a>, load: &'a ReducedLoad },
+    /// The whole ones.
+    Whole(WholeBodies<'a>),
 }
 
-/// The equations on the condensed bodies alone.
-pub(super) struct OnSurface {
-    pub(super) state: KeptState,
-    pub(super) load: Rc<Eliminated>,
-}
-
-impl Response for OnSurface {
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>) {
-        let interior = self.state.interior(&self.load, u);
-        (interior.on_surfaces(), Some(interior))
-    }
-
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
-        self.state.reaction(u, &self.load)
-    }
-
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        Ok(self.state.response(load))
-    }
-
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
-        Ok(self.state.unshifted(load))
-    }
-}
-
-/// The equations of the whole bodies.
+/// The whole equations.
 pub(super) struct WholeBodies<'a> {
     problem: &'a Problem<'a>,
-    t: &'a Elimination,
-    /// By degree of freedom, force.
+    t: Elimination,
     load: &'a DVector<f64>,
-    factors: Factors,
+    factors: SparseCholesky,
 }
 
-/// The factors of Tᵀ K T.
-enum Factors {
-    Condensed(WholeFactors),
-    Sparse(Box<SparseCholesky>),
+/// Constraints that do not hold the bodies.
+pub(super) struct Unheld {
+    pub(super) t: Elimination,
+    pub(super) singular: Singular,
 }
 
-impl<'a> WholeBodies<'a> {
-    /// Factors on the condensed bodies; where that cannot be, factors the whole matrix.
-    ///
-    /// # Errors
-    /// The matrix is singular.
-    pub(super) fn new(
+impl<'a> HeldBodies<'a> {
+    /// Factors the equations of the surfaces; None where the setting has no load on them, and where the
+    /// whole ones are to be factored.
+    pub(super) fn reduced(
         problem: &'a Problem<'a>,
-        t: &'a Elimination,
+        setting: &'a Setting,
         constraints: &[Constraint],
-        load: &'a DVector<f64>,
-    ) -> Result<Self, Singular> {
-        let stiffness = &problem.stiffness;
-        let factors = match problem.bodies.whole_factors(stiffness, t, constraints) {
-            Some(condensed) => Factors::Condensed(condensed),
-            None => Factors::Sparse(Box::new(SparseCholesky::new(stiffness.reduced(t))?)),
-        };
-        Ok(WholeBodies { problem, t, load, factors })
+    ) -> Option<Self> {
+        let (reduction, load) = (problem.reduction.as_ref()?, setting.reduced.as_ref()?);
+        let state = ReducedState::new(reduction, constraints)?;
+        Some(HeldBodies::Reduced { state, load })
     }
 
-    /// Returns the displacements by degree of freedom, length, and their relative residual.
+    /// Factors the whole equations.
     ///
     /// # Errors
     /// The matrix is singular.
-    pub(super) fn displacements(&self) -> Result<(DVector<f64>, f64), Singular> {
-        let shifted = self.problem.stiffness.times(self.t.shift());
-        let f = self.t.load(&(self.problem.model.free_part(self.load) - shifted));
-        let (q, residual) = self.solve(&f)?;
-        Ok((self.t.expand(&q), residual))
-    }
-
-    /// Returns q, and its relative residual.
-    fn solve(&self, f: &DVector<f64>) -> Result<(DVector<f64>, f64), Singular> {
-        let stiffness = &self.problem.stiffness;
-        let by = |factors: &dyn Normed| refined(stiffness, self.t, factors, f);
-        match &self.factors {
-            Factors::Condensed(condensed) => match by(condensed) {
-                Ok(solved) => Ok(solved),
-                Err(_) => by(&SparseCholesky::new(stiffness.reduced(self.t))?).or_else(Ok),
-            },
-            Factors::Sparse(sparse) => by(&**sparse).or_else(Ok),
+    pub(super) fn whole(
+        problem: &'a Problem<'a>,
+        load: &'a DVector<f64>,
+        constraints: &[Constraint],
+    ) -> Result<Self, Unheld> {
+        let t = Elimination::closing(&problem.model.restrained, constraints);
+        match SparseCholesky::new(problem.stiffness.reduced(&t)) {
+            Ok(factors) => Ok(HeldBodies::Whole(WholeBodies { problem, t, load, factors })),
+            Err(singular) => Err(Unheld { t, singular }),
         }
     }
-}
 
-impl Response for WholeBodies<'_> {
-    fn all(&self, u: DVector<f64>) -> (DVector<f64>, Option<Interior>) {
-        (u, None)
-    }
-
-    fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
-        self.problem.stiffness.times(u) - self.load
-    }
-
-    fn response(&self, load: &DVector<f64>) -> Result<DVector<f64>, Singular> {
-        match &self.factors {
-            Factors::Condensed(condensed) => Ok(condensed.response(load)),
-            Factors::Sparse(_) => {
-                let [_, force] = self.unshifted(load)?;
-                Ok(force - load)
+    /// Returns the displacements by degree of freedom, length, under the load and `more` on the contact
+    /// surface; and the relative residual. None where the equations of the surfaces do not serve.
+    pub(super) fn displacements(&self, more: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
+        match self {
+            HeldBodies::Reduced { state, load } => state.displacements(load, more),
+            HeldBodies::Whole(WholeBodies { problem, t, load, factors }) => {
+                let Problem { model, stiffness, .. } = problem;
+                let load = model.free_part(&(*load + more));
+                let f = t.load(&(load - stiffness.times(t.shift())));
+                let (q, residual) = refined(stiffness, t, factors, &f);
+                Some((t.expand(&q), residual))
             }
         }
     }
 
-    fn unshifted(&self, load: &DVector<f64>) -> Result<[DVector<f64>; 2], Singular> {
-        let (q, _) = self.solve(&self.t.load(&self.problem.model.free_part(load)))?;
-        let u = self.t.motion(&q);
-        let force = self.problem.stiffness.times(&u);
-        Ok([u, force])
+    /// Returns K u − F under the load alone, force, which on the equations that contact can bind is that of
+    /// contact.
+    pub(super) fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
+        match self {
+            HeldBodies::Reduced { state, load } => state.reaction(u, load),
+            HeldBodies::Whole(whole) => whole.problem.stiffness.times(u) - whole.load,
+        }
+    }
+
+    /// Returns for each of some loads on the contact surface, by degree of freedom, K u − f of the
+    /// displacements under it without the shift of the constraints, force.
+    pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
+        let WholeBodies { problem, t, factors, .. } = match self {
+            HeldBodies::Reduced { state, .. } => return state.responses(loads),
+            HeldBodies::Whole(whole) => whole,
+        };
+        let Problem { model, stiffness, surface_triangles, .. } = problem;
+        let f: Vec<_> = loads.iter().map(|load| t.load(&model.free_part(load))).collect();
+        let q = factors.solve_all(DMatrix::from_columns(&f));
+        let of_load = |(q, load): (_, &DVector<f64>)| {
+            stiffness.times_of(surface_triangles.iter().copied(), &t.motion(&q)) - load
+        };
+        q.column_iter().map(|q| q.into_owned()).zip(loads).map(of_load).collect()
     }
 }

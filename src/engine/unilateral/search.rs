@@ -77,56 +77,48 @@ impl Problem<'_> {
             if before.is_none() {
                 gaps = self.gaps(&config, setting.before);
             }
-            let mut last =
+            let last =
                 self.search(&config, setting).settle(start, &mut history, &mut keep_first)?;
-            let change = |last: &Iteration, before: &Option<(StateSolution, f64)>| match before {
+            let shape_change = match &before {
                 _ if !self.is_current() => 0.0,
                 Some((solution, _)) => largest((&last.solution.u - &solution.u).as_slice()),
                 None => f64::INFINITY,
             };
-            let of_surfaces = change(&last, &before);
-            let stalled = before.as_ref().is_some_and(|(_, old)| of_surfaces > old / 2.0);
-            let is_settled = |change: f64, last: &Iteration| {
-                let scale = largest(last.solution.u.as_slice());
-                change <= SETTLED * scale || (stalled && change <= STALLED * scale)
-            };
-            if is_settled(of_surfaces, &last) {
-                // Inside, the bodies may move more.
-                self.complete(&config, &mut last);
-                before.iter_mut().for_each(|(solution, _)| solution.complete());
-                let shape_change = change(&last, &before);
-                if is_settled(shape_change, &last) {
-                    let closing =
-                        first.and_then(|first| self.first_closing(&gaps, first, &config, &last));
-                    return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
-                }
+            let stalled = before.as_ref().is_some_and(|(_, old)| shape_change > old / 2.0);
+            let scale = largest(last.solution.u.as_slice());
+            if shape_change <= SETTLED * scale || (stalled && shape_change <= STALLED * scale) {
+                let closing = first.and_then(|first| self.first_closing(&gaps, &first, &last));
+                return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
             }
             start = Some(last.statuses);
-            before = Some((last.solution, of_surfaces));
+            before = Some((last.solution, shape_change));
         }
         let strained = before.map_or(String::new(), |(solution, _)| self.strained(&solution.u));
         let what = format!("the geometry updates did not converge in {SHAPES} times{strained}");
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
-    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was
-    /// solved there; where that asks for other statuses, searches on from it there.
+    /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was found on
+    /// them; where that asks for other statuses, searches on from it there.
     pub(super) fn confirmed(
         &self,
         found: Equilibrium,
         setting: &Setting,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
-        if found.last.solution.whole {
+        if self.reduction.is_none() || found.springs.is_some() {
             return Ok(found);
         }
-        match self.search(&found.config, setting).confirm(&found.last)? {
-            Some(last) => Ok(Equilibrium { last, ..found }),
-            None => {
-                let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
-                self.equilibrium(&Setting { load, statuses, ..*setting }, watch)
+        let search = self.search(&found.config, setting);
+        let Iteration { statuses, constraints, cycle, choice, .. } = found.last.clone();
+        if let Outcome::Solved(solution) = search.solve(&statuses, &constraints)? {
+            let last = search.completed_iteration((statuses, constraints), cycle, solution);
+            if search.wanted(&last, false) == last.statuses {
+                return Ok(Equilibrium { last: Iteration { choice, ..last }, ..found });
             }
         }
+        let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
+        self.equilibrium(&Setting { load, reduced: None, statuses, ..*setting }, watch)
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
@@ -135,31 +127,16 @@ impl Problem<'_> {
     fn first_closing(
         &self,
         before: &[Option<f64>],
-        mut first: Iteration,
-        config: &Configuration,
+        first: &Iteration,
         last: &Iteration,
     ) -> Option<f64> {
         let closes =
             |i: &usize| first.statuses[*i] == Status::Open && last.statuses[*i].is_closed();
-        let closing: Vec<usize> = (0..before.len()).filter(closes).collect();
-        if closing.iter().any(|i| first.gaps[*i].is_none()) {
-            self.complete(config, &mut first);
-        }
         let part = |i: usize| {
             let (from, to) = (before[i]?, first.gaps[i]?);
             (from > self.closed && to < -self.closed).then(|| from / (from - to))
         };
-        closing.into_iter().filter_map(part).reduce(f64::min)
-    }
-
-    /// Finds the displacements inside the bodies, where they are not known, and the gaps that follow.
-    pub(super) fn complete(&self, config: &Configuration, iteration: &mut Iteration) {
-        if iteration.solution.interior.is_none() {
-            return;
-        }
-        iteration.solution.complete();
-        iteration.gaps = self.gaps(config, &iteration.solution.u);
-        iteration.violation = violation(&iteration.gaps, &iteration.statuses);
+        (0..before.len()).filter(closes).filter_map(part).reduce(f64::min)
     }
 
     /// Says why an iteration asks for other statuses, of the first node that is to change.
@@ -193,18 +170,6 @@ impl Problem<'_> {
 }
 
 impl StateSearch<'_> {
-    /// Solves a contact state again as the setting says; None where it asks for other statuses then.
-    pub(super) fn confirm(&self, found: &Iteration) -> Result<Option<Iteration>, Error> {
-        let Iteration { statuses, constraints, cycle, choice, .. } = found.clone();
-        let Outcome::Solved(solution) = self.solve(&statuses, &constraints)? else {
-            return Ok(None);
-        };
-        let reached = self.completed_iteration((statuses, constraints), cycle, solution);
-        let last = Iteration { choice, ..reached };
-        let wanted = self.wanted(&last, false);
-        Ok((wanted == last.statuses).then_some(last))
-    }
-
     /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
     /// by a fixed point on the bounds of friction, or among all statuses that there are.
     ///
@@ -251,13 +216,12 @@ impl StateSearch<'_> {
             if k == 1 {
                 iteration.choice = choice;
             }
-            let wanted = self.wanted_of_all(&mut iteration, history.iterations == 1);
+            let wanted = self.wanted(&iteration, history.iterations == 1);
             watch(self.config, &iteration);
             if wanted == iteration.statuses {
                 return Ok(iteration);
             }
             if k == limit {
-                self.problem.complete(self.config, &mut iteration);
                 against = self.problem.against(&iteration, &wanted)
                     + &self.problem.strained(&iteration.solution.u);
             }
@@ -285,17 +249,6 @@ impl StateSearch<'_> {
         let status =
             |i: usize| if closed[i] { self.problem.closing(self.config, i) } else { Status::Open };
         (0..closed.len()).map(status).collect()
-    }
-
-    /// Returns the statuses that an iteration asks for, and where these are its own as far as the
-    /// surfaces are known, looks at the whole bodies too.
-    fn wanted_of_all(&self, iteration: &mut Iteration, first: bool) -> Vec<Status> {
-        let wanted = self.wanted(iteration, first);
-        if wanted == iteration.statuses && !iteration.knows_surfaces() {
-            self.problem.complete(self.config, iteration);
-            return self.wanted(iteration, first);
-        }
-        wanted
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
@@ -378,7 +331,7 @@ impl StateSearch<'_> {
         cycle: Option<Cycle>,
         solution: StateSolution,
     ) -> Iteration {
-        let gaps = self.problem.known_gaps(self.config, &solution);
+        let gaps = self.problem.gaps(self.config, &solution.u);
         let violation = violation(&gaps, &statuses);
         Iteration {
             statuses,
@@ -412,12 +365,8 @@ impl StateSearch<'_> {
         let Ok(Outcome::Solved(solution)) = self.solve(statuses, &constraints) else {
             return None;
         };
-        let mut iteration =
-            self.completed_iteration((statuses.to_vec(), constraints), None, solution);
-        let wanted = self.wanted_of_all(&mut iteration, false);
-        (wanted == iteration.statuses).then(|| {
-            self.problem.complete(self.config, &mut iteration);
-            iteration.solution
-        })
+        let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
+        let wanted = self.wanted(&iteration, false);
+        (wanted == iteration.statuses).then_some(iteration.solution)
     }
 }

@@ -60,10 +60,9 @@ impl Problem<'_> {
             history.move_on();
             config = self.configuration(&u);
             let load = &setting.load + self.force_of(&springs, &u);
-            let own = Setting { load, ..*setting };
+            let own = Setting { load, reduced: None, ..*setting };
             let settled = springs.search(&config, &own).settle(statuses, &mut history, watch);
-            let mut last = settled.map_err(|why| why.prefixed("on springs "))?;
-            springs.complete(&config, &mut last);
+            let last = settled.map_err(|why| why.prefixed("on springs "))?;
             let moved = &last.solution.u - &u;
             let change = largest(moved.as_slice());
             // Without load the forces of contact vanish with those of the springs, to rounding.
@@ -74,17 +73,8 @@ impl Problem<'_> {
             let carried = if pushing == 0.0 { 0.0 } else { pushing / most };
             least = least.min(carried);
             if carried <= SETTLED && change <= STALLED * largest(last.solution.u.as_slice()) {
-                let setting = Setting { whole: true, ..own };
-                if let Some(last) = springs.search(&config, &setting).confirm(&last)? {
-                    let (closing, springs) = (None, Some(carried));
-                    return Ok(Equilibrium {
-                        config,
-                        last,
-                        closing,
-                        shape_change: change,
-                        springs,
-                    });
-                }
+                let (closing, springs) = (None, Some(carried));
+                return Ok(Equilibrium { config, last, closing, shape_change: change, springs });
             }
             let softer = if moved.dot(&last_move) < 0.0 { BACK } else { ONWARDS };
             let [softest, stiffest] = RANGE;

@@ -30,14 +30,8 @@ choices! {
         DenseLu = "dense-lu",
         /// LU of the entries that are not 0, with row exchanges.
         SparseLu = "sparse-lu",
-        /// Cholesky of the full matrix.
-        DenseCholesky = "dense-cholesky",
         /// Cholesky of the entries that are not 0.
         SparseCholesky = "sparse-cholesky",
-        /// Conjugate gradients, preconditioned by the diagonal, to the tolerance.
-        Cg = "cg",
-        /// Sparse factors in the scalar of half the digits, refined to the tolerance.
-        Refined = "refined",
     }
 }
 
@@ -59,8 +53,6 @@ pub struct Properties {
     pub bytes: usize,
     /// The solvers that are offered.
     pub solvers: &'static [Solver],
-    /// Those of them that take a contact state as a sparse matrix.
-    pub sparse: &'static [Solver],
     /// Why the integrals of mortar coupling are not computed in it; None where they are.
     pub no_mortar: Option<&'static str>,
 }
@@ -68,76 +60,49 @@ pub struct Properties {
 impl ScalarName {
     /// Returns what is known of it.
     pub fn properties(self) -> Properties {
-        use Solver::{Cg, DenseLu, Refined, SparseCholesky};
+        use Solver::{DenseLu, SparseCholesky};
         match self {
-            ScalarName::F64 => Properties {
-                digits: Some(16),
-                bytes: 8,
-                solvers: Solver::ALL,
-                sparse: &[SparseCholesky, Cg, Refined],
-                no_mortar: None,
-            },
+            ScalarName::F64 => {
+                Properties { digits: Some(16), bytes: 8, solvers: Solver::ALL, no_mortar: None }
+            }
             ScalarName::F32 => Properties {
                 digits: Some(7),
                 bytes: 4,
-                solvers: &[DenseLu, SparseCholesky, Cg],
-                sparse: &[SparseCholesky, Cg],
+                solvers: &[DenseLu, SparseCholesky],
                 no_mortar: Some("its integrals lose too many digits"),
             },
             ScalarName::F64x2 => Properties {
                 digits: Some(31),
                 bytes: 16,
-                solvers: &[DenseLu, SparseCholesky, Cg, Refined],
-                sparse: &[SparseCholesky, Cg, Refined],
+                solvers: &[DenseLu, SparseCholesky],
                 no_mortar: None,
             },
-            ScalarName::Bounded => Properties {
-                digits: Some(16),
-                bytes: 16,
-                solvers: Solver::ALL,
-                sparse: &[SparseCholesky],
-                no_mortar: None,
-            },
+            ScalarName::Bounded => {
+                Properties { digits: Some(16), bytes: 16, solvers: Solver::ALL, no_mortar: None }
+            }
             ScalarName::BoundedDouble => Properties {
                 digits: Some(31),
                 bytes: 16,
                 solvers: &[DenseLu, SparseCholesky],
-                sparse: &[SparseCholesky],
                 no_mortar: None,
             },
             ScalarName::Exact => Properties {
                 digits: None,
                 bytes: 16,
                 solvers: &[DenseLu, SparseCholesky],
-                sparse: &[],
                 no_mortar: Some("its integrals take square roots"),
             },
         }
     }
 }
 
-impl Solver {
-    /// Returns whether it comes nearer to the solution step by step, to a tolerance.
-    pub fn iterates(self) -> bool {
-        match self {
-            Solver::Cg | Solver::Refined => true,
-            Solver::DenseLu | Solver::SparseLu | Solver::DenseCholesky | Solver::SparseCholesky => {
-                false
-            }
-        }
-    }
-}
-
-/// In which numbers, by which solver, and to which tolerance a run computes.
+/// In which numbers, and by which solver, a run computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,
     /// The solver; null: sparse-cholesky, but sparse-lu under printed in f64 and f64-bounded.
     pub solver: Option<Solver>,
-    /// The relative residual |A x - b| / (|A| |x| + |b|) at which cg and refined stop; null: 16 eps
-    /// of the scalar.
-    pub tol: Option<f64>,
     /// What the numbers of the scene stand for.
     pub inputs: Inputs,
 }
@@ -157,30 +122,16 @@ impl Arithmetic {
         *self == Arithmetic::default()
     }
 
-    /// Checks that the solver is offered in the scalar, and that the tolerance is between 0 and 1.
+    /// Checks that the solver is offered in the scalar.
     ///
     /// # Errors
-    /// Names the solvers that are offered, or the fault of the tolerance.
+    /// Names the solvers that are offered.
     pub fn check(&self) -> Result<()> {
         let (solver, offered) = (self.solver(true), self.scalar.properties().solvers);
         if !offered.contains(&solver) {
             let names: Vec<&str> = offered.iter().map(|solver| solver.name()).collect();
             let what = format!("{solver} does not solve in {}", self.scalar);
             return Err(InputError::new("solver", what, format!("use {}", names.join(", "))));
-        }
-        let Some(tol) = self.tol else { return Ok(()) };
-        if !solver.iterates() {
-            let what = format!("{solver} solves directly: it has no tolerance");
-            return Err(InputError::new(
-                "tol",
-                what,
-                "leave it out, or use the solver cg or refined",
-            ));
-        }
-        if !(tol > 0.0 && tol < 1.0) {
-            let what = format!("the tolerance {tol:e} is not between 0 and 1");
-            let fix = "give the largest relative residual, as 1e-12";
-            return Err(InputError::new("tol", what, fix));
         }
         Ok(())
     }

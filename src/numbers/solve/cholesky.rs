@@ -3,22 +3,23 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Par, Side};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-use super::factors::column;
+use super::factors::of_columns_mut;
+use super::ordering::{order, places};
 use super::symmetric::SparseSymmetric;
 
 /// Returns whether a pivot is more than what rounding may leave of its diagonal entry `a`, even in a
 /// matrix whose entries are of very different sizes.
-pub fn is_large(pivot: f64, a: f64) -> bool {
+pub(super) fn is_large(pivot: f64, a: f64) -> bool {
     /// The least part of `a`.
     const LEAST: f64 = 1e-8;
     pivot > LEAST * a
@@ -46,14 +47,12 @@ impl Cholesky {
         Self::factored(matrix, SymmetricOrdering::Amd)
     }
 
-    /// Factors a matrix in an order of its own: `order` has the equation at each place, `place` the
-    /// place of each equation. None where a pivot is not positive.
-    pub(super) fn ordered(
-        matrix: &SparseSymmetric,
-        order: &[usize],
-        place: &[usize],
-    ) -> Option<Self> {
-        let order = PermRef::new_checked(order, place, order.len());
+    /// Factors a matrix with some equations, in their order, behind all others; None where a pivot is not
+    /// positive.
+    pub(super) fn with_last(matrix: &SparseSymmetric, last: &[usize]) -> Option<Self> {
+        let order = order_with_last(matrix, last);
+        let place = places(&order);
+        let order = PermRef::new_checked(&order, &place, order.len());
         Self::factored(matrix, SymmetricOrdering::Custom(order))
     }
 
@@ -77,18 +76,17 @@ impl Cholesky {
         Some(Cholesky { symbolic, values })
     }
 
-    /// Returns the solution x of A x = `b`.
-    pub(super) fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+    /// Returns the solutions x of A x = b for the columns b of a matrix.
+    pub(super) fn solve(&self, mut b: DMatrix<f64>) -> DMatrix<f64> {
+        let scratch = self.symbolic.solve_in_place_scratch::<f64>(b.ncols(), Par::Seq);
         let mut memory = MemBuffer::new(scratch);
-        let mut x = b.clone();
         LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
-            column(x.as_mut_slice()),
+            of_columns_mut(&mut b),
             Par::Seq,
             MemStack::new(&mut memory),
         );
-        x
+        b
     }
 
     /// Returns whether every pivot is more than rounding leaves of the matrix's `diagonal`.
@@ -116,76 +114,34 @@ impl Cholesky {
         pivots
     }
 
-    /// Visits the entries of L from the row and column `from` on, columns in turn: row and column from
-    /// there, value.
-    pub(super) fn visit_last(&self, from: usize, mut visit: impl FnMut(usize, usize, f64)) {
-        let mut visit = |i: usize, j: usize, l: &f64| visit(i - from, j - from, *l);
+    /// Returns the lower triangle of L from the row and column `from` on.
+    pub(super) fn last_block(&self, from: usize) -> DMatrix<f64> {
+        let last = self.symbolic.nrows() - from;
+        let mut block = DMatrix::zeros(last, last);
         match self.lower() {
             Lower::Entries(l) => {
                 for j in from..l.ncols() {
-                    l.row_idx_of_col(j).zip(l.val_of_col(j)).for_each(|(i, l)| visit(i, j, l));
+                    let entries = l.row_idx_of_col(j).zip(l.val_of_col(j));
+                    entries.for_each(|(i, l)| block[(i - from, j - from)] = *l);
                 }
             }
             Lower::Blocks(l) => {
                 let ends = l.symbolic().supernode_end();
                 for s in ends.partition_point(|end| *end <= from)..l.symbolic().n_supernodes() {
                     let supernode = l.supernode(s);
-                    let (start, block) = (supernode.start(), supernode.val());
-                    for j in from.saturating_sub(start)..block.ncols() {
-                        let rows = (start + j..start + block.ncols())
-                            .chain(supernode.pattern().iter().copied());
-                        let column = block.col(j).subrows(j, block.nrows() - j);
-                        rows.zip(column.iter()).for_each(|(i, l)| visit(i, start + j, l));
+                    let (start, values) = (supernode.start(), supernode.val());
+                    let columns = values.ncols();
+                    for j in from.saturating_sub(start)..columns {
+                        let rows =
+                            (start + j..start + columns).chain(supernode.pattern().iter().copied());
+                        for (i, k) in rows.zip(j..) {
+                            block[(i - from, start + j - from)] = values[(k, j)];
+                        }
                     }
                 }
             }
         }
-    }
-
-    /// Solves L z = b for the first entries of z, up to `inside`, in place, and leaves in the others
-    /// what those leave of b; in the order of the factor.
-    pub(super) fn eliminate(&self, inside: usize, z: &mut [f64]) {
-        match self.lower() {
-            Lower::Entries(l) => {
-                for j in 0..inside {
-                    let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
-                    // Of a load on few equations most stay 0.
-                    if z[j] == 0.0 {
-                        continue;
-                    }
-                    z[j] /= column[0];
-                    let x = z[j];
-                    rows[1..].iter().zip(&column[1..]).for_each(|(i, l)| z[*i] -= *l * x);
-                }
-            }
-            Lower::Blocks(l) => {
-                with_scratch(&l, |stack| l.l_solve_with_conj(Conj::No, column(z), Par::Seq, stack));
-                let last = taken(&mut z[inside..]);
-                self.visit_last(inside, |i, j, l| z[inside + i] += l * last[j]);
-            }
-        }
-    }
-
-    /// Solves Lᵀ x = z for the first entries of x, up to `inside`, in place, where the others are those of
-    /// x already; in the order of the factor.
-    pub(super) fn substitute(&self, inside: usize, x: &mut [f64]) {
-        match self.lower() {
-            Lower::Entries(l) => {
-                for j in (0..inside).rev() {
-                    let (rows, column) = (l.row_idx_of_col_raw(j), l.val_of_col(j));
-                    x[j] = (x[j] - product(&rows[1..], &column[1..], x)) / column[0];
-                }
-            }
-            Lower::Blocks(l) => {
-                let last = taken(&mut x[inside..]);
-                self.visit_last(inside, |i, j, l| x[inside + j] += l * last[i]);
-                with_scratch(&l, |stack| {
-                    l.l_transpose_solve_with_conj(Conj::No, column(x), Par::Seq, stack);
-                });
-                // What was given is returned to the bit.
-                x[inside..].copy_from_slice(&last);
-            }
-        }
+        block
     }
 
     /// Returns L in the form in which it was made.
@@ -201,28 +157,19 @@ impl Cholesky {
     }
 }
 
-/// Returns the sum of the products of the entries of a column with those of `x` in their `rows`, in four
-/// parts, as no one of which waits for another.
-fn product(rows: &[usize], column: &[f64], x: &[f64]) -> f64 {
-    let (rows, column) = (rows.chunks_exact(4), column.chunks_exact(4));
-    let last = rows.remainder().iter().zip(column.remainder());
-    let last = last.fold(0.0, |sum, (i, l)| sum + *l * x[*i]);
-    let mut sums = [0.0; 4];
-    for (rows, column) in rows.zip(column) {
-        (0..4).for_each(|k| sums[k] += column[k] * x[rows[k]]);
+/// Returns the other equations in an order of small fill, then the `last` ones.
+fn order_with_last(matrix: &SparseSymmetric, last: &[usize]) -> Vec<usize> {
+    const LAST: usize = usize::MAX;
+    let mut number = vec![0; matrix.size()];
+    last.iter().for_each(|e| number[*e] = LAST);
+    let first: Vec<usize> = (0..matrix.size()).filter(|e| number[*e] != LAST).collect();
+    first.iter().enumerate().for_each(|(k, e)| number[*e] = k);
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for j in &first {
+        rows.extend(matrix.column(*j).map(|(i, _)| number[i]).filter(|i| *i != LAST));
+        starts.push(rows.len());
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
-}
-
-/// Takes the numbers of a slice, and leaves zeros.
-fn taken(slice: &mut [f64]) -> Vec<f64> {
-    let numbers = slice.to_vec();
-    slice.fill(0.0);
-    numbers
-}
-
-/// Solves with the memory that a factor by supernodes needs.
-fn with_scratch(factor: &SupernodalLltRef<'_, usize, f64>, solve: impl FnOnce(&mut MemStack)) {
-    let scratch = factor.symbolic().solve_in_place_scratch::<f64>(1, Par::Seq);
-    solve(MemStack::new(&mut MemBuffer::new(scratch)));
+    let n = first.len();
+    let order = order(SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows));
+    order.into_iter().map(|k| first[k]).chain(last.iter().copied()).collect()
 }

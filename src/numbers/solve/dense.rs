@@ -1,12 +1,12 @@
-//! Dense LU with partial pivoting and dense Cholesky, by the library faer, behind one narrow
-//! interface.
+//! Dense LU with partial pivoting, and Cholesky factors of what is left of a matrix, by the library faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::Llt;
 use faer::perm::Perm;
-use faer::{MatRef, Par, Side};
+use faer::{Accum, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
 use super::factors::{
@@ -78,46 +78,38 @@ impl Lu for DenseLu {
     }
 }
 
-/// Cholesky factors of a symmetric positive definite matrix.
-pub struct DenseCholesky {
-    factors: Llt<f64>,
-}
+/// Cholesky factors of a dense symmetric positive definite matrix.
+pub struct DenseCholesky(Llt<f64>);
 
 impl DenseCholesky {
-    /// Factors an n x n `matrix`, of which the lower triangle is read.
-    ///
-    /// # Errors
-    /// Names a pivot that is not positive, or below 16 n · eps of its own diagonal entry.
-    pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Singular> {
-        let n = matrix.nrows();
+    /// Factors a `matrix`, of which the lower triangle is read; None where it is not positive definite.
+    pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
         faer::set_global_parallelism(Par::Seq);
-        let factors =
-            Llt::new(of_columns(matrix), Side::Lower).map_err(|_| not_positive(matrix))?;
-        let diagonal = factors.L().diagonal().column_vector();
-        let pivot = |j: usize| diagonal[j] * diagonal[j];
-        let least = |j: usize| 16.0 * n as f64 * f64::EPSILON * matrix[(j, j)];
-        match (0..n).find(|&j| pivot(j).is_nan() || pivot(j) <= least(j)) {
-            Some(column) => Err(Singular { column, pivot: pivot(column) }),
-            None => Ok(DenseCholesky { factors }),
-        }
-    }
-
-    /// Returns the lower triangle L of the factors.
-    pub(super) fn lower(&self) -> MatRef<'_, f64> {
-        self.factors.L()
+        Llt::new(of_columns(matrix), Side::Lower).ok().map(DenseCholesky)
     }
 }
 
 impl Factors for DenseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        solve(&self.factors, b)
+        solve(&self.0, b)
     }
 }
 
-/// Returns the column where a matrix ceases to be positive definite. LU tells it, unless the matrix
-/// is indefinite and no column is to blame.
-fn not_positive(matrix: &DMatrix<f64>) -> Singular {
-    let mut full = matrix.clone();
-    full.fill_upper_triangle_with_lower_triangle();
-    DenseLu::new(full).err().unwrap_or(Singular { column: 0, pivot: f64::NAN })
+/// Returns L Lᵀ of a lower triangle L.
+pub(super) fn square(l: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut square = DMatrix::zeros(l.nrows(), l.nrows());
+    let view = of_columns(l);
+    matmul(
+        of_columns_mut(&mut square),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        view,
+        BlockStructure::TriangularLower,
+        view.transpose(),
+        BlockStructure::TriangularUpper,
+        1.0,
+        Par::Seq,
+    );
+    square.fill_upper_triangle_with_lower_triangle();
+    square
 }

@@ -14,7 +14,7 @@ use crate::scalar::{BoundedDouble, Rounded, Scalar, SumOfProducts, WithBound};
 /// Returns a bound on the largest |δ|, infinite where A cannot be told from a singular matrix.
 /// `factors` are those of A rounded to `f64`; `entries` those of the whole of A: row, column, value.
 pub fn error_bound<V: Rounded>(
-    factors: &dyn Factors<f64>,
+    factors: &dyn Factors,
     entries: impl Iterator<Item = (usize, usize, WithBound<V>)>,
     b: &DVector<WithBound<V>>,
     x: &DVector<V>,
@@ -33,7 +33,7 @@ pub fn error_bound<V: Rounded>(
 
 /// Returns the same bound from `rest`, which is b − A x, and `spread`, the sums of the rows of E.
 pub fn error_of_rest(
-    factors: &dyn Factors<f64>,
+    factors: &dyn Factors,
     rest: &DVector<BoundedDouble>,
     spread: &DVector<f64>,
 ) -> f64 {
@@ -52,7 +52,7 @@ pub fn error_of_rest(
 ///
 /// Source: N. J. Higham, *FORTRAN codes for estimating the one-norm of a real or complex matrix*,
 /// ACM TOMS 14(4), 1988, algorithm 4.1, as in LAPACK's xLACN2.
-pub fn inverse_norm(factors: &dyn Factors<f64>, w: &DVector<f64>) -> f64 {
+pub fn inverse_norm(factors: &dyn Factors, w: &DVector<f64>) -> f64 {
     /// The rounds that LAPACK allows.
     const ROUNDS: usize = 5;
     let n = w.len();

@@ -1,7 +1,5 @@
 //! What the factorisations of a matrix share.
 
-use std::sync::Arc;
-
 use faer::linalg::solvers::Solve;
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
@@ -9,21 +7,15 @@ use nalgebra::{DMatrix, DVector};
 use crate::scalar::Scalar;
 
 /// The factors of a square matrix A.
-pub trait Factors<T = f64>: Sync {
+pub trait Factors: Sync {
     /// Returns the solution x of A x = `b`.
-    fn solve(&self, b: &DVector<T>) -> DVector<T>;
+    fn solve(&self, b: &DVector<f64>) -> DVector<f64>;
 }
 
 /// Factors of a matrix whose norm is known, by which solutions are refined.
 pub trait Normed: Factors {
     /// Returns the largest row sum of |A|.
     fn norm(&self) -> f64;
-}
-
-impl<T, F: Factors<T> + Send + ?Sized> Factors<T> for Arc<F> {
-    fn solve(&self, b: &DVector<T>) -> DVector<T> {
-        (**self).solve(b)
-    }
 }
 
 /// LU factors of a matrix that they keep.

@@ -4,10 +4,8 @@
 //! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is that
 //! of `ordering`.
 
-use nalgebra::DVector;
-
 use super::elimination::Field;
-use super::factors::{Factors, Singular};
+use super::factors::Singular;
 use super::ordering::{Tree, order, places};
 use super::symmetric::SparseSymmetric;
 
@@ -91,12 +89,6 @@ impl<F: Field> Ldlt<F> {
             x[e] = value;
         }
         x
-    }
-}
-
-impl Factors<f32> for Ldlt<f32> {
-    fn solve(&self, b: &DVector<f32>) -> DVector<f32> {
-        DVector::from_vec(self.solve(b.as_slice()))
     }
 }
 

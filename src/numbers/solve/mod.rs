@@ -4,31 +4,27 @@
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
 //! | `factors`, `square` | what factorisations share; sparse matrices that need not be symmetric |
-//! | `dense`, `dense_condensed` | faer's factors of dense matrices; one that leaves the last equations over |
+//! | `dense` | faer's factors of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations and
 //!   where a factor has entries; faer's factor of one |
 //! | [`cost`], `symbolic` | what a solution needs: time, entries of factors |
-//! | `sparse`, `condensed`, `iterative` | factors that tell a singular matrix; those that leave a few
-//!   equations over; solutions to a tolerance |
+//! | `sparse`, `schur` | factors that tell a singular matrix; what is left of one on its last equations |
 //! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |
-//! | `elimination`, `ldlt`, `lifting` | elimination in numbers that no library factors |
+//! | `elimination`, `ldlt` | elimination in numbers that no library factors |
 //! | `precision` | the solution in each scalar by each solver |
 
 mod arithmetic;
 mod cholesky;
-mod condensed;
 pub mod cost;
 mod dense;
-mod dense_condensed;
 mod elimination;
 mod error_bound;
 mod factors;
-mod iterative;
 mod ldlt;
-mod lifting;
 mod ordering;
 mod precision;
+mod schur;
 mod sparse;
 mod sparse_lu;
 mod square;
@@ -36,17 +32,13 @@ mod symbolic;
 mod symmetric;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
-pub use cholesky::is_large;
-pub use condensed::{Condensed, Eliminated};
 pub use dense::{DenseCholesky, DenseLu};
-pub use dense_condensed::DenseCondensed;
 pub use elimination::{Field, solve_dense};
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
-pub use iterative::{NotConverged, Unsolved, conjugate_gradients, refine};
 pub use ldlt::Ldlt;
-pub use lifting::lift;
-pub use precision::{Iterates, Precision, Solved};
+pub use precision::{Outcome, Precision, Solved};
+pub use schur::{EliminatedLoad, Schur};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;

@@ -1,6 +1,6 @@
 //! Cholesky factors of sparse symmetric matrices that are positive definite.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::Cholesky;
 use super::error_bound::inverse_norm;
@@ -9,7 +9,7 @@ use super::symmetric::SparseSymmetric;
 
 /// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
 /// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
-pub(super) const UNBOUNDED: f64 = 0.1;
+const UNBOUNDED: f64 = 0.1;
 
 /// Where every pivot is large and one trial load moves less than this part of what means a singular
 /// matrix, no other load is tried.
@@ -54,6 +54,11 @@ impl SparseCholesky {
 
     /// Returns the solution x of A x = `b`.
     pub fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
+        solve(&self.factors, b)
+    }
+
+    /// Returns the solutions x of A x = b for the columns b of a matrix.
+    pub fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
         self.factors.solve(b)
     }
 
@@ -74,6 +79,11 @@ impl Factors for SparseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         SparseCholesky::solve(self, b)
     }
+}
+
+/// Returns the solution x of A x = `b` by the factors of A.
+pub(super) fn solve(factors: &Cholesky, b: &DVector<f64>) -> DVector<f64> {
+    factors.solve(DMatrix::from_column_slice(b.len(), 1, b.as_slice())).column(0).into_owned()
 }
 
 /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single trial
@@ -98,7 +108,7 @@ impl<F: Factors> Factors for Scaled<'_, F> {
 
 /// Returns the entry of a trial load: 1 or −1, without a pattern that a motion of the body could be
 /// orthogonal to.
-pub(super) fn trial_load(i: usize) -> f64 {
+fn trial_load(i: usize) -> f64 {
     if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 }
 }
 
@@ -107,13 +117,13 @@ pub(super) fn trial_load(i: usize) -> f64 {
 fn probe(factors: &Cholesky, diagonal: &DVector<f64>) -> Option<(usize, f64)> {
     let scale = diagonal.map(|d| d.sqrt());
     let load = DVector::from_fn(scale.len(), |i, _| trial_load(i) * scale[i]);
-    let moved = factors.solve(&load).component_mul(&scale);
+    let moved = solve(factors, &load).component_mul(&scale);
     let largest = moved.iter().map(|x| x.abs()).enumerate();
     largest.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a })
 }
 
 /// Returns the equation that a singular matrix leaves free to move.
-pub fn mechanism(matrix: &SparseSymmetric) -> Singular {
+pub(super) fn mechanism(matrix: &SparseSymmetric) -> Singular {
     let diagonal = matrix.diagonal();
     if let Some(column) = diagonal.iter().position(|d| d.is_nan() || *d <= 0.0) {
         return Singular { column, pivot: diagonal[column] };

@@ -22,11 +22,6 @@ impl FactorSize {
         FactorSize { operations: 2.0 * cube(n) / 3.0, ..FactorSize::full(n, n * n) }
     }
 
-    /// Returns the size of dense Cholesky of `n` equations: 1/3 n³ operations.
-    pub fn dense_cholesky(n: usize) -> Self {
-        FactorSize { operations: cube(n) / 3.0, ..FactorSize::full(n, n * n) }
-    }
-
     /// Returns the size of sparse Cholesky of a matrix of `pattern`, in the order of `ordering`.
     pub fn sparse_cholesky(pattern: &Pattern) -> Self {
         let equations = pattern.size();

@@ -154,13 +154,8 @@ impl<T: Clone> SparseSymmetric<T> {
 
     /// Returns the matrix of what `f` makes of each entry.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> SparseSymmetric<U> {
-        self.try_map(|a| Some(f(a))).expect("every entry has a value")
-    }
-
-    /// Returns the matrix with `f` of each entry; None where it is None of any.
-    pub(super) fn try_map<U>(&self, f: impl Fn(&T) -> Option<U>) -> Option<SparseSymmetric<U>> {
-        let values = self.values.iter().map(f).collect::<Option<Vec<U>>>()?;
-        Some(SparseSymmetric { pattern: Arc::clone(&self.pattern), values })
+        let values = self.values.iter().map(f).collect();
+        SparseSymmetric { pattern: Arc::clone(&self.pattern), values }
     }
 
     /// Returns the values of the entries, column by column.
@@ -218,18 +213,19 @@ impl<T: Scalar> SparseSymmetric<T> {
 
     /// Returns the matrix with each diagonal entry made 1 + `part` times as large.
     pub fn with_diagonal(&self, part: f64) -> Self {
-        self.clone().map_diagonal(|_, a| a * T::from_f64(1.0 + part))
+        self.map_diagonal(|_, a| a * T::from_f64(1.0 + part))
     }
 
     /// Returns the matrix with `f` of each row's diagonal entry.
-    pub(super) fn map_diagonal(mut self, f: impl Fn(usize, T) -> T) -> Self {
+    pub(super) fn map_diagonal(&self, f: impl Fn(usize, T) -> T) -> Self {
+        let mut matrix = self.clone();
         for j in 0..self.size() {
             let at = self.pattern.starts[j];
             if at < self.pattern.starts[j + 1] && self.pattern.rows[at] == j {
-                self.values[at] = f(j, self.values[at]);
+                matrix.values[at] = f(j, matrix.values[at]);
             }
         }
-        self
+        matrix
     }
 
     /// Returns the largest row sum of |A|.

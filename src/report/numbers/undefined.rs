@@ -33,9 +33,7 @@ const REASONS: &[(&str, &str)] = &[
     ("departure", "there are fewer than three meshes, or nothing moves"),
     ("ladder", "the section is not that of nested meshes"),
     ("cycle", "the contact state is new"),
-    ("max_displacement", "the search goes on: solved on the contact surfaces alone"),
-    ("target_force", "the search goes on: solved on the contact surfaces alone"),
-    ("target_share", "no load acts, or the search goes on"),
+    ("target_share", "no load acts"),
     ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
     ("pressure", "restraints leave the force undetermined"),
     ("shear", "restraints leave the force undetermined"),
@@ -65,7 +63,6 @@ const REASONS: &[(&str, &str)] = &[
     ("peak_bytes", "it was not measured"),
     ("solver", "the scalar's own solver"),
     ("nominal_strain", "no load acts"),
-    ("tol", "the solver has no tolerance, or the scalar's own"),
 ];
 
 /// Why the error of a number that diverges under refinement has no value; the object in

@@ -21,7 +21,7 @@ use paper::corrected::{Program, program};
 use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
-use studies::audit::findings::{Evidence, Finding};
+use studies::audit::findings::{Evidence, Finding, Repair};
 use studies::lesson::{Iterations, Recorded, Repairs, State, Switch, figure_numbers};
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
@@ -78,7 +78,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
     ];
     Page {
         language,
-        title: &language.say(&format!("Lesson: {}", scene.title)),
+        title: &language.fill("Lesson: {title}", &[("title", &language.say(&scene.title))]),
         body: &language.say_html(include_str!("lesson/body.html")),
         style: include_str!("lesson/lesson.css"),
         script: &[&INTERPRETER[..], &ITERATE, &script].concat(),
@@ -123,17 +123,18 @@ impl Shared {
             let after = |k| repairs::run(repairs, k, &printed, self, language);
             runs.extend(repairs.shown().map(after));
         }
-        let finding = chapter
-            .finding
-            .as_ref()
-            .map(|(finding, measured)| language.say_all(json!(FindingRow::new(finding, measured))));
+        let finding = chapter.finding.as_ref().map(|found| said(found, language));
         let Iterations { reference, recorded } = &chapter.iterations;
         // The errors of what is recorded are recorded too.
         let reference = reference.as_ref().filter(|_| recorded.is_none());
         let recorded = recorded.as_deref().map(|runs| of_rims(&chapter.runs[0].1, runs));
+        let title = match repairs {
+            None => language.say(&chapter.scene.title).to_string(),
+            Some(repairs) => repairs::title(repairs, language),
+        };
         json!({
             "name": chapter.scene.name,
-            "title": language.say(&repairs.map_or(chapter.scene.title.clone(), repairs::title)),
+            "title": title,
             "units": chapter.scene.units,
             "runs": runs,
             "nodes": chapter.nodes,
@@ -148,10 +149,15 @@ impl Shared {
     fn run(&mut self, switch: &Switch, model: &Model, language: Language) -> Value {
         let [c_cnt, km] =
             [Which::CCnt, Which::Km].map(|which| self.listing(&switch.listing(which)));
+        let about: Vec<&str> = switch.about.iter().map(|words| language.say(words)).collect();
+        let about = about.join(", ");
         json!({
             "name": switch.name,
             "label": language.say(&switch.name),
-            "about": language.say(&switch.about),
+            "about": match switch.lines {
+                "" => about,
+                lines => format!("{}: {about}", language.say(lines)),
+            },
             "c_cnt": c_cnt,
             "Km": km,
             "settings": switch.settings(),
@@ -176,6 +182,18 @@ impl Shared {
         let programs = Program::ALL.iter();
         programs.map(|own| (own.name(), self.listing(&program(*own, edits)))).collect()
     }
+}
+
+/// Says what a scene shows of a finding.
+fn said((finding, measured): &(&Finding, Evidence), language: Language) -> Value {
+    let mut row = json!(FindingRow::new(finding, measured));
+    for words in ["title", "verdict", "of", "detail", "why", "repair"] {
+        row[words] = row[words].as_str().map(|text| language.say(text)).into();
+    }
+    if let Repair::None { reason } = finding.edit {
+        row["edit"]["none"]["reason"] = language.say(reason).into();
+    }
+    row
 }
 
 /// Returns the recorded iterations, what repeats once. Of displacements the page draws those of the bodies'

@@ -25,7 +25,7 @@ use studies::calculix::{Comparison, Fields};
 const SHADES: u8 = 64;
 
 /// Returns the page of a report, which was made of `contents`.
-pub fn html(report: &Report, contents: &Contents, language: Language) -> String {
+pub fn html(report: &Report, contents: &Contents) -> String {
     let scene = contents.scene;
     let runs = contents.runs.par_iter().map(run).collect::<Vec<Value>>();
     let calculix = contents.calculix.as_ref().map(|compared| calculix_run(compared.comparison));
@@ -35,14 +35,12 @@ pub fn html(report: &Report, contents: &Contents, language: Language) -> String 
         "own": own_run(contents),
         "equilibrium": contents.runs.last().map(|run| pressure::name(run.solution)),
         "colours": colour::parts(SHADES),
-        "quantities": quantities::on_pages(language),
+        "quantities": quantities::on_pages(),
     });
     Page {
-        language,
-        title: &language.say(&format!("Report: {}", scene.name)),
-        body: &language
-            .say_html(include_str!("report/body.html"))
-            .replace("DOCUMENT", &report.html()),
+        language: Language::En,
+        title: &format!("Report: {}", scene.name),
+        body: &include_str!("report/body.html").replace("DOCUMENT", &report.html()),
         style: include_str!("report/report.css"),
         script: &[
             include_str!("table.js"),

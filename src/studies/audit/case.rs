@@ -9,7 +9,7 @@ use base::memory;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
-use engine::{Request, Session, Solution};
+use engine::{Request, Solution, solve};
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
 use problem::model::Model;
@@ -23,8 +23,6 @@ pub struct Case {
     base: Request,
     /// The scene's model under the reading.
     model: Arc<Model>,
-    /// In which all runs are made.
-    session: Session,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
     certain: [OnceLock<(Solution, Certainty)>; Variant::ALL.len()],
     finer: OnceLock<Result<(Solution, Certainty), Error>>,
@@ -57,7 +55,6 @@ impl Case {
             scene: base.scene.clone(),
             model: door::under(Arc::clone(&base.scene.model), &base.reading)?,
             base,
-            session: Session::default(),
             runs: Default::default(),
             certain: Default::default(),
             finer: OnceLock::new(),
@@ -101,7 +98,7 @@ impl Case {
     /// # Errors
     /// The run fails.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
-        let run = || self.session.solve(&self.request(variant), &mut |_| ());
+        let run = || solve(&self.request(variant), &mut |_| ());
         self.runs[variant_index(variant)].get_or_init(run).as_ref()
     }
 
@@ -112,7 +109,7 @@ impl Case {
     /// The run fails.
     pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
         let run = self.run(variant)?;
-        Ok(self.certain[variant_index(variant)].get_or_init(|| certain(run.clone(), &self.session)))
+        Ok(self.certain[variant_index(variant)].get_or_init(|| certain(run.clone())))
     }
 
     /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
@@ -125,7 +122,7 @@ impl Case {
             let mut request = self.request(self.published_variant());
             // R8 multiplies what is asked for.
             request.tolerance = Some(self.scene.model.contact.tolerance / 1000.0);
-            self.session.solve(&request, &mut |_| ()).map(|run| certain(run, &self.session))
+            solve(&request, &mut |_| ()).map(|run| certain(run))
         };
         self.finer.get_or_init(run).as_ref()
     }
@@ -150,20 +147,10 @@ impl Case {
         rayon::join(|| rayon::join(unilateral, finer), published);
     }
 
-    /// Releases the factors of all runs so far, the largest part of their memory.
-    pub fn release_factors(&self) {
-        self.session.release();
-    }
-
-    /// The session in which all runs are made.
-    pub fn session(&self) -> &Session {
-        &self.session
-    }
-
     /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
-        let run = || self.session.solve(&self.base.reference(), &mut |_| ()).ok();
+        let run = || solve(&self.base.reference(), &mut |_| ()).ok();
         self.reference.get_or_init(run).as_ref()
     }
 
@@ -174,7 +161,7 @@ impl Case {
         if self.request(Variant::Unilateral).is_same_equilibrium(&self.base.equilibrium()) {
             return self.run(Variant::Unilateral).ok();
         }
-        let run = || self.session.solve(&self.base.equilibrium(), &mut |_| ()).ok();
+        let run = || solve(&self.base.equilibrium(), &mut |_| ()).ok();
         self.equilibrium.get_or_init(run).as_ref()
     }
 

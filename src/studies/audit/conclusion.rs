@@ -190,7 +190,7 @@ fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
         variant: nearest.map(|nearest| nearest.variant),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
         theirs: theirs.to_vec(),
-        errors: Estimates::new(equilibrium, case.session()).errors,
+        errors: Estimates::new(equilibrium).errors,
         own,
     })
 }

@@ -4,13 +4,13 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::answer::{Answer, solve};
 use super::blocks::{Blocks, BlocksOf};
-use super::methods::{DOUBLE, SINGLE, in_each_scalar, joined, power_of_two, run};
+use super::methods::{DOUBLE, SINGLE, in_each_scalar, joined, power_of_two};
 use super::sweep::{Generator, Method, Sweep};
 use super::verdict::Verdict;
 use crate::benchmark::Annulus;
 use engine::error::Error;
 use engine::{self, Request};
-use numbers::solve::{ScalarName, Solver};
+use numbers::solve::ScalarName;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
@@ -82,12 +82,9 @@ fn lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
 /// K3: 1 on the diagonal of restrained equations among stiffnesses of any size.
 pub fn unit_diagonal() -> Generator {
     let blocks: BlocksOf = |e| Blocks { e: [e, 7.0 * e], ..Blocks::default() };
-    let (name, by_cg) = ("printed f64 cg".to_string(), (DOUBLE, Some(Solver::Cg)));
     let others = vec![
-        run(name, Variant::Printed, by_cg, Answer::displacement, blocks),
-        scaled("printed f32, E scaled to 1", SINGLE, None),
-        scaled("printed f64, E scaled to 1", DOUBLE, None),
-        scaled("printed f64 cg, E scaled to 1", DOUBLE, Some(Solver::Cg)),
+        scaled("printed f32, E scaled to 1", SINGLE),
+        scaled("printed f64, E scaled to 1", DOUBLE),
     ];
     Generator::new(
         "unit-diagonal",
@@ -100,14 +97,14 @@ pub fn unit_diagonal() -> Generator {
 
 /// `printed` with E and the load divided by the power of two next to E: the unit diagonal is then
 /// one of the stiffnesses, and displacements stay.
-fn scaled(name: &str, scalar: ScalarName, solver: Option<Solver>) -> Method {
+fn scaled(name: &str, scalar: ScalarName) -> Method {
     let scene = |e: f64, unit: f64| {
         let Blocks { pressure, .. } = Blocks::default();
         let (e, pressure) = (e / unit, pressure / unit);
         Blocks { e: [e, 7.0 * e], pressure, ..Blocks::default() }.scene(Variant::Printed)
     };
     Method::new(name, scalar, move |e, exacts| {
-        let answer = solve(&scene(e, power_of_two(e)), Variant::Printed, scalar, solver)?;
+        let answer = solve(&scene(e, power_of_two(e)), Variant::Printed, scalar, None)?;
         Ok(exacts.judge(&answer, &scene(e, 1.0), Variant::Printed, Answer::displacement))
     })
 }

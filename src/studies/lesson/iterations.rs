@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use engine::{Request, Session, Solution, Stiffness, over};
+use engine::{Request, Solution, Stiffness, over, solve};
 use paper::corrected::STEPS;
 use problem::model::{Model, NodeId};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
@@ -47,13 +47,12 @@ impl Iterations {
     pub fn new(scene: &Scene, model: &Arc<Model>) -> Self {
         let mut scene = scene.clone();
         scene.model = Arc::clone(model);
-        let session = Session::default();
         let reference = scene.model.has_contact().then(|| Request::new(&scene).reference());
-        let reference = reference.and_then(|request| session.solve(&request, &mut |_| ()).ok());
+        let reference = reference.and_then(|request| solve(&request, &mut |_| ()).ok());
         let reference = reference.map(|solution| solution.u);
         let is_recorded = scene.model.nodes.len() > MOST_SOLVED;
         let recorded = is_recorded.then(|| {
-            let recorded = |v: &Variant| recorded(&scene, *v, &session, reference.as_ref());
+            let recorded = |v: &Variant| recorded(&scene, *v, reference.as_ref());
             Variant::OF_THE_PAPER.iter().map(recorded).collect()
         });
         Iterations { reference, recorded }
@@ -61,17 +60,12 @@ impl Iterations {
 }
 
 /// Returns the iterations of a variant of the paper with the print's own contact model.
-pub fn recorded(
-    scene: &Scene,
-    variant: Variant,
-    session: &Session,
-    reference: Option<&DVector<f64>>,
-) -> Recorded {
+pub fn recorded(scene: &Scene, variant: Variant, reference: Option<&DVector<f64>>) -> Recorded {
     let (coupling, status) = (Coupling::Nts, StatusRule::Signs);
     let contact = ContactModel { coupling, status, ..scene.contact };
     let mut request = Request::new(scene).variant(variant).contact(contact);
     request.iterations = STEPS;
-    match session.solve(&request, &mut |_| ()) {
+    match solve(&request, &mut |_| ()) {
         Ok(solution) => Recorded { variant, states: states(&solution, reference), failure: None },
         Err(why) => Recorded { variant, states: vec![], failure: Some(why.to_string()) },
     }

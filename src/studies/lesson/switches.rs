@@ -14,8 +14,10 @@ use problem::modelling::Variant;
 pub struct Switch {
     /// Its name, such as `R2 = printed`.
     pub name: String,
-    /// What it does, in words.
-    pub about: String,
+    /// The listing and the lines that it concerns, `both` for both listings; empty for neither.
+    pub lines: &'static str,
+    /// What it does, in words, one behind the other.
+    pub about: Vec<&'static str>,
     reading: Reading,
     /// What is changed of the worksheet beside the reading.
     worksheet: Change,
@@ -38,7 +40,8 @@ pub fn switches(scene: &Scene) -> Vec<Switch> {
     let readings = READINGS.iter().filter(|row| row.lines != "-").flat_map(|row| {
         row.others(Reading::default(), plane, schedule).map(move |(value, reading)| Switch {
             name: row.label(value),
-            about: format!("{}: {}", row.lines, value.words),
+            lines: row.lines,
+            about: vec![value.words],
             reading,
             worksheet: if row.is_option() { Change::None } else { value.change },
             ..Switch::as_printed()
@@ -46,7 +49,8 @@ pub fn switches(scene: &Scene) -> Vec<Switch> {
     });
     let tolerances = TOLERANCES.map(|(factor, name)| Switch {
         name: name.into(),
-        about: "c_cnt 5-7, 16: tolerance".into(),
+        lines: "c_cnt 5-7, 16",
+        about: vec!["tolerance"],
         factor,
         ..Switch::as_printed()
     });
@@ -57,7 +61,7 @@ pub fn switches(scene: &Scene) -> Vec<Switch> {
 /// with its repair if that is an edit of a listing.
 pub fn chapter(finding: &Finding) -> Vec<Switch> {
     let printed = Switch::as_printed();
-    let about = |what: &str| format!("{}, {what}", printed.about);
+    let about = |what: &'static str| [&printed.about[..], &[what]].concat();
     let before = match finding.before {
         Preparation::AsPrinted => printed,
         Preparation::Reading(words, reading) => Switch {
@@ -74,7 +78,8 @@ pub fn chapter(finding: &Finding) -> Vec<Switch> {
             let listing = listings::edited(&which.under(&Reading::default()), text);
             let after = Switch {
                 name: "repaired".into(),
-                about: format!("{}: {}", which.name(), finding.repair),
+                lines: which.name(),
+                about: vec![finding.repair],
                 edited: Some((which, listing)),
                 ..before.clone()
             };
@@ -88,7 +93,8 @@ impl Switch {
     pub fn as_printed() -> Self {
         Switch {
             name: "as printed".into(),
-            about: "the listings as printed, under the default of every reading".into(),
+            lines: "",
+            about: vec!["the listings as printed, under the default of every reading"],
             reading: Reading::default(),
             worksheet: Change::None,
             factor: 1.0,
@@ -97,10 +103,15 @@ impl Switch {
         }
     }
 
-    /// Returns the switch that has another listing in place of the printed one.
-    pub fn edited(name: &str, about: String, which: Which, listing: Listing) -> Self {
-        let edited = Some((which, listing));
-        Switch { name: name.into(), about, edited, ..Switch::as_printed() }
+    /// Returns the switch that has a user's listing in place of the printed one.
+    pub fn edited(which: Which, listing: Listing) -> Self {
+        Switch {
+            name: "edited".into(),
+            lines: which.name(),
+            about: vec!["as edited"],
+            edited: Some((which, listing)),
+            ..Switch::as_printed()
+        }
     }
 
     /// Returns the scene's model under the switch.

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::candidates::Candidates;
 use engine::{Bytes, Request};
-use numbers::solve::{FactorSize, ScalarName};
+use numbers::solve::FactorSize;
 use problem::model::Model;
 use problem::modelling::{Coupling, Friction, Variant};
 
@@ -18,11 +18,8 @@ pub(super) struct Work<'a> {
     /// Dense matrices in memory at once.
     pub dense: usize,
     pub factors: FactorSize,
-    /// The one factorisation of the bodies, which the reference solution shares with a run whose states
-    /// rest on it.
+    /// One factorisation of the bodies by sparse Cholesky, for the reference solution.
     pub sparse: FactorSize,
-    /// The matrix of a contact state on the condensed bodies.
-    pub condensed: FactorSize,
     /// Who can come into contact; nothing where the scene has no contact.
     pub candidates: Option<&'a Candidates>,
 }
@@ -66,18 +63,8 @@ impl Work<'_> {
     }
 
     fn operations(&self, states: usize, reference_states: usize) -> f64 {
-        let whole = self.factors_whole();
-        let bodies = if !whole || reference_states > 0 { self.sparse.operations } else { 0.0 };
-        let own = if whole { self.factors } else { self.condensed };
         let [run, reference] = [states, reference_states].map(|states| states as f64);
-        bodies + run * own.operations + reference * self.condensed.operations
-    }
-
-    /// Whether each contact state has a matrix of its own that is factored whole.
-    pub fn factors_whole(&self) -> bool {
-        self.dense > 0
-            || self.request.variant == Variant::Printed
-            || self.request.arithmetic.scalar == ScalarName::F32
+        run * self.factors.operations + reference * self.sparse.operations
     }
 
     /// Contact states that the run is likely to come to; of the paper's variants as on `strand`.

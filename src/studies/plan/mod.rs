@@ -22,7 +22,7 @@ use cost::{Cost, Work};
 use base::choices;
 use base::error::Result;
 use base::memory;
-use engine::{Request, dense_matrices, kept_equations};
+use engine::{Request, dense_matrices};
 use numbers::solve::{FactorSize, Pattern, ScalarName, Solver};
 use problem::model::{Dof, Model};
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
@@ -72,9 +72,6 @@ pub struct Plan {
     pub storage: Storage,
     /// The size of the factors.
     pub factors: FactorSize,
-    /// The equations to which the bodies are condensed, on which every contact state is solved; None
-    /// without contact, and where the whole matrix of each state is factored.
-    pub condensed: Option<usize>,
     /// The operations, the memory and the time.
     pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
@@ -143,15 +140,11 @@ impl Plan {
         let sparse = FactorSize::sparse_cholesky(&pattern(model));
         let factors = match solver {
             Solver::DenseLu => FactorSize::dense_lu(equations.solved),
-            Solver::DenseCholesky => FactorSize::dense_cholesky(equations.solved),
             Solver::SparseLu => sparse.as_lu(),
-            Solver::SparseCholesky | Solver::Cg | Solver::Refined => sparse,
+            Solver::SparseCholesky => sparse,
         };
         let candidates = contact.as_ref().map(|contact| &contact.candidates);
-        let near = candidates.map_or(0, |found| found.near);
-        let condensed = FactorSize::dense_cholesky(kept_equations(model, near));
-        let work = Work { request, model, dense, factors, sparse, condensed, candidates };
-        let (cost, condenses) = (work.cost(), near > 0 && !work.factors_whole());
+        let cost = Work { request, model, dense, factors, sparse, candidates }.cost();
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
@@ -167,7 +160,6 @@ impl Plan {
             solver,
             storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
             factors,
-            condensed: condenses.then_some(condensed.equations),
             orphans: model.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })

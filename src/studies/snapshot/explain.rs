@@ -202,7 +202,7 @@ fn options(causes: &mut Vec<Cause>, old: &Options, new: &Options) {
     for cause in &mut found {
         if let Some(id) = cause.place.strip_prefix("option reading.") {
             (cause.class, cause.place) = (Class::Reading, format!("reading {id}"));
-        } else if ["scalar", "solver", "tol", "inputs"].contains(&&cause.place["option ".len()..]) {
+        } else if ["scalar", "solver", "inputs"].contains(&&cause.place["option ".len()..]) {
             cause.class = Class::Solver;
         }
     }
@@ -289,7 +289,7 @@ fn arbitrated(old: Side, new: Side, differences: &[Difference]) -> Option<String
     let seconds = cost::seconds(equations, growing, request.iterations);
     (request.variant != Variant::Unilateral && seconds <= MOMENT).then_some(())?;
     let mut options = new.run.options.clone();
-    (options.scalar, options.solver, options.tol) = (Some(ScalarName::Exact), None, None);
+    (options.scalar, options.solver) = (Some(ScalarName::Exact), None);
     let exact = record(&options.request(&request.scene), Bounds::Computed).ok()?;
     let agrees = |run: &Run| {
         let (found, _) = compare(&exact, run);

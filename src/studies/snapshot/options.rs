@@ -45,9 +45,6 @@ pub struct Options {
     /// The solver of its equations.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<Solver>,
-    /// The largest relative residual at which an iterative solver stops.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tol: Option<f64>,
     /// Which numbers are given: as they are written, or rounded to single precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inputs: Option<Inputs>,
@@ -95,7 +92,6 @@ impl Options {
             status: other(contact.status, own.contact.status),
             scalar: other(arithmetic.scalar, plain.scalar),
             solver: arithmetic.solver,
-            tol: arithmetic.tol,
             inputs: other(arithmetic.inputs, plain.inputs),
         }
     }
@@ -115,9 +111,9 @@ impl Options {
             load_steps: self.load_steps.unwrap_or(own.load_steps),
             status: self.status.unwrap_or(own.status),
         };
-        let (solver, tol) = (self.solver, self.tol);
+        let solver = self.solver;
         let (scalar, inputs) = (self.scalar.unwrap_or_default(), self.inputs.unwrap_or_default());
-        request.arithmetic(Arithmetic { scalar, solver, tol, inputs })
+        request.arithmetic(Arithmetic { scalar, solver, inputs })
     }
 
     /// Returns a name for a run with these options: its variant, then every other option.

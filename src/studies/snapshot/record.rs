@@ -11,7 +11,7 @@ use engine::contact::{ContactNode, Pairing};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use engine::{
-    Detail, Elimination, FoundPairs, Request, Session, Solution, Step, StepBounds, Stiffness,
+    Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
 };
 use numbers::scalar::{Bounded, Scalar};
 use paper::door;
@@ -40,18 +40,17 @@ pub enum Bounds {
 pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let model = request.model()?;
     let mut steps: Vec<Step> = Vec::new();
-    let session = Session::default();
-    let solved = session.solve(request, &mut |step| steps.push(step.clone()));
+    let solved = solve(request, &mut |step| steps.push(step.clone()));
     let mut run = Run::new(Options::from_request(request));
     let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
-        (Ok(solution), Bounds::Computed) => Some(rounding(solution, &session)),
+        (Ok(solution), Bounds::Computed) => Some(rounding(solution)),
         (Err(_), _) | (_, Bounds::LeftOut) => None,
     };
     // A solution may leave out steps that were taken back.
     let steps = solved.as_ref().map_or(&steps, |solution| &solution.steps);
-    let displacement = steps.iter().filter_map(|step| step.max_displacement).fold(0.0, f64::max);
+    let displacement = steps.iter().map(|step| step.max_displacement).fold(0.0, f64::max);
     let scale = Scale::new(&model, displacement);
     let of = Recorded { request, model: &model, stiffness: &stiffness, scale };
     for (k, step) in steps.iter().enumerate() {
@@ -201,11 +200,9 @@ impl Recorded<'_> {
             None => self.matrix(step, weights),
         };
         run.numbers.extend(matrix.map(|matrix| (name("MJS"), matrix)));
-        if step.max_displacement.is_some() {
-            let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
-            let largest = Numbers::list(&units.length, step.max_displacement, error);
-            run.numbers.insert(name("u"), largest);
-        }
+        let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
+        let largest = Numbers::list(&units.length, Some(step.max_displacement), error);
+        run.numbers.insert(name("u"), largest);
         run.facts.insert(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
     }
 

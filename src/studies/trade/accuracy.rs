@@ -9,7 +9,7 @@ use base::error::InputError;
 use engine::error::Error;
 use engine::estimates::arithmetic::rounding;
 use engine::estimates::discretisation::Discretisation;
-use engine::{Request, Session, Solution, max_displacement};
+use engine::{Request, Solution, max_displacement, solve};
 use numbers::solve::{Arithmetic, ScalarName, Solver};
 use problem::modelling::{Coupling, Variant};
 
@@ -57,25 +57,21 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
     Err(InputError::new("accuracy", what, fix))
 }
 
-/// Solves `request` in a session in the cheapest precision in which the relative error of the displacements, by
+/// Solves `request` in the cheapest precision in which the relative error of the displacements, by
 /// rounding alone, is at most `accuracy`; the request's own arithmetic does not count.
 ///
 /// # Errors
-/// An accuracy that is not between 0 and 1, or that no precision meets; those of [`Session::solve`]
+/// An accuracy that is not between 0 and 1, or that no precision meets; those of [`solve`]
 /// in the last precision where none has a result.
-pub fn solve_to(
-    request: &Request,
-    session: &Session,
-    accuracy: f64,
-) -> Result<AccurateSolution, Error> {
+pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Error> {
     check_accuracy(accuracy)?;
     let (mut attempts, mut failure) = (Vec::new(), None);
     for arithmetic in precisions(request) {
         let outcome = match not_run(request, arithmetic.scalar, accuracy) {
             Some(why) => Outcome::NotRun(why),
-            None => match session.solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+            None => match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
                 Ok(solution) => {
-                    let bound = relative_bound(&solution, session);
+                    let bound = relative_bound(&solution);
                     attempts.push(Attempt { arithmetic, outcome: Outcome::Bound(bound) });
                     if bound <= accuracy {
                         let mesh = Discretisation::new(&solution.model, &solution.elements);
@@ -133,11 +129,11 @@ fn not_run(request: &Request, scalar: ScalarName, accuracy: f64) -> Option<Strin
 
 /// Returns the bound on the rounding error of a solution's displacements, with all their digits,
 /// relative to the largest one without rounding; infinite where nothing is known.
-fn relative_bound(solution: &Solution, session: &Session) -> f64 {
+fn relative_bound(solution: &Solution) -> f64 {
     let bound = match (solution.error_bound, solution.request.arithmetic.scalar) {
         (Some(bound), _) => bound,
         (None, ScalarName::Exact) => 0.0,
-        (None, _) => rounding(solution, session).displacement.unwrap_or(f64::INFINITY),
+        (None, _) => rounding(solution).displacement.unwrap_or(f64::INFINITY),
     };
     if bound == 0.0 {
         return 0.0;

@@ -33,7 +33,6 @@ pub fn geometry(case: &Case, places: &Range, watch: &(impl Fn(&str) + Sync)) -> 
     let of_place = |(place, case): &(ParameterValue, Arc<Case>)| {
         case.prepare();
         let rows: Vec<Row> = CARRYING.iter().map(|variant| row(*place, case, *variant)).collect();
-        case.release_factors();
         watch(&label(*place));
         rows
     };

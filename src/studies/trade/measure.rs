@@ -16,7 +16,7 @@ use crate::benchmark::Strand;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
-use engine::{Request, Session, Solution, Stiffness, max_displacement, over, solve, summaries};
+use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
 use problem::scene::{Refined, Scene, symmetry};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
@@ -147,7 +147,7 @@ fn timed(
 fn judged(parameter: Varied, run: Run) -> Run {
     match run.solution {
         Ok(solution) if judges(parameter) => {
-            let (solution, certainty) = certain(solution, &Session::default());
+            let (solution, certainty) = certain(solution);
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
         solution => Run { solution, ..run },

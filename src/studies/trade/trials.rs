@@ -209,11 +209,6 @@ pub(super) fn sparse(scalar: ScalarName) -> Arithmetic {
     by(scalar, Solver::SparseCholesky)
 }
 
-/// Conjugate gradients in f64 that stop at a relative residual of `tol`.
-pub(super) fn cg(tol: f64) -> Arithmetic {
-    Arithmetic { tol: Some(tol), ..by(ScalarName::F64, Solver::Cg) }
-}
-
 pub(super) fn by(scalar: ScalarName, solver: Solver) -> Arithmetic {
     Arithmetic { scalar, solver: Some(solver), ..Arithmetic::default() }
 }
@@ -230,13 +225,11 @@ pub(super) fn exact_seconds(request: &Request) -> f64 {
 }
 
 fn arithmetic(request: &Request) -> Vec<Trial> {
-    use {ScalarName::*, Solver::*};
+    use ScalarName::*;
     let mut arithmetics = vec![
         ("f32", sparse(F32)),
-        ("f32 factors refined in f64", by(F64, Refined)),
         ("f64", sparse(F64)),
         ("f64 with a bound", sparse(Bounded)),
-        ("f64 factors refined in f64x2", by(F64x2, Refined)),
         ("f64x2", sparse(F64x2)),
     ];
     if exact_seconds(request) <= EXACT {
@@ -249,14 +242,7 @@ fn solvers(request: &Request) -> Vec<Trial> {
     use {ScalarName::*, Solver::*};
     let arithmetics = vec![
         ("dense-lu", by(F64, DenseLu)),
-        ("dense-cholesky", by(F64, DenseCholesky)),
         ("sparse-cholesky", sparse(F64)),
-        ("cg to 1e-4", cg(1e-4)),
-        ("cg to 1e-6", cg(1e-6)),
-        ("cg to 1e-8", cg(1e-8)),
-        ("cg to 1e-10", cg(1e-10)),
-        ("cg to 1e-12", cg(1e-12)),
-        ("cg to 16 eps", by(F64, Cg)),
         ("f64x2 to compare", sparse(F64x2)),
     ];
     against_the_last(Varied::Solver, request, arithmetics)

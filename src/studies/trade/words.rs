@@ -5,10 +5,10 @@ use super::errors::Errors;
 use super::limit::{Approach, Limit};
 use super::order::Order;
 use super::rows::{Ladder, Row, Section};
-use super::trials::{cg, sparse};
+use super::trials::sparse;
 use crate::benchmark::{ClosedForm, Strand};
 use engine::estimates::Certainty;
-use numbers::solve::{ScalarName, Solver};
+use numbers::solve::ScalarName;
 use problem::modelling::Variant;
 use problem::scene::{Scene, Units};
 
@@ -135,25 +135,15 @@ fn solver(rows: &[Row]) -> Vec<String> {
     if !rows.iter().any(|row| row.arithmetic.scalar == ScalarName::F64x2 && ran(row)) {
         return Vec::new();
     }
-    let direct = rows.iter().filter(|row| {
-        row.arithmetic.scalar == ScalarName::F64 && row.arithmetic.solver != Some(Solver::Cg)
-    });
+    let direct = rows.iter().filter(|row| row.arithmetic.scalar == ScalarName::F64);
     let direct = direct.filter_map(|row| row.error.map(|e| e.displacement)).reduce(f64::max);
-    let loose = rows.iter().find(|row| row.arithmetic == cg(1e-4)).and_then(|row| row.error);
     let direct = direct.map(|direct| {
         format!(
-            "Direct solvers in f64 differ from f64x2 by {direct:.0e} of the largest displacement \
+            "Solvers in f64 differ from f64x2 by {direct:.0e} of the largest displacement \
              at most."
         )
     });
-    let loose = loose.map(|loose| {
-        format!(
-            "A residual is no error: displacements of conjugate gradients stopped at a relative \
-             residual of 1e-4 are wrong by {:.0e} of the largest.",
-            loose.displacement
-        )
-    });
-    direct.into_iter().chain(loose).collect()
+    direct.into_iter().collect()
 }
 
 fn true_arcs(limit: Option<&Limit>) -> Vec<String> {

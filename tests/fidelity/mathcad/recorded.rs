@@ -1,23 +1,18 @@
-//! What random programs and edited worksheets come to, recorded: their values, traces and failures, as
-//! executed, and as written into a worksheet and read back.
+//! Random programs: what they come to, recorded, and that they come back from a worksheet.
 
-use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
-use std::path::Path;
 
 use fastrand::Rng;
 use plane_contact::mathcad::failure::Fallible;
-use plane_contact::mathcad::worksheet::execute;
-use plane_contact::mathcad::xmcd::document::Region;
-use plane_contact::mathcad::xmcd::page::{self, Page};
-use plane_contact::mathcad::xmcd::{document, write};
+use plane_contact::mathcad::xmcd::document::{self, Region};
+use plane_contact::mathcad::xmcd::page;
 use plane_contact::mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
 
 use crate::common::draws::one_of;
-use crate::common::recorded::{assert_recorded, assert_recorded_exactly};
+use crate::common::recorded::assert_recorded_exactly;
 
-/// The number of programs of a golden file.
-const PROGRAMS: usize = 150;
+/// The number of programs that are recorded.
+const PROGRAMS: u64 = 50;
 
 const FUNCTIONS: [&str; 21] = [
     "sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "sinh", "cosh", "tanh",
@@ -222,52 +217,6 @@ fn told(outcome: &Fallible<Outcome>) -> String {
     }
 }
 
-/// Writes a program and what stands above it as a worksheet that saved the outcome with so many
-/// digits; reads it back and executes it. Returns what differs of it.
-fn by_worksheet(
-    listing: &Listing,
-    settings: &Settings,
-    outcome: &Fallible<Outcome>,
-    digits: usize,
-) -> String {
-    let mut page = Page::default();
-    page.heading("Recorded").text("A program.\nAnd what stands above it.");
-    above().into_iter().for_each(|(name, value)| {
-        page.define(name, write::matrix(&value), value.rows());
-    });
-    page.define("a", write::real(1.0), 1).define("s", write::real(0.0), 1);
-    page.program(&Listing::parse("g", G).expect("a listing")).program(listing);
-    let call = Listing::parse("e", "e() :=\n  f(2,3)\n").expect("a listing");
-    page.evaluate(write::expression(&call), 2, "asked");
-    let written = page.finish("recorded", settings);
-    let result = |saved: String| {
-        format!("<result xmlns=\"http://schemas.mathsoft.com/math30\">{saved}</result></ml:eval>")
-    };
-    let saved = match outcome.as_ref().map(|outcome| outcome.value.number()) {
-        Ok(Some(x)) => {
-            written.replace("</ml:eval>", &result(format!("<ml:real>{x:.digits$e}</ml:real>")))
-        }
-        Ok(None) => written.replace("</ml:eval>", &result("<ml:str>text</ml:str>".into())),
-        Err(_) => written.replace("<ml:eval>", "<ml:eval error=\"This value is not defined.\">"),
-    };
-    let sum = written.bytes().zip(1_u64..).map(|(byte, k)| u64::from(byte) * k).sum::<u64>();
-    let sheet = document::read(&saved, "recorded").expect("a worksheet");
-    let mut text = format!("{sum} {:?}", sheet.settings == *settings);
-    let checked = execute(&sheet, &limits());
-    let of =
-        |name: &str| checked.iter().find(|region| region.text.starts_with(name)).expect("a region");
-    if of("f(").text.trim_end() != listing.to_string().trim_end() {
-        write!(text, "\n{}", of("f(").text).expect("room");
-    }
-    let last = checked.last().expect("the evaluation");
-    write!(text, "\n{:?} {:?}", last.verdict, last.inputs).expect("room");
-    let (value, own) = (&last.value, outcome.as_ref().ok().map(|outcome| &outcome.value));
-    if value.as_ref().map(Value::to_string) != own.map(Value::to_string) {
-        write!(text, "\n{value:?}").expect("room");
-    }
-    text
-}
-
 /// Returns what a random program comes to.
 fn program(rng: &mut Rng) -> String {
     let mut text = "f(x,n) :=\n".to_owned();
@@ -275,12 +224,7 @@ fn program(rng: &mut Rng) -> String {
     let asked = one_of(rng, &SETTINGS);
     let settings: Settings = asked.parse().expect("settings");
     let result = match Listing::parse("f", &text) {
-        Ok(listing) => {
-            let outcome = executed(&listing, &settings);
-            let digits = one_of(rng, &[17, 17, 12, 10, 6]);
-            let again = by_worksheet(&listing, &settings, &outcome, digits);
-            format!("{}\nas a worksheet: {again}", told(&outcome))
-        }
+        Ok(listing) => told(&executed(&listing, &settings)),
         Err(error) => format!("no listing: {error}"),
     };
     format!("{asked} {text}{result}\n\n")
@@ -330,118 +274,9 @@ fn math(worksheet: &str) -> String {
     worksheet.split("<math ").skip(1).filter_map(|part| part.split("</math>").next()).collect()
 }
 
-fn record(part: u64) {
-    let mut rng = Rng::with_seed(part);
-    let programs: String = (0..PROGRAMS).map(|_| program(&mut rng)).collect();
-    assert_recorded(&format!("programs-{part}"), &programs);
-}
-
+/// Values, traces and failures, to the last bit.
 #[test]
-fn first_programs() {
-    record(1);
-}
-
-#[test]
-fn second_programs() {
-    record(2);
-}
-
-#[test]
-fn third_programs() {
-    record(3);
-}
-
-/// Sine, cosine and tangent beside the multiples of a quarter, where Mathcad's differ from a library's.
-#[test]
-fn angles() {
-    let mut text = String::new();
-    let functions = ["sin(x)", "cos(x)", "tan(x)", "cot(x)", "sec(x)", "csc(x)"];
-    let listings = functions.map(|f| Listing::parse("f", &format!("f(x) :=\n  {f}\n")).unwrap());
-    let quarters = [0, 1, 2, 3, 4, 5, 7, 10, 22, 1001, 65_536, 1_000_003].map(f64::from);
-    let beside = quarters.into_iter().flat_map(|k| [1.0, -1.0].map(|sign| sign * k * FRAC_PI_2));
-    let mut rng = Rng::with_seed(42);
-    for x in beside.chain((0..60).map(|_| 200.0 * rng.f64() - 100.0)) {
-        let of = |listing: &Listing| {
-            let mut run = listing.runner(&Settings::default(), &Limits::default());
-            match run.call(&[x.into()]) {
-                Ok(outcome) => format!("{:e}", outcome.value.number().unwrap_or_default()),
-                Err(failure) => failure.cause.to_string(),
-            }
-        };
-        writeln!(text, "{x}: {}", listings.each_ref().map(of).join(" ")).expect("room");
-    }
-    assert_recorded_exactly("angles", &text);
-}
-
-/// Changes a text, an attribute or an element of XML, and tells how.
-fn edited(rng: &mut Rng, xml: &str) -> (String, String) {
-    let find = |pattern: &str| -> Vec<(usize, usize)> {
-        let found =
-            xml.match_indices(pattern.chars().next().expect("a sign")).map(|(at, _)| at + 1);
-        let end = pattern.chars().last().expect("a sign");
-        found.filter_map(|at| xml[at..].find(end).map(|n| (at, at + n))).collect()
-    };
-    let texts: Vec<_> =
-        find("><").into_iter().filter(|(a, b)| !xml[*a..*b].trim().is_empty()).collect();
-    let (from, to, new) = match rng.u8(..3) {
-        0 => {
-            let (a, b) = one_of(rng, &find("\"\""));
-            (a, b, one_of(rng, &["0", "2", "x", "true", "false", "-1"]))
-        }
-        1 if find("</").len() > 4 => {
-            let (a, b) = one_of(rng, &find("<>"));
-            let is_alone = xml[a..b].ends_with('/');
-            (a - 1, if is_alone { b + 1 } else { a - 1 }, "")
-        }
-        _ => {
-            let (a, b) = one_of(rng, &texts);
-            (
-                a,
-                b,
-                one_of(rng, &["0", "1", "2", "3", "x", "v", "-3.5", "1e400", "ORIGIN", "min", ""]),
-            )
-        }
-    };
-    (
-        format!("{}{new}{}", &xml[..from], &xml[to..]),
-        format!("{from}: {} becomes {new}", &xml[from..to]),
-    )
-}
-
-#[test]
-fn edited_worksheets() {
-    let mut rng = Rng::with_seed(41);
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus/worksheets");
-    let files =
-        std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
-    let mut files: Vec<_> = files.collect();
-    files.sort();
-    let mut text = String::new();
-    for file in files {
-        let xml = std::fs::read_to_string(&file).expect("a worksheet");
-        let name = file.file_name().expect("a name").to_string_lossy().into_owned();
-        for k in 0..14 {
-            let (xml, how) =
-                if k == 0 { (xml.clone(), String::new()) } else { edited(&mut rng, &xml) };
-            writeln!(text, "{name} {how}").expect("room");
-            match document::read(&xml, "edited") {
-                Err(error) => writeln!(text, "  ! {error}").expect("room"),
-                Ok(sheet) => {
-                    for region in execute(&sheet, &limits()) {
-                        let value =
-                            region.value.as_ref().map(|value| json::write(value).to_string());
-                        let (inputs, value) = (region.inputs, value.unwrap_or_default());
-                        let name = format!("{} {}", region.id, region.tag);
-                        writeln!(
-                            text,
-                            "  {name} {:?} {inputs:?} {value}\n    {}",
-                            region.verdict, region.text
-                        )
-                        .expect("room");
-                    }
-                }
-            }
-        }
-    }
-    assert_recorded("worksheets", &text);
+fn programs_come_to_what_is_recorded() {
+    let programs: String = (0..PROGRAMS).map(|k| program(&mut Rng::with_seed(k))).collect();
+    assert_recorded_exactly("programs", &programs);
 }

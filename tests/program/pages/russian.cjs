@@ -3,7 +3,7 @@
 const assert = require("node:assert");
 const { open, inAllViews, run } = require("./browser.cjs");
 
-const [file, folder] = process.argv.slice(2);
+const [file] = process.argv.slice(2);
 
 /** What has words of its own: the listings and the names in them. */
 const OWN = "#listing, #step, #editor, #question code, script, style, noscript";
@@ -46,10 +46,9 @@ run(async (browser) => {
     }
   }
   assert.deepEqual(said, []);
-  await inAllViews(browser, file, async ({ page, check, view }) => {
+  await inAllViews(browser, file, async ({ page, check }) => {
     await page.locator("#slider").fill("230");
     await page.evaluate(() => window.scrollTo(0, 0));
     await check();
-    await page.screenshot({ path: `${folder}/lesson-ru-${view}.png` });
   });
 });

