@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod conforming;
     pub mod fitted_hertz;
     pub mod json;
     pub mod program;

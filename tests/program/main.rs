@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod conforming;
     pub mod embedded;
     pub mod fitted_hertz;
     pub mod golden;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve};
+use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve, summaries};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
@@ -13,17 +13,18 @@ use plane_contact::report;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price};
 use plane_contact::studies::benchmark::{
-    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch,
+    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch, Strand,
 };
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
 use plane_contact::studies::trade::{self, Varied};
 use plane_contact::{Request, Scene};
 
 use crate::claims::JUDGED;
+use crate::common::conforming::Conforming;
 use crate::common::fitted_hertz::over_hertz;
 use crate::common::golden_file::assert_file;
 use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
-use crate::common::tolerances::CORRECTED;
+use crate::common::tolerances::{CORRECTED, CURVED, TRUE_ARCS, assert_near};
 
 static STRAND: LazyLock<Scene> =
     LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));
@@ -420,7 +421,7 @@ fn settings() {
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
     let request = Request::new(&STRAND).arithmetic(arithmetic);
     let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
-    let options = trade::Options { runs: 1, only, finest: trade::FINEST };
+    let options = trade::Options { runs: 1, only };
     let trade = trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured");
     let rows = trade.sections.iter().flat_map(|section| {
         section.rows.iter().map(move |row| {
@@ -448,4 +449,110 @@ fn settings() {
         "trade strand --only c_tll,iterations,symmetry",
         &table,
     );
+}
+
+/// What the paper's example tends to without friction on meshes whose arcs are true: no corner of a polygon
+/// presses, so stresses converge. The largest pressure of a node is that of runs made by hand; the peak is
+/// that of edges of 0.0125 mm (run once), which Hertz meets.
+#[test]
+fn limit() {
+    const SIZES: [f64; 4] = [0.4, 0.2, 0.1, 0.05];
+    const BY_HAND: [f64; 2] = [38.4, 38.57];
+    const FINEST: f64 = 37.906;
+    let solution = |scene: &Scene| {
+        solve(&Request::new(scene).reference(), &mut |_| ()).expect("it has a solution")
+    };
+    let finer = SIZES.map(|size| {
+        let mesh = Strand { size, ..Strand::default() }.generate().expect("in range");
+        of_contact(&solution(&mesh.build().expect("a sound scene")))
+    });
+    let own = of_contact(&solution(&STRAND));
+    for (values, known) in finer[1..].iter().zip(BY_HAND) {
+        assert_near("largest pressure", values[2], known, known, &TRUE_ARCS);
+        assert_near("peak pressure", values[0], FINEST, FINEST, &TRUE_ARCS);
+    }
+    let circles = Conforming {
+        radii: [7.6, 7.7],
+        compliances: [0.91 / 210_000.0, 0.96 / 30_000.0],
+        load: 6.3 * 15.2,
+    };
+    let [hertz, persson] = [circles.hertz().expect("a clearance"), circles.persson()];
+    assert_near("Hertz", hertz.peak_pressure, FINEST, FINEST, &TRUE_ARCS);
+    assert_near("Persson", persson.peak_pressure, FINEST, FINEST, &CURVED);
+    let names = [
+        "peak pressure, MPa",
+        "half width, mm",
+        "largest pressure of a node, MPa",
+        "largest von Mises stress in the block, MPa",
+        "largest von Mises stress in the stamp, MPa",
+    ];
+    let by_hand = [
+        format!("{:.2} / {:.2}", hertz.peak_pressure, persson.peak_pressure),
+        format!("{:.3} / {:.3}", hertz.half_width, persson.half_width),
+    ];
+    let rows = names.iter().enumerate().map(|(k, name)| {
+        let values = finer.map(|values| values[k]);
+        let known = limit_of(&values);
+        let best = known.unwrap_or(values[SIZES.len() - 1]);
+        let cells = values.map(|value| format!("{value:.3}")).join(" | ");
+        let known = known.map_or("-".into(), |known| format!("{known:.3}"));
+        let missed = percent(own[k] / best - 1.0, 1);
+        let by_hand = by_hand.get(k).map_or("-", String::as_str);
+        format!("{name} | {:.3} | {cells} | {known} | {missed} | {by_hand}", own[k])
+    });
+    let heads = SIZES.map(|size| format!("{size} mm")).join(" | ");
+    let table = markdown(
+        &format!(
+            "quantity | own mesh | {heads} | limit | own mesh misses | by hand: Hertz / Persson"
+        ),
+        rows,
+    );
+    let title = "What the paper's example leads to without friction on finer meshes with true arcs, by the \
+                 length of the edges on the duct's lower wall. Refined as it is, its own mesh would stay a \
+                 polygon, whose corners press: their stress has no limit. A limit is given where the \
+                 differences from mesh to mesh fall by one factor; where they do not, the own mesh is compared \
+                 with the finest. Peak and half width are those of Hertz's parabola for p² through the \
+                 pressures of nodes.";
+    assert_table("limit", title, "scene mesh strand --size S", &table);
+}
+
+/// Where values on meshes of halved edges lead to; nothing where their differences change their sign or do not
+/// fall by one factor.
+fn limit_of(values: &[f64]) -> Option<f64> {
+    /// By what factor a difference may leave the fitted line: by 2.1 does the block's von Mises stress, which
+    /// rises again on the next mesh.
+    const STRAIGHT: f64 = 1.5;
+    let differences: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let is_one_sided = differences.windows(2).all(|d| d[0] * d[1] > 0.0);
+    let fit = trade::Order::fit("", differences.iter().map(|d| d.abs()).collect(), 1);
+    let is_straight = fit.scatter.is_some_and(|scatter| scatter <= STRAIGHT);
+    let rest = fit.errors.filter(|_| is_one_sided && is_straight)?.pop()?;
+    let last = differences[differences.len() - 1];
+    Some(values[values.len() - 1] + rest.copysign(last))
+}
+
+/// Peak p0 and half width a of p² = p0² (1 − (s/a)²) through the pressures of nodes by least squares, for a
+/// node's alone scatter; the last tenth is left out, where the contact ends between two nodes. Then the largest
+/// pressure of a node, and the largest von Mises stress of block and stamp.
+fn of_contact(solution: &Solution) -> [f64; 5] {
+    const INNER: f64 = 0.9;
+    let pressing = solution.contact.iter().filter_map(|node| Some((node.arc, node.pressure?)));
+    let pressing: Vec<(f64, f64)> = pressing.filter(|(_, pressure)| *pressure > 0.0).collect();
+    let [start, end] = [pressing[0].0, pressing[pressing.len() - 1].0];
+    let (middle, reach) = ((start + end) / 2.0, INNER * (end - start) / 2.0);
+    let inner = pressing.iter().filter(|(arc, _)| (arc - middle).abs() <= reach);
+    let points: Vec<[f64; 2]> =
+        inner.map(|(arc, pressure)| [(arc - middle).powi(2), pressure * pressure]).collect();
+    let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(0), mean(1));
+    let above: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    let slope = above / points.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>();
+    let square = y - slope * x;
+    let largest = pressing.iter().map(|(_, pressure)| *pressure).fold(0.0, f64::max);
+    let bodies = summaries(solution);
+    let stress = |name| {
+        let body = bodies.iter().find(|body| body.name == name).expect("a body");
+        body.max_von_mises_stress
+    };
+    [square.sqrt(), (-square / slope).sqrt(), largest, stress("block"), stress("stamp")]
 }

@@ -6,7 +6,6 @@
 
 mod check;
 mod confocal;
-mod conforming;
 pub mod delaunay;
 mod hertz;
 mod line;
@@ -18,7 +17,6 @@ mod punch;
 mod rows;
 mod strand;
 
-pub use conforming::{Author, ClosedForm, Conforming};
 pub use hertz::Hertz;
 pub use patches::{Blocks, PunchPatch};
 pub use plates::{Annulus, Cook, Ellipse, Hole};

@@ -280,14 +280,14 @@ fn left_to_rounding(old: Side, new: Side, flip: Option<&Flip>) -> Option<(String
 
 /// Says which side exact numbers agree with at the first difference, where the scene is small.
 fn arbitrated(old: Side, new: Side, differences: &[Difference]) -> Option<String> {
-    /// The seconds that exact numbers may take.
-    const MOMENT: f64 = 2.0;
+    /// The free equations whose exact solutions end in a moment.
+    const FEW: usize = 50;
     let first = differences.first()?;
     let request = new.run.options.request(&new.input.build().ok()?);
     let growing = request.reading.r5.follows_the_shape();
-    let equations = request.scene.model.free_dofs();
-    let seconds = cost::seconds(equations, growing, request.iterations);
-    (request.variant != Variant::Unilateral && seconds <= MOMENT).then_some(())?;
+    let most = cost::most_equations(growing, request.iterations).min(FEW);
+    let is_small = request.scene.model.free_dofs() <= most;
+    (request.variant != Variant::Unilateral && is_small).then_some(())?;
     let mut options = new.run.options.clone();
     (options.scalar, options.solver) = (Some(ScalarName::Exact), None);
     let exact = record(&options.request(&request.scene), Bounds::Computed).ok()?;
