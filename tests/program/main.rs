@@ -4,13 +4,11 @@
 mod common {
     pub mod conforming;
     pub mod embedded;
-    pub mod fitted_hertz;
     pub mod golden;
     pub mod golden_file;
     pub mod json;
     pub mod program;
     pub mod random;
-    pub mod recovery;
     pub mod tolerances;
     pub mod tools;
 }

@@ -80,7 +80,7 @@ impl Document {
             }
             _ => {
                 let what = "the sweep needs either scene or generate";
-                let fix = "give \"scene\": \"fig1\", or \"generate\": {\"kind\": \"cook\"}";
+                let fix = "give \"scene\": \"fig1\", or \"generate\": {\"kind\": \"hertz\"}";
                 Err(InputError::new("fields scene, generate", what, fix))
             }
         }
