@@ -23,7 +23,7 @@ const SPARSE: Option<Solver> = Some(Solver::SparseCholesky);
 /// A run of fewer operations than this is over in a tenth of a second: it is measured more often.
 const SMALL: f64 = 1e9;
 
-const CASES: [Case; 19] = [
+const CASES: [Case; 15] = [
     ("two-blocks", None, None),
     ("fig1", None, None),
     ("fig1", Some(Variant::Unilateral), None),
@@ -38,10 +38,6 @@ const CASES: [Case; 19] = [
     ("hertz --size 20", None, None),
     ("hertz --size 40", None, None),
     ("hertz --size 59", None, None),
-    ("cook --n 16", None, None),
-    ("cook --n 64", None, None),
-    ("cook --n 24", Some(Variant::Tied), None),
-    ("cook --n 64", Some(Variant::Tied), SPARSE),
     ("blocks --upper 28 --lower 40", None, None),
 ];
 

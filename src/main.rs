@@ -64,14 +64,10 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(mut why) if why.use_stderr() => {
             commands::name_subcommands(&mut why, &grammar);
-            let renamed = commands::renamed(&why);
             if json {
-                let _ = commands::print(&failure(&usage(&why, renamed.as_deref())));
+                let _ = commands::print(&failure(&usage(&why)));
             }
-            match renamed {
-                Some(text) => commands::print_stderr(&format!("error: {text}\n")),
-                None => commands::print_stderr(&why.render().to_string()),
-            }
+            commands::print_stderr(&why.render().to_string());
             return ExitCode::from(2);
         }
         // What was asked for is help, or the version.
@@ -161,10 +157,9 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// Returns a fault of the command line.
-fn usage(why: &clap::Error, renamed: Option<&str>) -> Error {
+fn usage(why: &clap::Error) -> Error {
     let text = why.render().to_string();
     let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
     let start = start.collect::<Vec<_>>().join(" ");
-    let what = renamed.unwrap_or(start.trim_start_matches("error: "));
-    InputError::new("the command line", what, "see --help").into()
+    InputError::new("the command line", start.trim_start_matches("error: "), "see --help").into()
 }

@@ -104,45 +104,6 @@ pub fn grouped(grammar: &clap::Command) -> String {
     GROUPS.iter().map(group).collect::<Vec<_>>().join("\n").trim_end().to_string()
 }
 
-/// Commands that have another name than before, and that name.
-const RENAMED: &[(&str, &str)] = &[
-    ("record", "snapshot record"),
-    ("verify", "snapshot verify"),
-    ("explain", "snapshot explain"),
-    ("diff", "snapshot diff"),
-    ("accept", "snapshot accept"),
-    ("c-cnt", "listing run c_cnt"),
-    ("km", "listing run Km"),
-    ("trace", "listing trace"),
-    ("evaluate", "listing evaluate"),
-    ("listing LISTING", "listing convert LISTING"),
-    ("mathcad FILE.xmcd", "mathcad run FILE.xmcd"),
-    ("export", "mathcad export`, `mathcad probe` or `scene export"),
-    ("scenes", "scene list"),
-    ("scene NAME", "scene copy NAME"),
-    ("mesh", "scene mesh"),
-    ("plan", "scene plan"),
-    ("statuses", "audit --statuses"),
-];
-
-/// Returns what a command that was called by its old name is called now.
-pub fn renamed(why: &clap::Error) -> Option<String> {
-    if why.kind() != ErrorKind::InvalidSubcommand {
-        return None;
-    }
-    let Some(ContextValue::String(unknown)) = why.get(ContextKind::InvalidSubcommand) else {
-        return None;
-    };
-    let verb = std::env::args().nth(1)?;
-    let is_first = verb == *unknown || std::env::args().nth(2)? == *unknown;
-    let is_asked =
-        |(old, _): &&(&str, &str)| is_first && Some(verb.as_str()) == old.split(' ').next();
-    let (old, new) = RENAMED.iter().find(is_asked)?;
-    // A command in a group may be mistyped.
-    let is_mistyped = old.contains(' ') && why.get(ContextKind::SuggestedSubcommand).is_some();
-    (!is_mistyped).then(|| format!("`{old}` is now `{new}`"))
-}
-
 /// Adds to the error about a command that is not there the names of those that are, where none of
 /// them is similar.
 pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {

@@ -9,7 +9,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
-use plane_contact::studies::trade::{self, FINEST, Options, Trial, Varied, peak};
+use plane_contact::studies::trade::{self, Options, Trial, Varied, peak};
 
 use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
@@ -22,9 +22,6 @@ const RUNS: u16 = 3;
 Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors
 anew; what has taken 0.05 s is not run again. Peak memory is that of a process of its own, program
 included. Settings of contact are varied in f64 by sparse-cholesky, meshes under unilateral.
-Meshes of a scene that mesh strand makes, as strand, have true arcs and edges of 0.4 mm, 0.2 mm ...
---finest; what they lead to stands beside what Hertz and Persson give by hand. Another scene's own
-mesh is refined.
 Geometry is what the paper leaves open of its example: clearance, radius, mesh, shape of the
 stamp's top, unit of c_tll, each with the claims' verdicts; its runs are not timed. Writes
 trade.json, trade.csv, trade.svg and, of geometry, a picture a parameter to --out. The whole takes 50
@@ -45,9 +42,6 @@ pub struct Args {
     runs: u16,
     #[arg(long, value_name = "LIST", value_delimiter = ',', help = format!("What to vary: {} [default: all]", Varied::help()))]
     only: Vec<Varied>,
-    /// The edges of the finest mesh of a scene that mesh strand makes: 0.2, 0.1, 0.05, 0.025 or 0.0125.
-    #[arg(long, value_name = "LENGTH", default_value_t = FINEST, value_parser = finest)]
-    finest: f64,
     #[command(flatten)]
     reading: ReadingArg,
     /// Print trade.json in place of the tables; files are written only to a folder that --out names.
@@ -68,14 +62,12 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
-        return peak_of(&request, name, args.finest);
+        return peak_of(&request, name);
     }
     let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
-    let options = Options { runs: usize::from(args.runs), only, finest: args.finest };
+    let options = Options { runs: usize::from(args.runs), only };
     let runs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let finest = (args.finest != FINEST).then(|| format!("finest-{}", args.finest));
-    let differs = runs.into_iter().chain(finest);
-    let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(differs).collect();
+    let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(runs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.json || args.out.is_some();
@@ -100,11 +92,6 @@ pub fn run(args: &Args) -> Result<()> {
     args.tables.print(report)
 }
 
-fn finest(text: &str) -> std::result::Result<f64, String> {
-    let size = text.parse().ok().filter(|size| (0.0125..=0.2).contains(size));
-    size.ok_or_else(|| "give a number from 0.0125 to 0.2".into())
-}
-
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more
 /// option.
 fn in_a_process(trial: &Trial) -> Option<u64> {
@@ -114,8 +101,8 @@ fn in_a_process(trial: &Trial) -> Option<u64> {
     std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
 }
 
-fn peak_of(request: &Request, name: &str, finest: f64) -> Result<()> {
-    let trial = trade::find(request, name, finest).ok_or_else(|| {
+fn peak_of(request: &Request, name: &str) -> Result<()> {
+    let trial = trade::find(request, name).ok_or_else(|| {
         InputError::new("--peak-of", format!("there is no trial {name:?}"), "leave it out")
     })?;
     solve(&trial.request(request)?, &mut |_| ())?;

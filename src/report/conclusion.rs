@@ -16,7 +16,7 @@ use problem::scene::Scene;
 use studies::audit::Audit;
 use studies::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread};
 use studies::audit::prices::{Price, Weight};
-use studies::trade::{Approach, Limit};
+use studies::audit::range::is_example;
 
 /// A relative difference that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -138,12 +138,12 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
     }
 }
 
-fn fields(Conclusion { fields, limit, .. }: &Conclusion, scene: &Scene) -> Answer {
+fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
     let fields = fields.as_ref();
     let answer = match fields {
         None => "Not decided here: there is no contact, or no equilibrium to compare with.".into(),
         Some(fields) => {
-            let own = in_its_place(fields, limit.as_ref(), scene);
+            let own = in_its_place(fields, scene);
             match (fields.variant, fields.difference) {
                 (Some(variant), Some(difference)) => {
                     let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
@@ -173,43 +173,23 @@ fn fields(Conclusion { fields, limit, .. }: &Conclusion, scene: &Scene) -> Answe
 }
 
 /// Says what this project's own figure 5 shows.
-fn in_its_place(fields: &Fields, limit: Option<&Limit>, scene: &Scene) -> String {
+fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     let errors = fields.own.iter().zip(&fields.errors.bodies);
     let stresses = errors.map(|(body, error)| {
         let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
         let at = with_unit(&coordinates(body.centre, 2), &scene.units.length);
-        let error = limit.is_none().then(|| format!(" ({})", error_of_mesh(error, scene)));
-        format!("{stress} in body {} at {at}{}", body.name, error.unwrap_or_default())
+        format!("{stress} in body {} at {at} ({})", body.name, error_of_mesh(error, scene))
     });
-    let limit = limit.map_or(String::new(), |limit| format!(" {}", true_arcs(limit)));
+    let limit = match is_example(scene) {
+        true => " What finer meshes with true arcs lead to is in golden/tables/limit.md.",
+        false => "",
+    };
     format!(
         "In its place, this project's own figure 5 is the equilibrium (solve {} --variant unilateral \
          --coupling mortar): largest von Mises stress {}; largest von Mises strain {}.{limit}",
         scene.name,
         listed(stresses),
         listed(fields.own.iter().map(strain))
-    )
-}
-
-/// Says what meshes with true arcs lead to, and what the scene's own mesh misses of that.
-fn true_arcs(limit: &Limit) -> String {
-    let approach = |approach: &Approach| {
-        let best = with_unit(&format!("{:.1}", approach.best()), &approach.unit);
-        let side = if approach.missed < 0.0 { "below" } else { "above" };
-        let missed = percent(approach.missed.abs(), 1);
-        format!("{} {best} (own mesh {missed} {side})", approach.quantity)
-    };
-    let by_hand = limit.closed_forms.iter().map(|form| {
-        let peak = with_unit(&format!("{:.1}", form.peak_pressure), &limit.units.stress);
-        format!("{peak} by {}", form.author)
-    });
-    let by_hand = match limit.closed_forms.len() {
-        0 => String::new(),
-        _ => format!("; peak pressure by hand {}", listed(by_hand)),
-    };
-    format!(
-        "Without friction, meshes with true arcs (trade --only mesh) lead to: {}{by_hand}.",
-        listed(limit.quantities.iter().map(approach))
     )
 }
 

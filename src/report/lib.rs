@@ -11,7 +11,7 @@
 //! | `audit`, `claims`, `conclusion`, `prices`          | the audit                              |
 //! | `document`, `glossary`                             | the audit report that is handed in     |
 //! | `comparison`, `extremes`, `plan`                   | a study each                           |
-//! | `snapshot`, `statuses`, `trade`                    | a study each                           |
+//! | `snapshot`, `trade`                                | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
@@ -54,7 +54,6 @@ pub mod quantities;
 mod result_file;
 pub mod scenes;
 pub mod snapshot;
-pub mod statuses;
 pub mod sweep;
 pub mod tables;
 pub mod text;

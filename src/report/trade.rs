@@ -6,19 +6,16 @@ use super::claims::{over, over_the_range};
 use super::json;
 use super::layout::listed;
 use super::model::{Cell, Report, Table};
-use super::numbers::{quantity, reason, with_unit};
+use super::numbers::reason;
 use super::picture::{Axis, Series, Style, chart};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
-use problem::scene::{Scene, Units};
+use problem::scene::Scene;
 use studies::audit::claims::{Claim, Elsewhere};
 use studies::audit::range::{self, ParameterValue};
-use studies::benchmark::ClosedForm;
-use studies::trade::{
-    AccurateSolution, Approach, Errors, Limit, Order, Outcome, Row, Section, Trade, Varied,
-};
+use studies::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade, Varied};
 
 /// Returns the content of `trade.json`.
 pub fn json(scene: &Scene, trade: &Trade) -> String {
@@ -66,7 +63,7 @@ pub fn csv(trade: &Trade) -> String {
         .csv()
 }
 
-/// Reports a table for each parameter, and its answers.
+/// Reports a table for each parameter.
 pub fn report(trade: &Trade) -> Report {
     let report = Report::titled(format!(
         "Speed against accuracy: scene {}, {} nodes, {} triangles; \
@@ -85,20 +82,14 @@ pub fn report(trade: &Trade) -> Report {
         let report =
             report.heading(format!("{}, errors against {}", section.parameter, section.against));
         let report = match section.rows.is_empty() {
-            true => report,
+            true => report.note("The scene does not have this parameter."),
             false => report.table(format!("Trials of {}", section.parameter), trials(section)),
-        };
-        let report = match &section.limit {
-            Some(limit) => report
-                .table("Limit on meshes with true arcs", approaches(limit))
-                .table("Closed forms", closed_forms(limit)),
-            None => report,
         };
         let report = match section.orders.is_empty() {
             true => report,
             false => report.table("Order of convergence", orders(&section.orders)),
         };
-        report.then(over_the_range(&section.claims)).notes(&section.answers)
+        report.then(over_the_range(&section.claims))
     })
 }
 
@@ -117,43 +108,29 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         .column("in contact", |row| row.in_contact)
         .column("time, s", |row| row.seconds.map(|seconds| Cell::decimals(seconds, 4)))
         .column("peak, MB", |row| row.peak_bytes.map(|b| Cell::decimals(b as f64 / 1e6, 0)));
-    if section.limit.is_some() {
-        return table;
-    }
     let table = table
         .column("displacement", |row| row.error.map(displacement))
         .column("energy", |row| row.error.map(|e| error(e.energy, "energy")))
         .column("von Mises", |row| row.error.map(|e| error(e.von_mises, "von_mises")))
         .column("change", |row| row.change.map(displacement));
+    // Where rounding in f64 may decide who is in contact, the row is of the same run in double-doubles.
+    let certainty = |row: &Row| match row.certainty {
+        None | Some(Certainty::Certain) => "",
+        Some(Certainty::InDoubleDouble) => "in f64, not in f64x2, of which the row is",
+        Some(Certainty::Unknown) => "unknown",
+    };
+    let table = match section.rows.iter().all(|row| certainty(row).is_empty()) {
+        true => table,
+        false => {
+            table.column("rounding decides who is in contact", |row| certainty(row).to_string())
+        }
+    };
     if section.rows.iter().all(|row| row.failure.is_none()) {
         return table;
     }
     table.column("failure", |row| {
         row.failure.as_ref().and_then(|why| why.lines().next()).unwrap_or_default().to_string()
     })
-}
-
-fn approaches(limit: &Limit) -> Table<Vec<&Approach>> {
-    let table = Table::from_rows(&limit.quantities)
-        .column("quantity", |of| quantity(&of.quantity, &of.unit))
-        .column("own mesh", |of| Cell::decimals(of.own, 3));
-    let sizes = limit.sizes.iter().enumerate();
-    let table = sizes.fold(table, |table, (k, size)| {
-        let of_mesh = |of: &&Approach| of.values.get(k).map(|value| Cell::decimals(*value, 3));
-        table.column(with_unit(&size.to_string(), &limit.units.length), of_mesh)
-    });
-    table
-        .column("order", |of| of.order.map(|order| Cell::decimals(order, 2)))
-        .column("limit", |of| of.limit.map(|limit| Cell::decimals(limit, 3)))
-        .column("own mesh misses", |of| Cell::percent(of.missed, 1))
-}
-
-fn closed_forms(limit: &Limit) -> Table<Vec<&ClosedForm>> {
-    let Units { length, stress, .. } = &limit.units;
-    Table::from_rows(&limit.closed_forms)
-        .column("by hand", |form| form.author.to_string())
-        .column(quantity("half width a", length), |form| Cell::decimals(form.half_width, 3))
-        .column(quantity("peak pressure p0", stress), |form| Cell::decimals(form.peak_pressure, 2))
 }
 
 fn orders(orders: &[Order]) -> Table<Vec<&Order>> {

@@ -143,7 +143,8 @@ impl Jobs {
         let Ok(document) = self.document(values) else {
             return sha256(&json!([VERSION, self.base, values]));
         };
-        let hash = |name: &str| sha256_of(self.scene.beside(name)?).map_err(|why| why.to_string());
+        let hash =
+            |name: &str| sha256_of(&*self.scene.beside(name)?).map_err(|why| why.to_string());
         let mesh = document["scene"]["mesh"].as_str();
         let mesh = mesh.map(|name| meshes.entry(name.into()).or_insert_with(|| hash(name)).clone());
         sha256(&json!([VERSION, document, mesh]))

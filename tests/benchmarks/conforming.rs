@@ -20,8 +20,8 @@
 
 use std::f64::consts::PI;
 
+use crate::common::conforming::Conforming;
 use crate::common::tolerances::{HERTZ_PRINTED, INTEGRAL_EQUATION, SMALL_ARC, assert_near};
-use plane_contact::studies::benchmark::Conforming;
 
 #[test]
 fn persson_solves_the_integral_equation() {

@@ -108,16 +108,18 @@ fn blocks_fill_in_nothing_but_themselves() {
     assert_eq!(size.operations, operations);
 }
 
-/// 144 equations take 2 s; twice as many take 8 times as long. Where numbers grow longer by a
-/// factor of the equations with each iteration behind the first, the last one counts.
+/// The cube of the equations counts; where numbers grow longer by a factor of the equations with each
+/// iteration behind the first, their power.
 #[test]
-fn exact_numbers_take_longer_with_every_iteration_but_the_first() {
-    assert_eq!(cost::seconds(144, false, 3), 3.0 * 2.0);
-    assert_eq!(cost::seconds(288, false, 1), 8.0 * 2.0);
-    assert_eq!(cost::seconds(144, true, 1), 2.0);
-    assert_eq!(cost::seconds(144, true, 3), 3.0 * 2.0 * 144.0 * 144.0);
-    assert!(cost::check(144, false, 300).is_ok(), "600 s");
-    assert!(cost::check(144, false, 301).is_err());
+fn exact_numbers_have_a_limit_of_equations() {
+    assert_eq!(cost::most_equations(false, 20), 1000);
+    assert_eq!(cost::most_equations(true, 1), 1000);
+    assert_eq!(cost::most_equations(true, 4), 31, "31 to the power of 6 is 0.9e9");
+    assert!(cost::check(1000, false, 20).is_ok());
+    let error = cost::check(32, true, 4).unwrap_err();
+    assert!(
+        error.to_string().contains("32 free equations: an exact run of 4 iterations may have 31")
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ use plane_contact::numbers::solve::{Arithmetic, FactorSize, Field, Ldlt, Solver}
 use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::benchmark::{Cook, Hertz};
+use plane_contact::studies::benchmark::{Annulus, Hertz};
 use plane_contact::studies::plan::Plan;
 
 fn planned(scene: &Scene, solver: Solver) -> FactorSize {
@@ -88,7 +88,8 @@ fn factored(model: &Model, constraints: &[Constraint]) -> FactorSize {
 #[test]
 fn what_is_predicted_is_what_the_solver_factors() {
     let fine = Hertz { size: 36, ..Hertz::default() };
-    let generated = [Cook { n: 6 }.generate(), Hertz::default().generate(), fine.generate()];
+    let generated =
+        [Annulus { radial: 6, around: 6 }.generate(), Hertz::default().generate(), fine.generate()];
     let embedded = ["fig1", "two-blocks", "strand"].map(Scene::open);
     let generated = generated.map(|benchmark| benchmark.and_then(|b| b.build()));
     for scene in generated.into_iter().chain(embedded) {

@@ -294,7 +294,7 @@ fn a_file_that_may_not_grow_is_named_and_leaves_nothing() {
     std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
     for (command, file) in [
         ("audit fig1 --out", "a"),
-        ("scene mesh punch --out", "m"),
+        ("scene mesh hertz --out", "m"),
         ("snapshot record fig1 --out", "r.json"),
         ("lesson fig1 --out", "page.html"),
         ("report fig1 --out", "report.html"),

@@ -2,14 +2,13 @@
 
 #[path = "../common"]
 mod common {
+    pub mod conforming;
     pub mod embedded;
-    pub mod fitted_hertz;
     pub mod golden;
     pub mod golden_file;
     pub mod json;
     pub mod program;
     pub mod random;
-    pub mod recovery;
     pub mod tolerances;
     pub mod tools;
 }
@@ -47,6 +46,7 @@ mod scene_builder;
 mod scenes;
 mod schema;
 mod snapshots;
+mod statuses;
 mod sweeps;
 mod tables;
 mod texts;

@@ -15,7 +15,7 @@ use plane_contact::engine::error::Result;
 Examples:
   plane-contact scene list
   plane-contact scene copy fig1 --out my
-  plane-contact scene mesh cook --n 32 --out cook
+  plane-contact scene mesh hertz --size 40 --out hertz
   plane-contact scene plan strand
   plane-contact scene export strand --out strand.inp")]
 pub enum Command {

@@ -5,7 +5,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
-use super::source::FileBeside;
 use base::error::{InputError, Result};
 use base::files;
 use base::suggestion::did_you_mean;
@@ -100,20 +99,19 @@ impl SceneFile {
         }
     }
 
-    /// Opens a file beside the scene file or below: no name leads to another place.
+    /// Reads a file beside the scene file or below: no name leads to another place.
     ///
     /// # Errors
-    /// Says why it cannot be opened.
-    pub fn beside(&self, file: &str) -> Result<FileBeside, String> {
+    /// Says why it cannot be read.
+    pub fn beside(&self, file: &str) -> Result<Vec<u8>, String> {
         match &self.files {
             Files::Embedded(embedded) => {
                 let found = embedded.files.iter().find(|(name, _)| *name == file);
-                found.map(|(_, bytes)| (*bytes).into()).ok_or_else(|| "not embedded".to_string())
+                found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| "not embedded".to_string())
             }
             Files::Folder(folder, _) => {
-                let opened = files::open_in(folder, Path::new(file));
-                let (file, length) = opened.map_err(|why| why.to_string())?;
-                Ok(FileBeside::new(file, length as usize))
+                let read = files::read_in(folder, Path::new(file), files::MOST);
+                read.map_err(|why| why.to_string())
             }
         }
     }

@@ -7,7 +7,6 @@ use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
 use super::findings::{Evidence, Finding, Verdict};
 use super::variants::{End, VariantRow};
 use super::{Assumption, Audit, Case};
-use crate::trade::{FINEST, Limit};
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, over, summaries};
 use paper::corrected::FAULTS;
@@ -26,8 +25,6 @@ pub struct Conclusion {
     pub nearest: Option<Nearest>,
     /// The fields of figure 5; nothing where there is no equilibrium.
     pub fields: Option<Fields>,
-    /// What meshes with true arcs tend to, without friction; nothing where no generator makes the scene.
-    pub limit: Option<Limit>,
     /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
     /// they have no price.
     pub unpriced: Vec<&'static str>,
@@ -100,7 +97,6 @@ impl Conclusion {
             coupled: case.model().target().map(|_| coupled(audit)),
             nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
             fields: fields(case, variant.as_ref()),
-            limit: Limit::solved(&case.request(Variant::Unilateral), FINEST),
             unpriced: unpriced(&audit.findings),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),

@@ -17,12 +17,11 @@ use std::f64::consts::FRAC_PI_2;
 use super::line::{cos_sin, graded, quarter};
 use super::mirrored::Mirrored;
 use super::parameters::parameters;
-use super::{Conforming, check, scene};
+use super::{check, scene};
 use base::error::{InputError, Result};
 use problem::element::Plane;
-use problem::model::{Body, Material, Model, NodeId};
 use problem::modelling::Variant;
-use problem::scene::{Axis, Contact, Description, MeshBuilder, Scene, SceneBuilder};
+use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 parameters! {
     /// The paper's example, remeshed: a strand pressed on the wall of its duct in a concrete block.
@@ -30,9 +29,8 @@ parameters! {
     /// Near what is known in closed form: Hertz's line contact of nearly conforming circles, R = R1 R2
     /// / (R2 - R1), and Persson's (1964; Ciavarella and Decuzzi, 2001) of a disc in a hole, whose arc
     /// of contact may be wide. Both take the bodies for unbounded. For the default radii, half width
-    /// and peak pressure are 1.610 mm and 37.86 MPa, and 1.588 mm and 38.60 MPa; trade --only mesh
-    /// prints them for any radii, beside those of fine meshes. It is the embedded scene `strand` with
-    /// another mesh, for any radii and edge length.
+    /// and peak pressure are 1.610 mm and 37.86 MPa, and 1.588 mm and 38.60 MPa. It is the embedded
+    /// scene `strand` with another mesh, for any radii and edge length.
     ///
     /// From the paper: a block of 50 x 50 mm, E = 30000 MPa, nu = 0.2; a stamp with E = 210000 MPa,
     /// nu = 0.3, simplified with its contact surface kept; 6.3 MPa on its top; symmetry on the
@@ -135,59 +133,6 @@ impl Strand {
             .variant(Variant::Stepped)
     }
 
-    /// Recognises a scene that this generator can mesh anew: the nodes of its contact surfaces lie on
-    /// the circles of a strand in a duct, its block's sides where the generator has them, and its groups,
-    /// restraints and loads are the generator's. Moduli, Poisson's ratios, pressure and thickness may
-    /// differ, and the mesh. Returns the radii, the top, and the default size.
-    pub fn from_scene(scene: &Scene) -> Option<Self> {
-        /// Farther from a circle or a side, mm, lies what the generator does not make.
-        const ROUNDING: f64 = 1e-9;
-        let rounded = |length: f64| (length * 1e9).round() / 1e9;
-        let (description, _) = scene.source()?;
-        let model = &*scene.model;
-        let place = |node: &NodeId| model.nodes[node.index()];
-        let wall: Vec<[f64; 2]> =
-            model.target_edges().flat_map(|edge| &edge.nodes).map(place).collect();
-        let arc: Vec<[f64; 2]> = model.contact.nodes.iter().map(place).collect();
-        let [x, y] = *wall.first()?;
-        let duct = rounded(x.hypot(y));
-        let [x, y] = *arc.first()?;
-        let strand = rounded((x * x + (y + duct).powi(2)) / (2.0 * (y + duct)));
-        let highest = model.body_of(model.contact.nodes[0])?.nodes.iter().map(|n| place(n)[1]);
-        let top = rounded((highest.fold(-duct, f64::max) + duct) / strand);
-        let own = Strand { duct, strand, top, ..Strand::default() };
-        let is_on = |[x, y]: [f64; 2], radius: f64| (x.hypot(y) - radius).abs() <= ROUNDING;
-        let side = model.nodes.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let is_ours = wall.iter().all(|p| is_on(*p, duct))
-            && arc.iter().all(|[x, y]| is_on([*x, y + duct - strand], strand))
-            && (side - SIDE).abs() <= ROUNDING
-            && plain(description) == plain(&own.on(MeshBuilder::default()).description);
-        is_ours.then_some(own)
-    }
-
-    /// Meshes a scene anew that [`Strand::from_scene`] recognised: all but the mesh is the scene's own.
-    ///
-    /// # Errors
-    /// Those of [`Strand::check`].
-    pub fn remesh(&self, scene: &Scene) -> Result<Scene> {
-        let mut made = self.generate()?;
-        made.name.clone_from(&scene.name);
-        made.description = scene.source().expect("it was recognised").0.clone();
-        made.build()
-    }
-
-    /// The disc and the hole of a scene that [`Strand::from_scene`] recognised; None where it does not press.
-    pub fn conforming(&self, model: &Model) -> Option<Conforming> {
-        let compliance = |body: &Body| {
-            let Material { e, nu } = model.triangle(body.triangles[0]).material;
-            (1.0 - nu * nu) / e
-        };
-        let bodies = [model.body_of(model.contact.nodes[0])?, model.target()?];
-        let load = -model.total_load()[1] / model.thickness;
-        let (radii, compliances) = ([self.strand, self.duct], bodies.map(compliance));
-        (load > 0.0).then_some(Conforming { radii, compliances, load })
-    }
-
     /// Checks that the chords of the upper wall leave the disc room where it rises above its centre:
     /// there the two are as far apart as their radii at least.
     fn check_above_the_centre(&self) -> Result<()> {
@@ -279,18 +224,6 @@ impl Strand {
         let depth = self.strand - x.hypot(y + self.duct - self.strand);
         self.size * self.strand / self.duct + GROWTH * depth.max(0.0)
     }
-}
-
-/// A description without what the generator's mesh does not depend on: the numbers of materials and loads,
-/// how contact is modelled, and how the scene is run and shown.
-fn plain(description: &Description) -> Description {
-    let Description { materials, restraints, loads, contact, .. } = description.clone();
-    let mut plain =
-        Description { materials, restraints, loads, ..Description::new(description.plane) };
-    plain.materials.0.iter_mut().for_each(|(_, material)| (material.e, material.nu) = (1.0, 0.0));
-    plain.loads.iter_mut().for_each(|load| load.kind.numbers().fill(1.0));
-    plain.contact = contact.map(|contact| Contact::new(contact.contact, contact.target, 0.0));
-    plain
 }
 
 /// The straight line from `a` to `b` at s from 0 to 1; both ends exact.

@@ -13,7 +13,7 @@ use engine::{Request, Solution, max_displacement, solve};
 use numbers::solve::{Arithmetic, ScalarName, Solver};
 use problem::modelling::{Coupling, Variant};
 
-use super::trials::{EXACT, by, exact_seconds, sparse};
+use super::trials::{by, most_exact, sparse};
 
 /// A precision that was tried, and what came of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,9 +122,9 @@ fn not_run(request: &Request, scalar: ScalarName, accuracy: f64) -> Option<Strin
     if accuracy.log10() < -f64::from(digits) {
         return Some("its digits are too few".into());
     }
-    let seconds = exact_seconds(request);
-    let long = scalar == ScalarName::Exact && seconds > EXACT;
-    long.then(|| format!("it may take {seconds:.0e} s"))
+    let most = most_exact(request);
+    let is_large = scalar == ScalarName::Exact && request.scene.model.free_dofs() > most;
+    is_large.then(|| format!("it takes too long for more than {most} free equations"))
 }
 
 /// Returns the bound on the rounding error of a solution's displacements, with all their digits,

@@ -8,7 +8,6 @@ use super::Varied;
 use super::errors::Errors;
 use super::rows::{Row, Section};
 use super::trials::CARRYING;
-use super::words::{against, by_rounding};
 use crate::audit::Case;
 use crate::audit::claims::{Basis, CLAIMS, Claim, judge};
 use crate::audit::range::{ParameterValue, Range, is_example, range};
@@ -38,36 +37,8 @@ pub fn geometry(case: &Case, places: &Range, watch: &(impl Fn(&str) + Sync)) -> 
     };
     let rows: Vec<Row> = places.par_iter().flat_map_iter(of_place).collect();
     let claims = judge(&on_runs, case, places);
-    let answers = match rows.is_empty() {
-        true => vec![
-            "Geometry is a parameter of the embedded scene strand only: of another scene nothing says \
-             from which radii, mesh and shape of the stamp it was made."
-                .into(),
-        ],
-        false => {
-            let places = "The places are those of mesh strand, one option at a time; the mesh of \
-                          the scene itself is none of them.";
-            let by_rounding = |variant: &Variant| {
-                let rows: Vec<&Row> = rows.iter().filter(|row| row.variant == *variant).collect();
-                Some(by_rounding(&rows)).filter(|words| !words.is_empty())
-            };
-            let of = |variant: &Variant| Some(format!("{variant}:{}", by_rounding(variant)?));
-            [places.into()].into_iter().chain(CARRYING.iter().filter_map(of)).collect()
-        }
-    };
-    let (parameter, against) = (Varied::Geometry, against(Varied::Geometry, false));
-    Section {
-        parameter,
-        against,
-        rows,
-        orders: Vec::new(),
-        ladder: None,
-        limit: None,
-        exact_seconds: None,
-        asymmetry: None,
-        claims,
-        answers,
-    }
+    let parameter = Varied::Geometry;
+    Section { parameter, against: parameter.against(), rows, orders: Vec::new(), claims }
 }
 
 fn label(ParameterValue { parameter, value, .. }: ParameterValue) -> String {
@@ -88,7 +59,6 @@ fn row(place: ParameterValue, case: &Arc<Case>, variant: Variant) -> Row {
         label: label(place),
         place: Some(place),
         variant,
-        arithmetic: case.request(variant).arithmetic,
         equations: case.model().dofs(),
         in_contact: last.map(|last| last.in_contact),
         cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),

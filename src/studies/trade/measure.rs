@@ -4,20 +4,17 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use super::Varied;
 use super::errors::{Errors, meshes, prolonged};
 use super::geometry::{geometry, places};
-use super::limit::{Limit, sizes};
-use super::order::{Order, departure};
-use super::rows::{Ladder, Row, Section, Trade};
-use super::trials::{EXACT, ErrorReference, Setting, Trial, exact_seconds, trials};
-use super::{Varied, words};
+use super::order::Order;
+use super::rows::{Row, Section, Trade};
+use super::trials::{ErrorReference, Setting, Trial, trials};
 use crate::audit::Case;
-use crate::benchmark::Strand;
 use engine::error::Error;
-use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
 use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
-use problem::scene::{Refined, Scene, symmetry};
+use problem::scene::{Refined, Scene};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
 pub const PATIENCE: f64 = 0.05;
@@ -29,8 +26,6 @@ pub struct Options {
     pub runs: usize,
     /// The parameters that are varied; all where the list is empty.
     pub only: Vec<Varied>,
-    /// The edges on the lower wall of the finest mesh with true arcs, length.
-    pub finest: f64,
 }
 
 /// Turns the parameters of `request` and measures what comes of each place. `peak` gives a trial's peak
@@ -52,14 +47,14 @@ pub fn measure(
     let (mut sections, mut all) = (Vec::new(), Vec::new());
     for parameter in Varied::ALL.iter().copied().filter(is_asked).filter(|k| *k != Varied::Geometry)
     {
-        let trials = trials(request, parameter, options.finest);
+        let trials = trials(request, parameter);
         let runs = timed(request, &trials, options.runs, &watch)?;
         let is_refined = |trial: &&Trial| matches!(trial.setting, Setting::Refined(1..));
         let meshes = meshes(&request.scene, trials.iter().filter(is_refined).count())?;
         let reference = reference.as_ref();
         let bench =
             Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
-        sections.push(bench.section(request, parameter));
+        sections.push(bench.section(parameter));
         all.extend(trials);
     }
     let peak_of = |trial: &Trial| {
@@ -94,7 +89,7 @@ pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
         Ok(steps
             + match parameter {
                 Varied::Geometry => places(request)?.len(),
-                parameter => trials(request, *parameter, options.finest).len() * (options.runs + 1),
+                parameter => trials(request, *parameter).len() * (options.runs + 1),
             })
     })
 }
@@ -183,31 +178,13 @@ struct Bench<'a> {
 }
 
 impl Bench<'_> {
-    /// What there is to say of a parameter, but for the memory that its trials take.
-    fn section(&self, request: &Request, parameter: Varied) -> Section {
+    /// What is measured of a parameter, but for the memory that its trials take.
+    fn section(&self, parameter: Varied) -> Section {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows);
-        let arcs = if parameter == Varied::Mesh { Strand::from_scene(self.scene) } else { None };
-        let limit = arcs.as_ref().and_then(|strand| self.limit(strand));
-        let is_nested = parameter == Varied::Mesh && arcs.is_none();
-        let (orders, ladder) = if is_nested { self.ladder() } else { Default::default() };
-        let exact = (parameter == Varied::Arithmetic).then(|| exact_seconds(request));
-        let half = (parameter == Varied::Symmetry).then(|| symmetry::half(self.scene)).flatten();
-        let mut section = Section {
-            parameter,
-            against: words::against(parameter, arcs.is_some()),
-            rows,
-            orders,
-            ladder,
-            limit,
-            exact_seconds: exact.filter(|seconds| *seconds > EXACT),
-            asymmetry: half.map(|half| half.departure),
-            claims: Vec::new(),
-            answers: Vec::new(),
-        };
-        section.answers = words::answers(self.scene, &section);
-        section
+        let orders = if parameter == Varied::Mesh { self.orders() } else { Vec::new() };
+        Section { parameter, against: parameter.against(), rows, orders, claims: Vec::new() }
     }
 
     fn row(&self, place: usize) -> Row {
@@ -218,7 +195,6 @@ impl Bench<'_> {
             label: trial.label.clone(),
             place: None,
             variant: trial.variant,
-            arithmetic: trial.arithmetic,
             equations: run.equations,
             in_contact: last.map(|last| last.in_contact),
             cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),
@@ -226,7 +202,6 @@ impl Bench<'_> {
             runs: run.seconds.len(),
             peak_bytes: None,
             error: match trial.against {
-                ErrorReference::Limit => None,
                 ErrorReference::Trial(best) => self.between(place, self.best_that_ran(place, best)),
                 ErrorReference::Reference => {
                     solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
@@ -266,22 +241,13 @@ impl Bench<'_> {
         Some(Errors::between(self.scene, &self.meshes, own, truth))
     }
 
-    /// What the meshes with true arcs tend to; nothing where one of them failed, or there is none.
-    fn limit(&self, strand: &Strand) -> Option<Limit> {
-        let solutions: Result<Vec<&Solution>, _> =
-            self.runs.iter().map(|run| run.solution.as_ref()).collect();
-        let solutions = solutions.ok()?;
-        let (own, finer) = solutions.split_first().filter(|(_, finer)| !finer.is_empty())?;
-        Some(Limit::new(strand, &self.scene.units, sizes(self.trials), own, finer))
-    }
-
-    /// Orders of convergence, from meshes each of half the element size of the one before, and what
-    /// the ladder of them tells; nothing where one of them failed.
-    fn ladder(&self) -> (Vec<Order>, Option<Ladder>) {
+    /// Orders of convergence, from meshes each of half the element size of the one before; nothing where
+    /// one of them failed.
+    fn orders(&self) -> Vec<Order> {
         let solutions: Vec<&Solution> =
             self.runs.iter().filter_map(|run| run.solution.as_ref().ok()).collect();
         let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
-            return (Vec::new(), None);
+            return Vec::new();
         };
         let stiffness = Stiffness::new(&finest.model, |x| x);
         let levels = solutions.par_iter().enumerate();
@@ -293,24 +259,16 @@ impl Bench<'_> {
             over(stiffness.energy_norm(&(&on_finest[a].u - &on_finest[b].u)), norm)
         };
         let neighbours = (1..solutions.len()).map(|l| between(l - 1, l));
-        let threes = (2..solutions.len())
-            .map(|l| [between(l - 2, l - 1), between(l - 1, l), between(l - 2, l)]);
-        let estimate = |s: &&Solution| Discretisation::new(&s.model, &s.elements).relative();
-        let ladder = Ladder {
-            estimates: solutions.iter().map(estimate).collect(),
-            departure: departure(threes),
-        };
         let displacements = solutions.iter().map(|s| max_displacement(&s.u)).collect();
         let stress = |solution: &Solution| {
             let bodies = summaries(solution);
             bodies.iter().map(|body| body.max_von_mises_stress).fold(0.0, f64::max)
         };
-        let orders = vec![
+        vec![
             Order::fit("energy norm", neighbours.collect(), 2),
             of_values("largest displacement", displacements),
             of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
-        ];
-        (orders, Some(ladder))
+        ]
     }
 }
 

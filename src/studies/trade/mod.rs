@@ -4,7 +4,7 @@
 //! ```text
 //!  Request, Varied --trials--> Trial --> Request --measure--> seconds, bytes, Solution
 //!                                                              |
-//!  words <-- Section (rows, orders of convergence) <-- errors, order, pareto
+//!            Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
 //!
 //! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the
@@ -13,22 +13,19 @@
 mod accuracy;
 mod errors;
 mod geometry;
-mod limit;
 mod measure;
 mod order;
 pub mod peak;
 mod rows;
 mod trials;
-mod words;
 
 pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};
 pub use errors::Errors;
 pub use geometry::geometry;
-pub use limit::{Approach, Limit};
 pub use measure::{Options, PATIENCE, measure, pareto, steps};
 pub use order::Order;
-pub use rows::{Ladder, Row, Section, Trade};
-pub use trials::{FINEST, Trial, find, trials};
+pub use rows::{Row, Section, Trade};
+pub use trials::{Trial, find, trials};
 
 use base::choices;
 
@@ -40,7 +37,7 @@ choices! {
         Arithmetic = "arithmetic",
         /// How the equations are solved.
         Solver = "solver",
-        /// The element size: meshes with true arcs where a generator makes the scene, else refinement.
+        /// The element size: each triangle divided into four, the outline kept.
         Mesh = "mesh",
         /// The tolerance of the contact search.
         Tolerance = "c_tll",
@@ -54,5 +51,27 @@ choices! {
         Symmetry = "symmetry",
         /// What the paper leaves open of its example: radii, mesh, shape of the stamp, unit of c_tol.
         Geometry = "geometry",
+    }
+}
+
+impl Varied {
+    /// What errors are measured against, in words.
+    pub fn against(self) -> &'static str {
+        match self {
+            Varied::Arithmetic => "the last row that ran",
+            Varied::Solver => "f64x2",
+            Varied::Mesh => {
+                "the reference solution on the finest mesh that ran, whose outline is the polygon of the \
+                 scene's own"
+            }
+            Varied::Symmetry => "the whole scene under the same variant",
+            Varied::Tolerance
+            | Varied::Iterations
+            | Varied::Status
+            | Varied::Coupling
+            | Varied::Geometry => {
+                "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)"
+            }
+        }
     }
 }

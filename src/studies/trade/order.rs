@@ -12,7 +12,7 @@
 //! k = 1 for a number that approaches its limit from one side. k = 2 for the energy norm of
 //! displacements on nested meshes under one load: u_(l+1) − u_l is orthogonal to all that mesh l
 //! can do, so that squares add, as Pythagoras has it. Contact makes this approximate, because the
-//! bodies' surfaces meet otherwise on each mesh: [`departure`] measures by how much.
+//! bodies' surfaces meet otherwise on each mesh.
 
 use serde::Serialize;
 
@@ -54,30 +54,6 @@ impl Order {
         errors.reverse();
         Order { quantity, differences, order: Some(-slope), scatter, errors: Some(errors) }
     }
-}
-
-/// The order in which `values` on meshes, each of half the element size of the one before, approach
-/// their limit, and the limit; nothing where their differences do not fall, change their sign, or leave
-/// the fitted line.
-pub fn limit(values: &[f64]) -> Option<(f64, f64)> {
-    /// By what factor a difference may leave the line: by 2.1 does the block's von Mises stress of the
-    /// paper's example on edges of 0.4 to 0.05 mm, which rises again on the next mesh.
-    const STRAIGHT: f64 = 1.5;
-    let differences: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let is_one_sided = differences.windows(2).all(|d| d[0] * d[1] > 0.0);
-    let sizes = differences.iter().map(|d| d.abs()).collect();
-    let fit = Order::fit("", sizes, 1);
-    let is_straight = fit.scatter.is_none_or(|scatter| scatter <= STRAIGHT);
-    let order = fit.order.filter(|_| is_one_sided && is_straight)?;
-    let last = differences.len() - 1;
-    Some((order, values[last + 1] + differences[last] / (order.exp2() - 1.0)))
-}
-
-/// How far squares are from adding up: the largest |a² + b² − c²| / c² over three meshes in turn, a
-/// and b being the distances between neighbours and c that between the first and the third.
-pub fn departure(distances: impl Iterator<Item = [f64; 3]>) -> Option<f64> {
-    let apart = |[a, b, c]: [f64; 3]| ((a * a + b * b) / (c * c) - 1.0).abs();
-    distances.map(apart).reduce(f64::max)
 }
 
 /// Slope and start of the line through (0, y_0), (1, y_1), ..., by least squares.

@@ -4,12 +4,10 @@ use serde::Serialize;
 
 use super::Varied;
 use super::errors::Errors;
-use super::limit::Limit;
 use super::order::Order;
 use crate::audit::claims::JudgedClaim;
 use crate::audit::range::ParameterValue;
 use engine::estimates::Certainty;
-use numbers::solve::Arithmetic;
 use problem::modelling::Variant;
 
 /// Speed against accuracy on a scene.
@@ -38,32 +36,9 @@ pub struct Section {
     pub rows: Vec<Row>,
     /// Orders of convergence, of the element size only.
     pub orders: Vec<Order>,
-    /// The meshes beside their limit, of the element size only; nothing where one of them failed.
-    pub ladder: Option<Ladder>,
-    /// The limit of meshes with true arcs, of the element size of a scene that a generator makes only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<Limit>,
-    /// How long exact numbers may take, s; of the arithmetic only, where they were left out for it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub exact_seconds: Option<f64>,
-    /// The largest distance of a node from the mirror image of another, length; of symmetry only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub asymmetry: Option<f64>,
     /// The verdicts that rest on runs, over the range; of geometry only.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<JudgedClaim>,
-    /// What the rows say, in words.
-    pub answers: Vec<String>,
-}
-
-/// What a ladder of meshes, each of half the element size of the one before, tells of each of them.
-#[derive(Clone, Debug, Serialize)]
-pub struct Ladder {
-    /// The error of each mesh in the energy norm as `solve` estimates it from that mesh alone,
-    /// relative; infinite where unknown.
-    pub estimates: Vec<f64>,
-    /// How far the squares of differences are from adding up; nothing of two meshes.
-    pub departure: Option<f64>,
 }
 
 /// What was measured of a trial. Times and peaks are this machine's.
@@ -77,9 +52,6 @@ pub struct Row {
     pub place: Option<ParameterValue>,
     /// The variant that ran.
     pub variant: Variant,
-    /// In which numbers and by which solver; not in the files, where the label names it.
-    #[serde(skip)]
-    pub arithmetic: Arithmetic,
     /// Number of degrees of freedom, restrained ones included.
     pub equations: usize,
     /// How many nodes are in contact at the end; null of a failure.
@@ -92,8 +64,7 @@ pub struct Row {
     pub runs: usize,
     /// The most memory of a process that did nothing else, bytes.
     pub peak_bytes: Option<u64>,
-    /// How far it is from what the section measures against, over that; nothing of a failure, and of
-    /// meshes with true arcs, which are not nested.
+    /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
     /// How far it is from the same variant where the scene has the parameter; nothing where the scene
     /// has none of the places.

@@ -1,23 +1,16 @@
 //! What is tried of each parameter.
 
-use std::iter::successors;
-
 use super::Varied;
-use crate::benchmark::Strand;
 use base::error::InputError;
 use engine::Request;
 use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
 use problem::modelling::{Coupling, StatusRule, Variant};
 use problem::scene::{Scene, symmetry};
 
-/// Seconds beyond which exact numbers are left out.
-pub(super) const EXACT: f64 = 10.0;
+/// Free equations beyond which exact numbers are left out: 20 iterations of so many take 13 s.
+const EXACT: usize = 100;
 /// Degrees of freedom beyond which no finer mesh is tried.
 const EQUATIONS: usize = 150_000;
-/// The edges on the lower wall of the coarsest mesh with true arcs, length.
-const COARSEST: f64 = 0.4;
-/// The same of the finest by default, length.
-pub const FINEST: f64 = 0.05;
 /// How many meshes are tried at most.
 const MESHES: usize = 5;
 /// The tolerances of the contact search that are tried, in the scene's unit of length.
@@ -40,16 +33,12 @@ pub enum Setting {
     Coupling(Coupling),
     /// The reference solution of the scene with its mesh refined so many times.
     Refined(usize),
-    /// The reference solution of the scene on its generator's mesh with edges of this length.
-    Size(f64),
     Half,
 }
 
 /// What a trial's error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorReference {
-    /// Not node by node: the limit of quantities on meshes that are not nested.
-    Limit,
     Reference,
     Trial(usize),
 }
@@ -110,11 +99,6 @@ impl Trial {
                 }
                 request = request.reference();
             }
-            Setting::Size(size) => {
-                let strand = Strand::from_scene(&request.scene).expect("its trials have sizes");
-                request.scene = Strand { size, ..strand }.remesh(&request.scene)?;
-                request = request.reference();
-            }
             Setting::Half => {
                 let half = symmetry::half(&request.scene).ok_or_else(|| {
                     let what = "the scene is not symmetric about a vertical line";
@@ -133,15 +117,14 @@ impl Trial {
 }
 
 /// The trial of that name ([`Trial::name`]).
-pub fn find(request: &Request, name: &str, finest: f64) -> Option<Trial> {
-    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter, finest));
+pub fn find(request: &Request, name: &str) -> Option<Trial> {
+    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter));
     all.into_iter().find(|trial| trial.name() == name)
 }
 
 /// Everything to measure of a parameter of `request`, geometry aside, which has scenes of its own; nothing
-/// where its scene does not have the parameter. Meshes with true arcs have edges from 0.4 down to `finest`,
-/// length.
-pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
+/// where its scene does not have the parameter.
+pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
     let needs_contact = match parameter {
         Varied::Arithmetic | Varied::Solver | Varied::Mesh | Varied::Symmetry => false,
@@ -157,10 +140,7 @@ pub fn trials(request: &Request, parameter: Varied, finest: f64) -> Vec<Trial> {
     match parameter {
         Varied::Arithmetic => arithmetic(request),
         Varied::Solver => solvers(request),
-        Varied::Mesh => match Strand::from_scene(&request.scene) {
-            Some(strand) => true_arcs(&strand, &request.scene.units.length, finest),
-            None => meshes(&request.scene),
-        },
+        Varied::Mesh => meshes(&request.scene),
         Varied::Symmetry => halves(request, contact),
         Varied::Geometry => Vec::new(),
         Varied::Tolerance => {
@@ -219,9 +199,10 @@ fn measured_variant(request: &Request) -> Variant {
     if request.variant == Variant::Unilateral { Variant::Stepped } else { request.variant }
 }
 
-pub(super) fn exact_seconds(request: &Request) -> f64 {
+/// The free equations up to which exact numbers are tried.
+pub(super) fn most_exact(request: &Request) -> usize {
     let growing = request.reading.r5.follows_the_shape();
-    cost::seconds(request.scene.model.free_dofs(), growing, request.iterations)
+    cost::most_equations(growing, request.iterations).min(EXACT)
 }
 
 fn arithmetic(request: &Request) -> Vec<Trial> {
@@ -232,7 +213,7 @@ fn arithmetic(request: &Request) -> Vec<Trial> {
         ("f64 with a bound", sparse(Bounded)),
         ("f64x2", sparse(F64x2)),
     ];
-    if exact_seconds(request) <= EXACT {
+    if request.scene.model.free_dofs() <= most_exact(request) {
         arithmetics.push(("exact", sparse(Exact)));
     }
     against_the_last(Varied::Arithmetic, request, arithmetics)
@@ -242,6 +223,7 @@ fn solvers(request: &Request) -> Vec<Trial> {
     use {ScalarName::*, Solver::*};
     let arithmetics = vec![
         ("dense-lu", by(F64, DenseLu)),
+        ("sparse-lu", by(F64, SparseLu)),
         ("sparse-cholesky", sparse(F64)),
         ("f64x2 to compare", sparse(F64x2)),
     ];
@@ -273,21 +255,6 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
         ..Trial::new(Varied::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
-}
-
-/// The scene's own mesh, then those with true arcs, each of half the element size of the one before, that
-/// the generator can make.
-fn true_arcs(strand: &Strand, unit: &str, finest: f64) -> Vec<Trial> {
-    let trial = |label: String, setting| Trial {
-        setting,
-        against: ErrorReference::Limit,
-        own: setting == Setting::Refined(0),
-        ..Trial::new(Varied::Mesh, label, Variant::Unilateral)
-    };
-    let sizes = successors(Some(COARSEST), |size| Some(size / 2.0)).take_while(|s| *s >= finest);
-    let sizes = sizes.filter(|size| Strand { size: *size, ..strand.clone() }.check().is_ok());
-    let sized = |size| trial(format!("{size} {unit}").trim_end().into(), Setting::Size(size));
-    [trial("own".into(), Setting::Refined(0))].into_iter().chain(sizes.map(sized)).collect()
 }
 
 /// The tolerances that are tried, the scene's `own` among them.

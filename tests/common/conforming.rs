@@ -22,10 +22,6 @@
 
 use std::f64::consts::PI;
 
-use serde::Serialize;
-
-use base::choices;
-
 /// A disc in a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conforming {
@@ -37,21 +33,9 @@ pub struct Conforming {
     pub load: f64,
 }
 
-choices! {
-    /// Whose closed form.
-    Author {
-        /// Two half planes: the arc of contact is small.
-        Hertz = "Hertz",
-        /// A disc in a hole: the arc of contact may be wide.
-        Persson = "Persson",
-    }
-}
-
 /// What a closed form gives.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedForm {
-    /// Whose it is.
-    pub author: Author,
     /// Half of the contact's width along the arc, length.
     pub half_width: f64,
     /// The largest pressure, stress.
@@ -65,15 +49,13 @@ impl Conforming {
         let radius = disc * hole / (hole - disc);
         let half_width = (4.0 * self.load * radius / (PI * self.modulus())).sqrt();
         let peak_pressure = 2.0 * self.load / (PI * half_width);
-        let form = ClosedForm { author: Author::Hertz, half_width, peak_pressure };
-        half_width.is_finite().then_some(form)
+        half_width.is_finite().then_some(ClosedForm { half_width, peak_pressure })
     }
 
     /// Persson's closed form.
     pub fn persson(&self) -> ClosedForm {
         let half_angle = self.half_angle();
         ClosedForm {
-            author: Author::Persson,
             half_width: self.radius() * half_angle,
             peak_pressure: self.pressure(half_angle, 0.0),
         }
