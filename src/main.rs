@@ -63,14 +63,10 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(mut why) if why.use_stderr() => {
             commands::name_subcommands(&mut why, &grammar);
-            let renamed = commands::renamed(&why);
             if json {
-                let _ = commands::print(&failure(&usage(&why, renamed.as_deref())));
+                let _ = commands::print(&failure(&usage(&why)));
             }
-            match renamed {
-                Some(text) => commands::print_stderr(&format!("error: {text}\n")),
-                None => commands::print_stderr(&why.render().to_string()),
-            }
+            commands::print_stderr(&why.render().to_string());
             return ExitCode::from(2);
         }
         // What was asked for is help, or the version.
@@ -119,14 +115,14 @@ fn exit_code(result: Result<u8, Error>, json: bool) -> ExitCode {
     }
 }
 
-/// Has SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left;
+/// Has SIGHUP, SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left;
 /// and has a file that may not grow further be an error of its writing, not the end of the process.
 #[cfg(unix)]
 fn heed_signals() {
-    use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::{flag, iterator::Signals, low_level::emulate_default_handler};
     let _ = flag::register(SIGXFSZ, Default::default());
-    let ending = [SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+    let ending = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     let Ok(mut signals) = Signals::new(ending) else { return };
     let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
     std::thread::spawn(move || signals.forever().for_each(end));
@@ -143,10 +139,9 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 /// Returns a fault of the command line.
-fn usage(why: &clap::Error, renamed: Option<&str>) -> Error {
+fn usage(why: &clap::Error) -> Error {
     let text = why.render().to_string();
     let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
     let start = start.collect::<Vec<_>>().join(" ");
-    let what = renamed.unwrap_or(start.trim_start_matches("error: "));
-    InputError::new("the command line", what, "see --help").into()
+    InputError::new("the command line", start.trim_start_matches("error: "), "see --help").into()
 }

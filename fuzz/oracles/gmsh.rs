@@ -6,7 +6,7 @@ use plane_contact::problem::scene::gmsh::{read, write};
 use super::sound;
 
 pub fn hold(data: &[u8]) {
-    let mut mesh = match read(data, data.len()) {
+    let mut mesh = match read(data) {
         Ok(mesh) => mesh,
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
@@ -16,6 +16,6 @@ pub fn hold(data: &[u8]) {
     // The format that is written stores one physical group.
     mesh.elements.iter_mut().for_each(|element| element.physical.truncate(1));
     let written = write(&mesh);
-    let again = read(written.as_bytes(), written.len());
+    let again = read(written.as_bytes());
     assert_eq!(again.as_ref(), Ok(&mesh));
 }

@@ -26,7 +26,7 @@ pub fn hold(data: &[u8]) {
 fn reads_back(scene: &Scene) {
     let (description, mesh) = scene.source().expect("a file describes it");
     let text = file::write(description, "mesh.msh");
-    let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes().into());
+    let beside = |_: &str| Ok(gmsh::write(mesh).into_bytes());
     let read = SceneBuilder::read("fuzz", text.as_bytes(), beside).expect("what was written");
     assert_eq!((&read.description, &read.mesh), (description, mesh));
     let kept = Input::from_scene(scene).expect("a file describes it");

@@ -11,15 +11,12 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
-use plane_contact::report::{
-    audit as report, claims, folder, pressure, prices as price_report, statuses as status_report,
-};
+use plane_contact::report::{audit as report, claims, folder, pressure, prices as price_report};
 use plane_contact::studies::audit::claims::{CLAIMS, Claim, by_reading};
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::prices::{self, Compared};
 use plane_contact::studies::audit::range::{Range, range};
-use plane_contact::studies::audit::statuses::measure;
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
 use plane_contact::suggestion::did_you_mean;
 
@@ -40,10 +37,6 @@ as solve.
 A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
 status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
---statuses: for a node that jumped deeper into the target than c_tll the paper names two remedies
-and takes the cheaper. Of each rule that solve --status offers, wrong statuses are counted by depth
-of the jump, operations by size. It takes 150 times as long as solve on fig1.
-
 Examples:
   plane-contact audit
   plane-contact audit fig1 --json
@@ -55,7 +48,6 @@ Examples:
   plane-contact audit --prices --range
   plane-contact audit --claim P12
   plane-contact audit --reading R1=inside,R5=node_n
-  plane-contact audit --statuses --scenes 1000 --json
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
                                                   a picture a finding and a variant")]
 pub struct Args {
@@ -73,13 +65,10 @@ pub struct Args {
     /// says which); takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
-    /// Compare the rules that decide who is in contact, on random scenes whose statuses are known.
-    #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "range", "reading"])]
-    statuses: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
     /// back, and show what each costs. It takes some 10 seconds on strand. Of --reading only what
     /// changes the model matters (R6, R8); with --range it is done over the range, in some ten minutes.
-    #[arg(long, conflicts_with_all = ["finding", "claim", "statuses"])]
+    #[arg(long, conflicts_with_all = ["finding", "claim"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
     /// put back, each time the one that leaves the least error. It takes a minute or two on strand.
@@ -87,13 +76,6 @@ pub struct Args {
     repairs: bool,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Random scenes for each row of the tables of --statuses.
-    #[arg(long, value_name = "N", default_value_t = 200, requires = "statuses")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    scenes: u32,
-    /// Seed of the random scenes.
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "statuses")]
-    seed: u64,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -111,29 +93,11 @@ pub fn run(args: &Args) -> Result<()> {
     if let Some(id) = &args.claim {
         return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id)?);
     }
-    if args.statuses {
-        return statuses(args);
-    }
     if args.prices { prices(args) } else { whole(args) }
 }
 
-fn statuses(args: &Args) -> Result<()> {
-    args.tables.check("audit")?;
-    let measured = waiting("measuring", || measure(args.scenes as usize, args.seed));
-    let json = status_report::json(&measured);
-    if let Some(out) = &args.out {
-        let picture = status_report::picture(&measured);
-        let files = [("statuses.json", &json), ("statuses.svg", &picture)];
-        files::write_all(out, "audit --statuses", &files)?;
-    }
-    if args.json {
-        return print(&json);
-    }
-    args.tables.print("audit", status_report::report(&measured))
-}
-
 fn prices(args: &Args) -> Result<()> {
-    args.tables.check("audit")?;
+    args.tables.check()?;
     let reading = args.reading.reading;
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(&scene, reading)?;
@@ -152,13 +116,13 @@ fn prices(args: &Args) -> Result<()> {
     let json = price_report::json(&document, &scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
-        let files: Vec<_> = [("prices.json", json.clone())].into_iter().chain(picture).collect();
-        files::write_all(out, "audit --prices", &files)?;
+        let files: Vec<_> = picture.into_iter().chain([("prices.json", json.clone())]).collect();
+        files::write_all(out, &files)?;
     }
     if args.json {
         return print(&json);
     }
-    args.tables.print("audit", price_report::report(&document, &scene))
+    args.tables.print(price_report::report(&document, &scene))
 }
 
 /// Returns the places of the range, none where they are not asked for.
@@ -203,8 +167,7 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let document = claims::Document { judged: &judged, by_reading: &by_reading };
     let json = claims::claim_json(&document, &case.scene);
     if let Some(out) = &args.out {
-        let files = [(format!("{}.json", claim.id), &json)];
-        files::write_all(out, &format!("audit --claim {}", claim.id), &files)?;
+        files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
     }
     print_either(args.json, || json, || claims::explanation(&document, &case.scene, &reading))
 }
@@ -217,19 +180,19 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
+    let json = || report::finding_json(finding, &measured, &case.scene);
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
-        let name = format!("{}.svg", finding.id);
-        files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
+        let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
+        files::write_all(out, &[(svg, picture), (document, json())])?;
     }
-    let json = || report::finding_json(finding, &measured, &case.scene);
     print_either(args.json, json, || report::explanation(finding, &measured, &case.scene, &reading))
 }
 
 fn whole(args: &Args) -> Result<()> {
-    args.tables.check("audit")?;
+    args.tables.check()?;
     if let Some(out) = &args.out {
-        files::check_folder(out, "audit", &["audit.txt", "audit.json"])?;
+        files::check_folder(out, &["audit.txt", "audit.json"])?;
     }
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let reading = args.reading.reading;
@@ -247,13 +210,12 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }
-    if args.json { print(&json) } else { args.tables.print("audit", report) }
+    if args.json { print(&json) } else { args.tables.print(report) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
 fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
-    let mut files: Vec<(String, Vec<u8>)> =
-        vec![("audit.txt".into(), text.into()), ("audit.json".into(), json.into())];
+    let mut files: Vec<(String, Vec<u8>)> = vec![("audit.txt".into(), text.into())];
     for (finding, _) in &audit.findings {
         let picture = folder::finding_picture(finding.id, &finding.scene());
         files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
@@ -274,5 +236,6 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
         let picture = pressure::picture(&case.scene, &runs, Hertz::from_solution(last).as_ref());
         files.push(("pressure.svg".into(), picture.into_bytes()));
     }
-    Ok(files::write_all(out, "audit", &files)?)
+    files.push(("audit.json".into(), json.into()));
+    Ok(files::write_all(out, &files)?)
 }

@@ -9,7 +9,7 @@ use super::numbers::{or_dash, percent, short};
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
 use studies::audit::Assumption;
-use studies::audit::claims::{Claim, Elsewhere, JudgedClaim, UnderReading};
+use studies::audit::claims::{Basis, Claim, Elsewhere, JudgedClaim, UnderReading};
 use studies::audit::range::Parameter;
 
 /// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
@@ -146,10 +146,16 @@ fn error_of_the_mesh(error: f64) -> String {
     )
 }
 
-/// Names the command that prints the value; nothing where there is no value.
+/// Names the command that prints the value, or the table that has it; nothing where there is no value.
 fn printed_by(judged: &JudgedClaim) -> Option<String> {
     let (command, at) = (judged.command.join(" "), judged.at.join(" over "));
-    (!at.is_empty()).then(|| format!("printed by: plane-contact {command}, at {at}"))
+    match judged.claim.basis {
+        Basis::Random => Some("measured by a test: golden/tables/statuses.md".into()),
+        Basis::Nothing => None,
+        Basis::Listing | Basis::Runs => {
+            Some(format!("printed by: plane-contact {command}, at {at}"))
+        }
+    }
 }
 
 /// Returns the verdicts with their values.

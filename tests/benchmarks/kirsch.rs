@@ -11,13 +11,61 @@
 //!
 //! Stresses: extrapolated (`common::recovery`).
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::common::recovery::{extrapolated, node_at, solved};
 use crate::common::tolerances::{KIRSCH, assert_near};
-use plane_contact::studies::benchmark::Hole;
+use crate::grid::{ends, grid, quarter};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+
+/// A quarter of the sheet, cut at the radius `outer`, near square cells, `around` of them on the hole.
+pub fn sheet(around: usize, outer: f64) -> SceneBuilder {
+    let radial = (outer.ln() * around as f64 / FRAC_PI_2).ceil() as usize;
+    let mut mesh = MeshBuilder::default();
+    let rows = grid(&mut mesh, "sheet", [around, radial], |s, t| {
+        quarter(s).map(|x| x * if t == 1.0 { outer } else { outer.powf(t) })
+    });
+    let [x_axis, y_axis] = ends(&rows);
+    mesh.edges("x_axis", &x_axis);
+    mesh.edges("y_axis", &y_axis);
+    let mut tractions = Vec::new();
+    for (k, edge) in rows[radial].windows(2).enumerate() {
+        let (group, [a, b]) = (format!("outer_{k}"), [0, 1].map(|i| mesh.xy(edge[i])));
+        mesh.edges(group.as_str(), edge);
+        tractions.push((group, traction(a, b)));
+    }
+    let scene = SceneBuilder::new("kirsch", mesh.finish(), Plane::Stress)
+        .material("sheet", 1000.0, 0.3)
+        .restrain("x_axis", &[Axis::Y])
+        .restrain("y_axis", &[Axis::X]);
+    tractions.into_iter().fold(scene, |scene, (group, t)| scene.traction(group, t))
+}
+
+/// sigma_x, sigma_y, tau_xy of the closed form.
+pub fn stress([x, y]: [f64; 2]) -> [f64; 3] {
+    let (a2, angle) = (1.0 / (x * x + y * y), y.atan2(x));
+    let a4 = 1.5 * a2 * a2;
+    let ((s2, c2), (s4, c4)) = ((2.0 * angle).sin_cos(), (4.0 * angle).sin_cos());
+    [
+        1.0 - a2 * (1.5 * c2 + c4) + a4 * c4,
+        -a2 * (0.5 * c2 - c4) - a4 * c4,
+        -a2 * (0.5 * s2 + s4) + a4 * s4,
+    ]
+}
+
+/// Traction of the closed form at the middle of the edge from `a` to `b`, which runs
+/// counter-clockwise around the hole.
+fn traction(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
+    let [xx, yy, xy] = stress([(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]);
+    [xx * normal[0] + xy * normal[1], xy * normal[0] + yy * normal[1]]
+}
 
 /// sigma_x at (0, 1) and sigma_y at (1, 0).
 fn at_the_hole(around: usize, outer: f64) -> [f64; 2] {
-    let solution = solved(Hole { around, outer }.generate());
+    let solution = solved(sheet(around, outer));
     let [top, side] = [[0.0, 1.0], [1.0, 0.0]].map(|place| node_at(&solution.model, place));
     [extrapolated(&solution, top)[0], extrapolated(&solution, side)[1]]
 }
@@ -48,7 +96,7 @@ fn the_radius_at_which_the_sheet_is_cut_does_not_matter() {
 #[test]
 fn the_closed_form_has_its_known_values_at_the_hole_and_far_away() {
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8);
-    assert!(near(Hole::stress([0.0, 1.0]), [3.0, 0.0, 0.0]));
-    assert!(near(Hole::stress([1.0, 0.0]), [0.0, -1.0, 0.0]));
-    assert!(near(Hole::stress([3e5, 4e5]), [1.0, 0.0, 0.0]));
+    assert!(near(stress([0.0, 1.0]), [3.0, 0.0, 0.0]));
+    assert!(near(stress([1.0, 0.0]), [0.0, -1.0, 0.0]));
+    assert!(near(stress([3e5, 4e5]), [1.0, 0.0, 0.0]));
 }

@@ -16,12 +16,12 @@ use crate::common::tolerances::{LAME_DISPLACEMENT, LAME_ORDER, LAME_STRESS, asse
 use plane_contact::engine::Solution;
 use plane_contact::studies::benchmark::Annulus;
 
-fn annulus(n: usize) -> Solution {
-    solved(Annulus { radial: n, around: 2 * n }.generate())
+pub fn annulus(n: usize) -> Solution {
+    solved(Annulus { radial: n, around: 2 * n }.generate().expect("in range"))
 }
 
 /// The closed form's radial displacement, mm.
-fn exact(r: f64) -> f64 {
+pub fn exact(r: f64) -> f64 {
     let (p, [a2, b2], e, nu) = (10.0, [100.0, 400.0], 30000.0, 0.2);
     (1.0 + nu) * p * a2 / (e * (b2 - a2)) * ((1.0 - 2.0 * nu) * r + b2 / r)
 }

@@ -4,6 +4,7 @@
 mod common {
     pub mod conforming;
     pub mod fitted_hertz;
+    pub mod golden_file;
     pub mod json;
     pub mod program;
     pub mod recovery;
@@ -13,6 +14,7 @@ mod common {
 mod conforming;
 mod cook;
 mod delaunay;
+mod grid;
 mod hertz;
 mod kirsch;
 mod lame;
@@ -23,3 +25,4 @@ mod patch;
 mod punch;
 mod punch_patch;
 mod strand;
+mod table;

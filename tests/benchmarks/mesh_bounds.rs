@@ -15,12 +15,14 @@ use std::f64::consts::PI;
 use crate::common::json::build;
 use crate::common::recovery::solved;
 use crate::common::tolerances::{FLAMANT, MESH_BOUND_WIDTH, RECOVERED, assert_near};
+use crate::cook::membrane;
+use crate::kirsch::{sheet, stress};
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit};
 use plane_contact::engine::{Assessment, Probe, Solution, max_displacement};
 use plane_contact::error::InputError;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::tables::error_estimates;
-use plane_contact::studies::benchmark::{Annulus, Cook, Hole};
+use plane_contact::studies::benchmark::Annulus;
 use plane_contact::{Request, solve};
 use serde_json::json;
 
@@ -52,7 +54,7 @@ fn assert_bound(what: &str, number: (f64, Option<f64>, Option<f64>), exact: f64)
 #[test]
 fn lame_is_read_from_the_program() {
     for n in [8, 16, 32] {
-        let solution = solved(Annulus { radial: n, around: 2 * n }.generate());
+        let solution = solved(Annulus { radial: n, around: 2 * n }.generate().expect("in range"));
         let probes = probed(&solution, [10.0, 0.0]);
         assert_bound(&format!("Lame {n}, u"), number(&probes, "u_x"), 0.006_133_333);
         assert_bound(&format!("Lame {n}, hoop"), number(&probes, "sigma_y"), 50.0 / 3.0);
@@ -66,9 +68,9 @@ fn lame_is_read_from_the_program() {
 #[test]
 fn kirsch_is_read_from_the_program() {
     for around in [16, 32, 64] {
-        let solution = solved(Hole { around, outer: 5.0 }.generate());
+        let solution = solved(sheet(around, 5.0));
         let probes = probed(&solution, [0.0, 1.0]);
-        let [exact, ..] = Hole::stress([0.0, 1.0]);
+        let [exact, ..] = stress([0.0, 1.0]);
         // The triangle's own stress is right there by chance: its bound holds, but is wide.
         width(&format!("Kirsch {around}"), number(&probes, "sigma_x"), exact);
         let (_, recovered, _) = number(&probes, "sigma_x");
@@ -81,7 +83,7 @@ fn kirsch_is_read_from_the_program() {
 #[test]
 fn cook_is_read_from_the_program() {
     for n in [8, 16, 32] {
-        let solution = solved(Cook { n }.generate());
+        let solution = solved(membrane(n));
         let probes = probed(&solution, [48.0, 52.0]);
         assert_bound(&format!("Cook {n}"), number(&probes, "u_y"), 23.96);
     }
@@ -89,7 +91,7 @@ fn cook_is_read_from_the_program() {
 
 #[test]
 fn a_point_on_a_node_names_every_triangle_that_has_it() {
-    let solution = solved(Annulus { radial: 4, around: 8 }.generate());
+    let solution = solved(Annulus { radial: 4, around: 8 }.generate().expect("in range"));
     let probes = probed(&solution, [10.0, 0.0]);
     assert_eq!((probes.len(), probes[0].body.as_str()), (1, "wall"));
     assert_eq!(probes[0].triangle, 1);
@@ -98,7 +100,7 @@ fn a_point_on_a_node_names_every_triangle_that_has_it() {
 
 #[test]
 fn a_point_outside_every_body_is_refused_with_the_nearest_one() {
-    let solution = solved(Annulus { radial: 4, around: 8 }.generate());
+    let solution = solved(Annulus { radial: 4, around: 8 }.generate().expect("in range"));
     let refused = Assessment::new(&solution).probe(&solution, &[[25.0, 0.0]]);
     let InputError { what, place, fix } = refused.expect_err("the wall ends at 20");
     assert!(what.contains("25,0") && place == "probe", "{what} {place}");
@@ -114,7 +116,7 @@ fn limits(solution: &Solution) -> Vec<Option<NoLimit>> {
 /// stress has a limit below 60.
 #[test]
 fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
-    let solution = solved(Cook { n: 16 }.generate());
+    let solution = solved(membrane(16));
     let [Some(found)] = &limits(&solution)[..] else { panic!("the corner is not found") };
     assert_eq!(found.cause, Cause::Restraint);
     assert_eq!(solution.model.coordinates(found.node), [0.0, 44.0]);
@@ -129,7 +131,8 @@ fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
 /// Symmetry and a circle of chords make no corner.
 #[test]
 fn what_is_smooth_has_a_limit() {
-    for smooth in [Annulus { radial: 8, around: 16 }.generate(), Hole::default().generate()] {
+    for smooth in [Annulus { radial: 8, around: 16 }.generate().expect("in range"), sheet(16, 5.0)]
+    {
         assert_eq!(limits(&solved(smooth)), [None]);
     }
 }

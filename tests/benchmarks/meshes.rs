@@ -2,15 +2,13 @@
 //! same mesh.
 
 use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use crate::common::program::run;
 use crate::common::tolerances::{CHORDS, STRAIGHT, Tolerance, assert_near};
 use plane_contact::problem::element;
-use plane_contact::problem::scene::{FileBeside, Mesh, SceneBuilder};
-use plane_contact::studies::benchmark::{
-    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch, Strand,
-};
+use plane_contact::problem::scene::{Mesh, SceneBuilder};
+use plane_contact::studies::benchmark::{Blocks, Hertz, Kind, Punch, Strand};
 use tempfile::TempDir;
 
 /// A kind with the area of each body and the length of each group of edges.
@@ -37,21 +35,6 @@ fn cases() -> Vec<Case> {
             ],
         },
         Case {
-            kind: Kind::PunchPatch(PunchPatch::default()),
-            tolerance: STRAIGHT,
-            areas: &[("foundation", 40.0), ("punch", 4.0)],
-            lengths: vec![
-                ("bottom", 8.0),
-                ("foundation_axis", 5.0),
-                ("target", 8.0),
-                ("free_left", 3.0),
-                ("free_right", 3.0),
-                ("contact", 2.0),
-                ("punch_top", 2.0),
-                ("punch_axis", 2.0),
-            ],
-        },
-        Case {
             kind: Kind::Hertz(Hertz::default()),
             tolerance: CHORDS,
             areas: &[("block", 20000.0), ("cylinder", 1250.0 * PI)],
@@ -68,35 +51,6 @@ fn cases() -> Vec<Case> {
                 ("top", 1.0),
                 ("punch_axis", 1.0),
             ],
-        },
-        Case {
-            kind: Kind::Annulus(Annulus::default()),
-            tolerance: CHORDS,
-            areas: &[("wall", 75.0 * PI)],
-            lengths: vec![
-                ("inner", 5.0 * PI),
-                ("outer", 10.0 * PI),
-                ("x_axis", 10.0),
-                ("y_axis", 10.0),
-            ],
-        },
-        Case {
-            kind: Kind::Hole(Hole::default()),
-            tolerance: CHORDS,
-            areas: &[("sheet", 6.0 * PI)],
-            lengths: vec![("hole", FRAC_PI_2), ("x_axis", 4.0), ("y_axis", 4.0)],
-        },
-        Case {
-            kind: Kind::Cook(Cook::default()),
-            tolerance: STRAIGHT,
-            areas: &[("membrane", 1440.0)],
-            lengths: vec![("left", 44.0), ("right", 16.0)],
-        },
-        Case {
-            kind: Kind::Ellipse(Ellipse::default()),
-            tolerance: CHORDS,
-            areas: &[("membrane", PI * (3.25 * 2.75 - 2.0) / 4.0)],
-            lengths: vec![("x_axis", 1.25), ("y_axis", 1.75)],
         },
         Case {
             kind: Kind::Strand(Strand::default()),
@@ -165,7 +119,6 @@ fn the_files_read_back_to_the_same_mesh_and_description() {
         let beside =
             |file: &str| std::fs::read(folder.path().join(file)).map_err(|e| e.to_string());
         let text = beside("scene.json").unwrap();
-        let beside = |file: &str| beside(file).map(FileBeside::from);
         let read = SceneBuilder::read(&benchmark.name, &text, beside).expect("the files are sound");
         assert_eq!(read, benchmark);
         assert_eq!(case.kind.generate().unwrap(), benchmark, "the same every time");
@@ -176,17 +129,11 @@ fn the_files_read_back_to_the_same_mesh_and_description() {
 fn extreme_parameters_make_sound_scenes() {
     let kinds = [
         Kind::Blocks(Blocks { upper: 1, lower: 1 }),
-        Kind::PunchPatch(PunchPatch { punch: 2, foundation: 2, pressure: 1e-3 }),
         Kind::Hertz(Hertz { size: 4, ..Hertz::default() }),
         Kind::Hertz(Hertz { size: 7, load: 10.0, ..Hertz::default() }),
         Kind::Hertz(Hertz { radius: 1.0, load: 1500.0, ..Hertz::default() }),
         Kind::Punch(Punch { punch: 5, foundation: 4, outer: 2.0 }),
         Kind::Punch(Punch { outer: 1e4, ..Punch::default() }),
-        Kind::Annulus(Annulus { radial: 1, around: 2 }),
-        Kind::Hole(Hole { around: 2, outer: 1.5 }),
-        Kind::Hole(Hole { around: 3, outer: 1e6 }),
-        Kind::Cook(Cook { n: 1 }),
-        Kind::Ellipse(Ellipse { n: 2 }),
     ];
     for kind in kinds {
         let made = kind.generate().and_then(|benchmark| benchmark.build());
@@ -199,9 +146,6 @@ fn parameters_out_of_range_are_refused_by_name() {
     let refused = [
         (Kind::Blocks(Blocks { upper: 0, lower: 1 }), "upper"),
         (Kind::Blocks(Blocks { upper: 1, lower: 2001 }), "lower"),
-        (Kind::PunchPatch(PunchPatch { punch: 3, ..PunchPatch::default() }), "punch"),
-        (Kind::PunchPatch(PunchPatch { foundation: 0, ..PunchPatch::default() }), "foundation"),
-        (Kind::PunchPatch(PunchPatch { pressure: 0.0, ..PunchPatch::default() }), "pressure"),
         (Kind::Hertz(Hertz { size: 3, ..Hertz::default() }), "size"),
         (Kind::Hertz(Hertz { radius: -1.0, ..Hertz::default() }), "radius"),
         (Kind::Hertz(Hertz { load: f64::NAN, ..Hertz::default() }), "load"),
@@ -209,12 +153,6 @@ fn parameters_out_of_range_are_refused_by_name() {
         (Kind::Punch(Punch { punch: 3, ..Punch::default() }), "punch"),
         (Kind::Punch(Punch { foundation: 3, ..Punch::default() }), "foundation"),
         (Kind::Punch(Punch { outer: 1.0, ..Punch::default() }), "outer"),
-        (Kind::Annulus(Annulus { radial: 0, around: 2 }), "radial"),
-        (Kind::Annulus(Annulus { radial: 1, around: 1 }), "around"),
-        (Kind::Hole(Hole { around: 1, outer: 5.0 }), "around"),
-        (Kind::Hole(Hole { around: 8, outer: f64::INFINITY }), "outer"),
-        (Kind::Cook(Cook { n: 0 }), "n"),
-        (Kind::Ellipse(Ellipse { n: 1 }), "n"),
         (Kind::Strand(Strand { duct: 22.5, ..Strand::default() }), "duct"),
         (Kind::Strand(Strand { duct: f64::NAN, ..Strand::default() }), "duct"),
         (Kind::Strand(Strand { strand: 7.71, ..Strand::default() }), "strand"),
@@ -260,20 +198,20 @@ fn hertz_has_the_half_width_and_peak_of_its_closed_form() {
 #[test]
 fn the_program_writes_a_folder_that_it_solves() {
     let folder = TempDir::new().unwrap();
-    let made = run(folder.path(), &["scene", "mesh", "cook", "--n", "4", "--out", "here/cook"]);
+    let made = run(folder.path(), &["scene", "mesh", "blocks", "--out", "here/blocks"]);
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-    assert!(String::from_utf8_lossy(&made.stdout).contains("25 nodes, 32 triangles"));
-    for file in ["scene.json", "cook.msh"] {
-        assert!(folder.path().join("here/cook").join(file).is_file(), "{file}");
+    assert!(String::from_utf8_lossy(&made.stdout).contains("106 nodes, 156 triangles"));
+    for file in ["scene.json", "blocks.msh"] {
+        assert!(folder.path().join("here/blocks").join(file).is_file(), "{file}");
     }
-    let solved = run(folder.path(), &["solve", "here/cook"]);
+    let solved = run(folder.path(), &["solve", "here/blocks"]);
     assert!(solved.status.success(), "{}", String::from_utf8_lossy(&solved.stderr));
 }
 
 #[test]
 fn the_program_refuses_a_parameter_with_status_2() {
     let folder = TempDir::new().unwrap();
-    let refused = run(folder.path(), &["scene", "mesh", "punch-patch", "--punch", "5"]);
+    let refused = run(folder.path(), &["scene", "mesh", "punch", "--punch", "3"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("--punch"));
     assert!(!folder.path().join("out").exists(), "nothing is written");

@@ -22,7 +22,8 @@ use plane_contact::studies::benchmark::Blocks;
 const P: f64 = 6.3;
 
 fn blocks(upper: usize, coupling: Coupling) -> Solution {
-    solved_by(Blocks { upper, lower: 10 }.generate(), |model| model.coupling = coupling)
+    let blocks = Blocks { upper, lower: 10 }.generate().expect("in range");
+    solved_by(blocks, |model| model.coupling = coupling)
 }
 
 /// Least and largest sigma_y / p.
@@ -63,8 +64,8 @@ fn node_to_segment_misses_by_a_known_amount() {
     let [least, largest] = sigma_y(&blocks(7, Coupling::Nts));
     assert_near("least sigma_y / p", least, -1.1453, 1.0, &KNOWN_NTS);
     assert_near("largest sigma_y / p", largest, -0.9008, 1.0, &KNOWN_NTS);
-    let fine =
-        solved_by(Blocks { upper: 28, lower: 40 }.generate(), |m| m.coupling = Coupling::Nts);
+    let fine = Blocks { upper: 28, lower: 40 }.generate().expect("in range");
+    let fine = solved_by(fine, |model| model.coupling = Coupling::Nts);
     let [least, largest] = sigma_y(&fine);
     assert!(least < -1.13 && largest > -0.91, "refinement does not help: {least}, {largest}");
 }

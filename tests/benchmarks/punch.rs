@@ -19,8 +19,9 @@ use plane_contact::studies::benchmark::Punch;
 /// As far as this the corner's last nodes do not show.
 const AWAY: f64 = 0.75;
 
-fn punch(size: usize) -> Solution {
-    solved(Punch { punch: size, foundation: size, ..Punch::default() }.generate())
+pub fn punch(size: usize) -> Solution {
+    let punch = Punch { punch: size, foundation: size, ..Punch::default() };
+    solved(punch.generate().expect("in range"))
 }
 
 #[test]

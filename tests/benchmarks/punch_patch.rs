@@ -12,12 +12,41 @@
 
 use crate::common::recovery::solved_by;
 use crate::common::tolerances::{PATCH_TEST, assert_near};
+use crate::grid::grid;
 use plane_contact::engine::Solution;
+use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Coupling;
-use plane_contact::studies::benchmark::PunchPatch;
+use plane_contact::problem::modelling::Friction;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
-fn punch(coupling: Coupling) -> Solution {
-    solved_by(PunchPatch::default().generate(), |model| model.coupling = coupling)
+/// The scene: 6 divisions of the punch on 4 of the foundation, which has 6 more on either side.
+pub fn scene() -> SceneBuilder {
+    let mut mesh = MeshBuilder::default();
+    let foundation = grid(&mut mesh, "foundation", [16, 10], |s, t| [8.0 * s - 4.0, 5.0 * t]);
+    let punch = grid(&mut mesh, "punch", [6, 6], |s, t| [2.0 * s - 1.0, 5.0 + 2.0 * t]);
+    let axis = |rows: &[Vec<usize>], k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>();
+    mesh.edges("bottom", &foundation[0]);
+    mesh.edges("foundation_axis", &axis(&foundation, 8));
+    mesh.edges("target", &foundation[10]);
+    mesh.edges("free_left", &foundation[10][..=6]);
+    mesh.edges("free_right", &foundation[10][10..]);
+    mesh.edges("contact", &punch[0]);
+    mesh.edges("punch_top", &punch[6]);
+    mesh.edges("punch_axis", &axis(&punch, 3));
+    SceneBuilder::new("punch-patch", mesh.finish(), Plane::Strain)
+        .material("foundation", 1000.0, 0.4)
+        .material("punch", 1000.0, 0.4)
+        .restrain("bottom", &[Axis::Y])
+        .restrain("foundation_axis", &[Axis::X])
+        .restrain("punch_axis", &[Axis::X])
+        .pressure("punch_top", 1.0)
+        .pressure("free_left", 1.0)
+        .pressure("free_right", 1.0)
+        .contact(Contact { friction: Friction::NONE, ..Contact::new("contact", "target", 0.001) })
+}
+
+pub fn punch(coupling: Coupling) -> Solution {
+    solved_by(scene(), |model| model.coupling = coupling)
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::meshes::least_angle;
 use plane_contact::engine::{Request, solve};
 use plane_contact::problem::element;
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::{FileBeside, Mesh, SceneBuilder};
+use plane_contact::problem::scene::{Mesh, SceneBuilder};
 use plane_contact::studies::benchmark::Strand;
 
 const RADIUS: f64 = 7.6;
@@ -226,7 +226,6 @@ fn the_default_scene_is_the_golden_one_but_for_its_mesh_and_title() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/strand");
     let beside = |file: &str| std::fs::read(folder.join(file)).map_err(|why| why.to_string());
     let text = beside("scene.json").expect("the golden scene");
-    let beside = |file: &str| beside(file).map(FileBeside::from);
     let golden = SceneBuilder::read("strand", &text, beside).expect("a sound scene");
     let mut made = Strand::default().generate().expect("the defaults are in range");
     assert!(made.mesh.nodes.len().abs_diff(golden.mesh.nodes.len()) < 100);

@@ -32,6 +32,6 @@ fn fitted(solution: &Solution) -> [f64; 2] {
 /// Half width and peak over Hertz's at `load`, N/mm.
 pub fn over_hertz(size: usize, load: f64, change: impl Fn(&mut ContactModel)) -> [f64; 2] {
     let hertz = Hertz { size, load, ..Hertz::default() };
-    let [half_width, peak] = fitted(&solved_by(hertz.generate(), change));
+    let [half_width, peak] = fitted(&solved_by(hertz.generate().expect("in range"), change));
     [half_width / hertz.half_width(), peak / hertz.peak_pressure()]
 }

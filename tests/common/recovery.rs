@@ -5,23 +5,18 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 use plane_contact::engine::{Request, Solution, solve};
-use plane_contact::error::InputError;
 use plane_contact::problem::element;
 use plane_contact::problem::model::{Model, NodeId, TriangleId};
 use plane_contact::problem::modelling::{ContactModel, Variant};
 use plane_contact::problem::scene::SceneBuilder;
 
-/// Generates a benchmark and runs the variant `unilateral`.
-pub fn solved(benchmark: Result<SceneBuilder, InputError>) -> Solution {
+/// Runs a benchmark under `unilateral`.
+pub fn solved(benchmark: SceneBuilder) -> Solution {
     solved_by(benchmark, |_| ())
 }
 
 /// The same with contact modelled otherwise.
-pub fn solved_by(
-    benchmark: Result<SceneBuilder, InputError>,
-    change: impl Fn(&mut ContactModel),
-) -> Solution {
-    let benchmark = benchmark.expect("the parameters are in range");
+pub fn solved_by(benchmark: SceneBuilder, change: impl Fn(&mut ContactModel)) -> Solution {
     let scene = benchmark.build().expect("generated scenes are sound");
     let mut request = Request::new(&scene).variant(Variant::Unilateral);
     change(&mut request.contact);

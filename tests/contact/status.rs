@@ -1,9 +1,5 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
-use std::path::Path;
-
-use crate::common::program;
-use crate::common::recorded::assert_recorded_exactly;
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use crate::faced;
 use nalgebra::DVector;
@@ -19,7 +15,6 @@ use plane_contact::problem::model::{EdgeId, Model, NodeId};
 use plane_contact::problem::modelling::StatusRule::{Intersection, Signs};
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use plane_contact::studies::audit::statuses::{Measurement, Row, Score, measure};
 
 const C: f64 = 0.001;
 
@@ -497,52 +492,6 @@ fn signs_are_the_default() {
     let solved = |request: &Request| engine::solve(request, &mut |_| ()).unwrap().u;
     assert_eq!(solved(&request), solved(&by_rule(StatusRule::Signs, &scene)));
     assert_eq!(StatusRule::default(), StatusRule::Signs);
-}
-
-/// Edges, depth and side of the target; nodes, nodes in contact; then for each rule missed + false
-/// contacts and operations, on 20 scenes a row.
-#[test]
-fn the_measurement_is_pinned() {
-    let Measurement { by_depth, by_size, .. } = measure(20, 1);
-    let line = |row: &Row| {
-        let rules = row.rules.iter().map(|score| {
-            let Score { rule, missed, false_contacts, operations } = score;
-            format!(", {rule} {missed} + {false_contacts} {operations}")
-        });
-        let rules: String = rules.collect();
-        format!(
-            "{} {} {}: {} {}{rules}\n",
-            row.edges, row.depth, row.target, row.nodes, row.touching
-        )
-    };
-    let lines: String = by_depth.iter().chain(&by_size).map(line).collect();
-    assert_recorded_exactly("statuses", &lines);
-}
-
-#[test]
-fn the_command_prints_tables_or_json() {
-    let run = |args: &[&str]| {
-        let output = program::run(Path::new("."), args);
-        (output.status.code(), String::from_utf8(output.stdout).unwrap())
-    };
-    let (status, tables) = run(&["audit", "--statuses", "--scenes", "3"]);
-    assert_eq!(status, Some(0));
-    let rules = StatusRule::ALL.iter().map(|rule| rule.name());
-    for words in ["seed 1", "depth / c_tll", "Operations"].into_iter().chain(rules) {
-        assert!(tables.contains(words), "{words:?}: {tables}");
-    }
-    let (_, json) = run(&["audit", "--statuses", "--scenes", "3", "--seed", "7", "--json"]);
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!((&json["scenes"], &json["seed"]), (&3.into(), &7.into()));
-    assert_eq!(json["by_depth"][0]["rules"][1]["rule"], "intersection");
-    assert_eq!(run(&["audit", "--statuses", "--scenes", "0"]).0, Some(2));
-    let folder = tempfile::TempDir::new().unwrap();
-    let out = folder.path().join("o");
-    run(&["audit", "--statuses", "--scenes", "3", "--out", out.to_str().unwrap()]);
-    let svg = std::fs::read_to_string(out.join("statuses.svg")).unwrap();
-    let svg = roxmltree::Document::parse(&svg).expect("the picture is XML");
-    let points = svg.descendants().filter(|node| node.has_tag_name("circle")).count();
-    assert_eq!(points, 12 * StatusRule::ALL.len(), "6 depths, 2 orientations, each rule");
 }
 
 /// Where a contact node is restrained along x, the restraint's part of its reaction is unknown unless

@@ -38,7 +38,8 @@ pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
 fn a_claims_number_is_the_one_that_its_command_prints() {
     let folder = TempDir::new().expect("a temporary folder");
     let mut printed: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
-    for judged in &*JUDGED {
+    // What is measured on random scenes stands in a table.
+    for judged in JUDGED.iter().filter(|judged| judged.claim.basis != Basis::Random) {
         let (id, number) = (judged.claim.id, judged.measured.number);
         let command: Vec<&str> = judged.command.iter().map(String::as_str).collect();
         let json = printed.entry(command).or_insert_with_key(|command| {

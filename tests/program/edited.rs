@@ -141,7 +141,7 @@ fn scenes_are_found_and_written() {
     };
     let (status, text) = program(&["scene", "list"]);
     assert_eq!(status, 0);
-    for name in ["strand", "two-blocks", "C15", "K9", "hertz", "ellipse"] {
+    for name in ["strand", "two-blocks", "C15", "K9", "hertz", "punch"] {
         assert!(text.contains(&format!("\n  {name} ")), "{name}: {text}");
     }
     for (name, scene) in [("strand", "my/strand"), ("c4", "my/C4")] {

@@ -4,13 +4,11 @@
 mod common {
     pub mod conforming;
     pub mod embedded;
-    pub mod fitted_hertz;
     pub mod golden;
     pub mod golden_file;
     pub mod json;
     pub mod program;
     pub mod random;
-    pub mod recovery;
     pub mod tolerances;
     pub mod tools;
 }
@@ -23,9 +21,8 @@ mod document;
 mod drawing;
 mod edited;
 mod examples;
-mod exercises;
-mod explained;
 mod faults;
+mod first_difference;
 mod fuzz;
 mod gmsh;
 mod hostile;
@@ -48,6 +45,7 @@ mod scene_builder;
 mod scenes;
 mod schema;
 mod snapshots;
+mod statuses;
 mod sweeps;
 mod tables;
 mod texts;

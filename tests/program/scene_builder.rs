@@ -43,7 +43,7 @@ fn blocks() -> SceneBuilder {
 /// Reads the scene back from the two files as which it is written.
 fn read_back(scene: &SceneBuilder) -> SceneBuilder {
     let text = file::write(&scene.description, "m.msh");
-    let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes().into());
+    let beside = |_: &str| Ok(gmsh::write(&scene.mesh).into_bytes());
     SceneBuilder::read(&scene.name, text.as_bytes(), beside).expect("the files are sound")
 }
 

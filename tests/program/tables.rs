@@ -8,23 +8,18 @@ use std::sync::LazyLock;
 use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve, summaries};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
+use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::report;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price};
-use plane_contact::studies::audit::statuses;
-use plane_contact::studies::benchmark::{
-    Annulus, Blocks, Cook, Ellipse, Hertz, Hole, Kind, Punch, PunchPatch, Strand,
-};
+use plane_contact::studies::benchmark::{Kind, Strand};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
 use plane_contact::studies::trade::{self, Varied};
 use plane_contact::{Request, Scene};
 
 use crate::claims::JUDGED;
 use crate::common::conforming::Conforming;
-use crate::common::fitted_hertz::over_hertz;
 use crate::common::golden_file::assert_file;
-use crate::common::recovery::{averaged, extrapolated, node_at, order, solved, solved_by};
 use crate::common::tolerances::{CORRECTED, CURVED, TRUE_ARCS, assert_near};
 
 static STRAND: LazyLock<Scene> =
@@ -54,14 +49,14 @@ fn assert_table(name: &str, title: &str, command: &str, table: &str) {
 }
 
 /// A table in Markdown, from its head and its rows, the cells of each apart by `|`.
-fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
+pub fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
     let rule = "---|".repeat(head.split('|').count());
     let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
     format!("| {head} |\n|{rule}\n{rows}")
 }
 
 /// A share in per cent; what is rounding alone is 0.
-fn percent(share: f64, decimals: usize) -> String {
+pub fn percent(share: f64, decimals: usize) -> String {
     if share.abs() < 1e-9 { "0".into() } else { format!("{:.decimals$} %", 100.0 * share) }
 }
 
@@ -315,107 +310,6 @@ fn rounded(x: f64) -> f64 {
     (1e6 * x).round() / 1e6
 }
 
-/// Published numbers beside ours.
-#[test]
-fn benchmarks() {
-    let rows = [patches(), hertz(), plates()].concat();
-    let table = markdown("benchmark | quantity | published | here", rows);
-    assert_table("benchmarks", "Problems with a known solution.", "solve SCENE", &table);
-}
-
-fn patches() -> Vec<String> {
-    let (upper, lower) = (Blocks::default().upper, Blocks::default().lower);
-    let pressure = 6.3;
-    let misses = |upper, lower, coupling| {
-        let blocks = Blocks { upper, lower }.generate();
-        let solution = solved_by(blocks, |model| model.coupling = coupling);
-        let misses = solution.elements.iter().map(|state| (state.sigma[1] / pressure + 1.0).abs());
-        misses.fold(0.0, f64::max)
-    };
-    let row = |name: &str, upper, lower, coupling| {
-        let (miss, name) = (percent(misses(upper, lower, coupling), 1), name);
-        format!(
-            "patch test, {upper} on {lower} edges, {name} | largest error of sigma_y | 0 | {miss}"
-        )
-    };
-    let punch = solved(PunchPatch::default().generate());
-    let off = punch.elements.iter().map(|state| (state.sigma[1] + 1.0).abs()).fold(0.0, f64::max);
-    vec![
-        row("`mortar`", upper, lower, Coupling::Mortar),
-        row("`nts`", upper, lower, Coupling::Nts),
-        row("`nts`", 4 * upper, 4 * lower, Coupling::Nts),
-        row("`nts`", lower, upper, Coupling::Nts),
-        format!(
-            "Taylor and Papadopoulos, `mortar` | largest error of sigma_y | 0 | {}",
-            percent(off, 1)
-        ),
-    ]
-}
-
-fn hertz() -> Vec<String> {
-    let hertz = Hertz::default();
-    let [half_width, peak] = over_hertz(hertz.size, hertz.load, |_| ());
-    let [width, pressure] = [hertz.half_width(), hertz.peak_pressure()];
-    let punch = solved(Punch::default().generate());
-    let load: f64 = punch.contact.iter().filter_map(|node| node.force).sum();
-    let errors = punch.contact.iter().filter(|node| node.arc < 0.75).map(|node| {
-        let exact = 2.0 * load / (std::f64::consts::PI * (1.0 - node.arc.powi(2)).sqrt());
-        (node.pressure.expect("it is in contact") / exact - 1.0).abs()
-    });
-    vec![
-        format!("Hertz, NAFEMS CGS-1 | half width, mm | {width:.4} | {:.4}", half_width * width),
-        format!(
-            "Hertz, NAFEMS CGS-1 | largest pressure, MPa | {pressure:.1} | {:.1}",
-            peak * pressure
-        ),
-        format!(
-            "flat punch | largest error of the pressure up to 0.75 of the half width | 0 | {}",
-            percent(errors.fold(0.0, f64::max), 1)
-        ),
-    ]
-}
-
-/// Lamé, Kirsch, Cook, NAFEMS LE1.
-fn plates() -> Vec<String> {
-    let [coarse, fine] = [32, 64].map(|radial| {
-        let ring = solved(Annulus { radial, around: 2 * radial }.generate());
-        let bore = node_at(&ring.model, [50f64.sqrt(); 2]);
-        let [x, y] = bore.components(&ring.u);
-        let [xx, yy, xy] = extrapolated(&ring, bore);
-        [x.hypot(y), (xx + yy) / 2.0 - xy]
-    });
-    // Radii 10 and 20, pressure 10 inside, E = 30000, nu = 0.2, plane strain.
-    let (p, [a2, b2], e, nu) = (10.0, [100.0_f64, 400.0], 30000.0, 0.2);
-    let exact =
-        (1.0 + nu) * p * a2 / (e * (b2 - a2)) * ((1.0 - 2.0 * nu) * a2.sqrt() + b2 / a2.sqrt());
-    let hoop = p * (b2 + a2) / (b2 - a2);
-    let hole = solved(Hole { around: 64, ..Hole::default() }.generate());
-    let [top, side] =
-        [[0.0, 1.0], [1.0, 0.0]].map(|place| extrapolated(&hole, node_at(&hole.model, place)));
-    let cook = |(n, published): (usize, f64)| {
-        let panel = solved(Cook { n }.generate());
-        let v = node_at(&panel.model, [48.0, 52.0]).components(&panel.u)[1];
-        format!("Cook, {n} x {n} | displacement of (48, 52) | {published} | {v:.3}")
-    };
-    let cook = [(2, 6.743), (64, 23.774)].map(cook);
-    let ellipse = solved(Ellipse { n: 64 }.generate());
-    let corner = node_at(&ellipse.model, [2.0, 0.0]);
-    let [mean, limit] = [averaged(&ellipse, corner)[1], extrapolated(&ellipse, corner)[1]];
-    let rows = [
-        format!("Lamé | displacement of the bore, mm | {exact:.8} | {:.8}", fine[0]),
-        format!(
-            "Lamé | order of convergence of the displacement | 2 | {:.2}",
-            order(coarse[0] - exact, fine[0] - exact)
-        ),
-        format!("Lamé | hoop stress at the bore, MPa | {hoop:.4} | {:.4}", fine[1]),
-        format!("Kirsch | sigma_x at (0, 1) | {} | {:.3}", Hole::stress([0.0, 1.0])[0], top[0]),
-        format!("Kirsch | sigma_y at (1, 0) | {} | {:.3}", Hole::stress([1.0, 0.0])[1], side[1]),
-        format!("NAFEMS LE1, 64 x 64 | sigma_y at (2, 0), MPa | 89.06 | {mean:.2}"),
-        format!("NAFEMS LE1, extrapolated | sigma_y at (2, 0), MPa | 92.7 | {limit:.1}"),
-    ];
-    rows.into_iter().chain(cook).collect()
-}
-
 /// The paper's settings, in numbers in which rounding decides nothing.
 #[test]
 fn settings() {
@@ -556,30 +450,4 @@ fn of_contact(solution: &Solution) -> [f64; 5] {
         body.max_von_mises_stress
     };
     [square.sqrt(), (-square / slope).sqrt(), largest, stress("block"), stress("stamp")]
-}
-
-/// Status rules on random scenes.
-#[test]
-fn status_rules() {
-    let measured = statuses::measure(200, 1);
-    let row = |row: &statuses::Row| {
-        let wrong = row.rules.iter().map(|rule| percent(rule.wrong_share(row.nodes), 1));
-        let wrong = wrong.collect::<Vec<_>>().join(" | ");
-        format!("{} | {} | {wrong}", row.depth, row.target)
-    };
-    let cells = |cell: &dyn Fn(usize) -> String| {
-        (0..StatusRule::ALL.len()).map(cell).collect::<Vec<_>>().join(" | ")
-    };
-    let heads = cells(&|k| format!("`{}`, wrong", StatusRule::ALL[k]));
-    let head = format!("depth of the jump over c_tll | target lies | {heads}");
-    let operations =
-        |k: usize| -> u64 { measured.by_size.iter().map(|row| row.rules[k].operations).sum() };
-    let ratios = cells(&|k| format!("{:.1}", operations(k) as f64 / operations(0) as f64));
-    let last = format!("operations, over those of `{}` | both | {ratios}", StatusRule::ALL[0]);
-    assert_table(
-        "statuses",
-        "Status rules on random scenes whose contact is known.",
-        "audit --statuses",
-        &markdown(&head, measured.by_depth.iter().map(row).chain([last])),
-    );
 }

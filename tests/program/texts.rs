@@ -108,17 +108,7 @@ fn c_cnt() {
         .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
 }
 
-#[test]
-fn trace() {
-    assert_text("fig1", "trace-c_cnt", &["listing", "trace", "fig1"]);
-    assert_text(
-        "fig1",
-        "trace-Km",
-        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
-    );
-}
-
-/// Returns the names of all commands, such as `listing trace`, by the lists on the pages of help.
+/// Returns the names of all commands, such as `listing run`, by the lists on the pages of help.
 pub fn commands() -> Vec<String> {
     let mut commands = inner(&[]);
     let mut k = 0;
@@ -206,9 +196,7 @@ fn every_command_that_a_text_names_exists() {
     let mut found = 0;
     for file in texts {
         let text = std::fs::read_to_string(&file).expect("text");
-        // The kind of a document is no command.
-        let is_command = |words: &Vec<&str>| words.first().is_some_and(|word| *word != "answers");
-        for words in named(&text).filter(is_command) {
+        for words in named(&text).filter(|words| !words.is_empty()) {
             let is_group = |command: &String| command.starts_with(&format!("{} ", words[0]));
             let in_group = commands.iter().any(is_group);
             let name = words.iter().take(1 + usize::from(in_group)).copied().collect::<Vec<_>>();
@@ -218,45 +206,6 @@ fn every_command_that_a_text_names_exists() {
         }
     }
     assert!(found > 100, "{found} commands are named");
-}
-
-/// A command typed by habit is answered by its new name, which exists.
-#[test]
-fn an_old_command_is_answered_by_the_new_one() {
-    let old = [
-        "record fig1",
-        "verify s.json",
-        "explain s.json",
-        "diff fig1",
-        "accept s.json",
-        "c-cnt fig1",
-        "km fig1",
-        "trace fig1",
-        "evaluate p.txt",
-        "listing c_cnt --to xmcd",
-        "mathcad w.xmcd",
-        "export fig1 --to octave",
-        "scenes",
-        "scene fig1",
-        "mesh cook --n 2",
-        "plan fig1 --json",
-        "key fig1",
-        "statuses --scenes 3",
-    ];
-    for line in old {
-        let output = run(Path::new("."), &line.split(' ').collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(2), "{line}");
-        let error = String::from_utf8(output.stderr).expect("UTF-8");
-        let verb = line.split(' ').next().expect("a word");
-        assert!(error.starts_with(&format!("error: `{verb}")), "{line}: {error}");
-        let (_, new) = error.split_once("` is now `").expect("the new name");
-        let new: Vec<&str> = new.split('`').next().expect("a name").split(' ').collect();
-        let is_name = |word: &&&str| word.starts_with(char::is_lowercase) || **word == "Km";
-        let args: Vec<&str> = new.iter().filter(is_name).copied().chain(["--help"]).collect();
-        assert!(run(Path::new("."), &args).status.success(), "{args:?}");
-    }
-    let mistyped = run(Path::new("."), &["listing", "trce", "fig1"]);
-    assert!(String::from_utf8_lossy(&mistyped.stderr).contains("'trace'"));
 }
 
 /// Completions are a script that bash reads; the man page is one that `man` renders.

@@ -15,8 +15,8 @@ Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) 
 runs that folder. scene mesh KIND --help says what is known of its solution.
 
 Examples:
-  plane-contact scene mesh cook --n 32 --out cook
-  plane-contact solve cook
+  plane-contact scene mesh hertz --size 40 --out hertz
+  plane-contact solve hertz
   plane-contact scene mesh blocks --upper 7 --lower 10")]
 pub struct Args {
     #[command(subcommand)]

@@ -5,7 +5,6 @@ use std::path::Path;
 use super::description::{Axis, Contact, Description, Load, LoadKind, Material, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
-use super::source::FileBeside;
 use super::{Scene, file, gmsh, orphans, source};
 use crate::element::Plane;
 use crate::model::NodeId;
@@ -56,7 +55,7 @@ impl SceneBuilder {
     pub fn read(
         name: &str,
         text: &[u8],
-        beside: impl Fn(&str) -> Result<FileBeside, String>,
+        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
         let mut description = file::parse(text)?;
         let mesh = source::mesh(&mut description, beside)?;
@@ -184,6 +183,6 @@ impl SceneBuilder {
         let mesh_file = format!("{}.msh", self.name);
         let mesh = gmsh::write(&self.mesh);
         let scene = file::write(&self.description, &mesh_file);
-        files::write_all(folder, "mesh", &[(&*mesh_file, mesh), ("scene.json", scene)])
+        files::write_all(folder, &[(&*mesh_file, mesh), ("scene.json", scene)])
     }
 }

@@ -36,12 +36,11 @@ pub use description::{
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
 use groups::Groups;
-pub use hashes::{sha256, source_hashes};
+pub use hashes::{sha256, sha256_of, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
 pub use schema::schema;
-pub use source::FileBeside;
 pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
@@ -107,7 +106,7 @@ impl Scene {
     pub fn build(
         name: &str,
         text: &[u8],
-        beside: impl Fn(&str) -> Result<FileBeside, String>,
+        beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
         SceneBuilder::read(name, text, beside)?.into_scene()
     }

@@ -1,44 +1,10 @@
 //! The source of a scene file's mesh: a Gmsh file beside it, or its own tables.
 
-use std::io::{self, Cursor, Read};
-
 use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use base::error::{InputError, Result};
-
-/// A file beside a scene file, which is read once, as it comes.
-pub struct FileBeside {
-    content: Box<dyn Read>,
-    /// The number of its bytes.
-    length: usize,
-}
-
-impl FileBeside {
-    /// Makes one of what is read from `content`, `length` bytes.
-    pub fn new(content: impl Read + 'static, length: usize) -> Self {
-        FileBeside { content: Box::new(content), length }
-    }
-}
-
-impl From<Vec<u8>> for FileBeside {
-    fn from(bytes: Vec<u8>) -> Self {
-        let length = bytes.len();
-        FileBeside::new(Cursor::new(bytes), length)
-    }
-}
-
-impl From<&'static [u8]> for FileBeside {
-    fn from(bytes: &'static [u8]) -> Self {
-        FileBeside::new(bytes, bytes.len())
-    }
-}
-
-impl Read for FileBeside {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.content.read(buffer)
-    }
-}
+use base::limits;
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
 /// in the scene file's folder.
@@ -48,7 +14,7 @@ impl Read for FileBeside {
 /// form.
 pub fn mesh(
     scene: &mut Description,
-    beside: impl Fn(&str) -> Result<FileBeside, String>,
+    beside: impl Fn(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Mesh> {
     let name = match (scene.mesh.take(), scene.node.take(), scene.elements.take()) {
         (Some(name), None, None) => name,
@@ -67,10 +33,9 @@ pub fn mesh(
             "the path is resolved beside the scene file, in its folder or below",
         )
     })?;
-    let length = file.length;
-    gmsh::read(file, length).map_err(|error| {
-        let is_memory = matches!(error.fault, Fault::Memory { .. });
-        let fix = if is_memory { "use a coarser mesh" } else { "save the mesh again from Gmsh" };
+    let numbers = file.iter().filter(|byte| byte.is_ascii_whitespace()).count();
+    limits::MESH.check(numbers, &format!("mesh {name:?}"))?;
+    gmsh::read(&file).map_err(|error| {
         let what = if let Fault::Unexpected { expected, .. } = &error.fault
             && expected.starts_with("$MeshFormat")
         {
@@ -79,6 +44,6 @@ pub fn mesh(
         } else {
             error.to_string()
         };
-        InputError::new(format!("mesh {name:?}"), what, fix)
+        InputError::new(format!("mesh {name:?}"), what, "save the mesh again from Gmsh")
     })
 }

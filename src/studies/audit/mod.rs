@@ -8,8 +8,6 @@ pub mod findings;
 pub mod prices;
 pub mod range;
 pub mod readings;
-pub mod statuses;
-pub mod trace;
 pub mod variants;
 
 use rayon::prelude::*;

@@ -3,8 +3,8 @@
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
-/// The most divisions of a side: a square of so many is generated and written in 1.8 GB.
-const MOST: usize = 1000;
+/// The most divisions of a side: a scene of Hertz has two million equations then.
+const MOST: usize = 500;
 
 /// Checks that a number of divisions lies in `least ..= MOST`.
 pub fn count(parameter: &str, n: usize, least: usize) -> Result<()> {
@@ -13,19 +13,6 @@ pub fn count(parameter: &str, n: usize, least: usize) -> Result<()> {
     }
     let what = format!("{n} divisions are outside {least} .. {MOST}");
     Err(InputError::new(parameter, what, format!("give a number from {least} to {MOST}")))
-}
-
-/// Checks that a number of divisions is even too: a node must stand in the middle.
-///
-/// # Errors
-/// It is odd, or outside the range of [`count`].
-pub fn even(parameter: &str, n: usize) -> Result<()> {
-    count(parameter, n, 2)?;
-    if n.is_multiple_of(2) {
-        return Ok(());
-    }
-    let what = format!("{n} divisions leave no node in the middle, where the body is restrained");
-    Err(InputError::new(parameter, what, format!("give an even number, such as {}", n + 1)))
 }
 
 /// Checks that a length, load or modulus is positive and finite.

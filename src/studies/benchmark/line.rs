@@ -22,11 +22,6 @@ pub fn between(a: [f64; 2], b: [f64; 2], s: f64) -> [f64; 2] {
     [0, 1].map(|k| a[k] * (1.0 - s) + b[k] * s)
 }
 
-/// k of n steps of a quantity that grows by the same factor from `a` to `b`; both ends exact.
-pub fn geometric(a: f64, b: f64, k: usize, n: usize) -> f64 {
-    if k == n { b } else { a * (b / a).powf(k as f64 / n as f64) }
-}
-
 /// Steps by which a curve's length is measured.
 const STEPS: usize = 1000;
 

@@ -1,9 +1,11 @@
-//! Scenes of published benchmarks on structured meshes: contact patch tests, Hertz, a flat punch,
-//! Lamé, Kirsch, Cook, NAFEMS LE1; and the paper's example on a mesh of any size.
+//! Scenes of published benchmarks on structured meshes: the contact patch test, Hertz, a flat punch;
+//! and the paper's example on a mesh of any size. Benchmarks without contact are made in `tests/benchmarks`.
 //!
 //! Meshes are made of rows of nodes, joined two by two by triangles; that of the strand by Delaunay
 //! refinement. The same parameters lead to the same bytes.
 
+mod annulus;
+mod blocks;
 mod check;
 mod confocal;
 pub mod delaunay;
@@ -11,15 +13,13 @@ mod hertz;
 mod line;
 mod mirrored;
 mod parameters;
-mod patches;
-mod plates;
 mod punch;
 mod rows;
 mod strand;
 
+pub use annulus::Annulus;
+pub use blocks::Blocks;
 pub use hertz::Hertz;
-pub use patches::{Blocks, PunchPatch};
-pub use plates::{Annulus, Cook, Ellipse, Hole};
 pub use punch::Punch;
 pub use strand::Strand;
 
@@ -33,13 +33,8 @@ use problem::scene::{Contact, MeshBuilder, SceneBuilder};
 #[expect(missing_docs, reason = "the parameters of each say what it is, and are its page of help")]
 pub enum Kind {
     Blocks(Blocks),
-    PunchPatch(PunchPatch),
     Hertz(Hertz),
     Punch(Punch),
-    Annulus(Annulus),
-    Hole(Hole),
-    Cook(Cook),
-    Ellipse(Ellipse),
     Strand(Strand),
 }
 
@@ -67,13 +62,8 @@ impl Kind {
     pub fn generate(&self) -> Result<SceneBuilder> {
         match self {
             Kind::Blocks(kind) => kind.generate(),
-            Kind::PunchPatch(kind) => kind.generate(),
             Kind::Hertz(kind) => kind.generate(),
             Kind::Punch(kind) => kind.generate(),
-            Kind::Annulus(kind) => kind.generate(),
-            Kind::Hole(kind) => kind.generate(),
-            Kind::Cook(kind) => kind.generate(),
-            Kind::Ellipse(kind) => kind.generate(),
             Kind::Strand(kind) => kind.generate(),
         }
     }

@@ -35,10 +35,6 @@ impl fmt::Display for Place {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the message of each says what its values are")]
 pub enum Fault {
-    #[error("it cannot be read on: {why}")]
-    Broken { why: String },
-    #[error("{why}")]
-    Memory { why: String },
     #[error("found {found}, expected {expected}")]
     Unexpected { found: String, expected: String },
     #[error(
@@ -48,6 +44,11 @@ pub enum Fault {
     Version { found: String },
     #[error("the file has numbers of {found} bytes, expected 8: save the mesh with a 64-bit Gmsh")]
     DataSize { found: i32 },
+    #[error(
+        "the numbers of this binary file have their most significant byte first: save the mesh \
+         again on this machine, or as text (in Gmsh set Mesh.Binary = 0)"
+    )]
+    BigEndian,
     #[error("the file has no section ${section}")]
     MissingSection { section: &'static str },
     #[error("a second section ${section}, expected one")]

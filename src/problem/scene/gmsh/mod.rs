@@ -11,8 +11,8 @@
 //! ```
 //!
 //! A grammar is written once for text and binary: `Tokens` reads both as the same sequence of
-//! numbers. For a count that the file declares no more memory is asked for than a file of its length can
-//! fill, so that a wrong count leads to the end of the file, not out of memory.
+//! numbers. No memory is asked for by a count that the file declares: a wrong one leads to the end of
+//! the file.
 //!
 //! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".
 

@@ -10,7 +10,6 @@ impl Reader<'_> {
     /// Reads `$Nodes`: a count, then `number x y z`.
     pub fn nodes_2(&mut self) -> Result<()> {
         let declared = self.tokens.count_line("the number of nodes")?;
-        self.expect_nodes(declared)?;
         for _ in 0..declared {
             let number = self.tokens.int_from(1, "a node's number, 1 or more")?;
             self.node(number)?;
@@ -21,7 +20,6 @@ impl Reader<'_> {
     /// Reads `$Elements`: a count, then `number kind tags nodes` each, or binary blocks.
     pub fn elements_2(&mut self) -> Result<()> {
         let declared = self.tokens.count_line("the number of elements")?;
-        self.expect_elements(declared)?;
         if self.tokens.encoding == Encoding::Text {
             for _ in 0..declared {
                 let number = self.tokens.int_from(1, "an element's number, 1 or more")?;

@@ -61,7 +61,6 @@ impl Reader<'_> {
     /// Reads `$Nodes`: the totals, then the blocks.
     pub fn nodes_4(&mut self) -> Result<()> {
         let (blocks, declared) = self.totals("node")?;
-        self.expect_nodes(declared)?;
         for _ in 0..blocks {
             self.node_block()?;
         }
@@ -71,7 +70,6 @@ impl Reader<'_> {
     /// Reads `$Elements`: the totals, then the blocks.
     pub fn elements_4(&mut self) -> Result<()> {
         let (blocks, declared) = self.totals("element")?;
-        self.expect_elements(declared)?;
         for _ in 0..blocks {
             self.element_block()?;
         }

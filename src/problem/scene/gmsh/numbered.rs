@@ -35,12 +35,6 @@ impl<T> Default for Numbered<T> {
 }
 
 impl<T: HasNumber> Numbered<T> {
-    /// Makes room for `count` items and no more, where there is memory for them.
-    pub fn reserve(&mut self, count: usize) {
-        // Without that room it grows as it is filled.
-        let _ = self.ascending.try_reserve_exact(count);
-    }
-
     pub fn len(&self) -> usize {
         self.ascending.len() + self.others.len()
     }

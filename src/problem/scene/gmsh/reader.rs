@@ -1,31 +1,33 @@
 //! The sections of a file, and the parts that all versions of the format share.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Read;
 
 use super::error::{Fault, GmshError, Result};
 use super::kinds::{ENTITIES, magnitude};
 use super::numbered::Numbered;
-use super::tokens::Tokens;
+use super::tokens::{Encoding, Tokens};
 use crate::scene::mesh::{Element, Mesh, Node, PhysicalName};
-use base::limits;
 
-/// The bytes of the shortest node or element: `1 0 0 0` or `1 15 0 1`, and what parts it from the next.
-const SHORTEST: usize = 8;
-
-/// Reads a mesh from a `.msh` file, of which never more than a part is held.
+/// Reads a mesh from the bytes of a `.msh` file.
 ///
 /// Nodes, elements and physical names are returned in ascending order; tags that are negative in
-/// the file (a reversed orientation) are returned positive. The counts in a file of `length` bytes
-/// are believed as far as it can hold so many.
+/// the file (a reversed orientation) are returned positive.
 ///
 /// # Errors
 /// The first fault, with its line (text) or byte (binary).
-pub fn read(file: impl Read, length: usize) -> Result<Mesh, GmshError> {
+pub fn read(file: &[u8]) -> Result<Mesh, GmshError> {
     let mut tokens = Tokens::new(file);
     tokens.skip_mark()?;
     let version = version(&mut tokens)?;
-    let mut reader = Reader { tokens, length, version, ..Reader::default() };
+    let mut reader = Reader {
+        tokens,
+        version,
+        sections: BTreeSet::new(),
+        names: BTreeMap::new(),
+        entities: BTreeMap::new(),
+        nodes: Numbered::default(),
+        elements: Numbered::default(),
+    };
     while let Some(section) = reader.tokens.section("the beginning of a section, such as $Nodes")? {
         reader.section(&section)?;
     }
@@ -70,24 +72,21 @@ fn format(tokens: &mut Tokens) -> Result<Version> {
     }
     if binary == 1 {
         tokens.line_end()?;
-        tokens.encoding = tokens.byte_order()?;
+        tokens.byte_order()?;
+        tokens.encoding = Encoding::Binary;
     }
     Ok(version)
 }
 
-#[derive(Clone, Copy, Default, PartialEq)]
+#[derive(Clone, Copy)]
 enum Version {
-    #[default]
     V2,
     V4,
 }
 
 /// The parts of a file that have been read so far.
-#[derive(Default)]
 pub struct Reader<'a> {
     pub tokens: Tokens<'a>,
-    /// The bytes of the file.
-    length: usize,
     version: Version,
     /// The names of the sections read so far, without those that are skipped.
     pub sections: BTreeSet<String>,
@@ -159,35 +158,6 @@ impl Reader<'_> {
             }
         }
         Ok(())
-    }
-
-    /// Makes room for the nodes that the file declares.
-    ///
-    /// # Errors
-    /// There is no memory for a scene with so many.
-    pub fn expect_nodes(&mut self, declared: usize) -> Result<()> {
-        let count = self.within_limit(declared)?;
-        self.nodes.reserve(count);
-        Ok(())
-    }
-
-    /// Makes room for the elements that the file declares.
-    ///
-    /// # Errors
-    /// There is no memory for a scene with so many.
-    pub fn expect_elements(&mut self, declared: usize) -> Result<()> {
-        let count = self.within_limit(declared)?;
-        self.elements.reserve(count);
-        Ok(())
-    }
-
-    /// Returns how many of those that are declared the file is long enough for, where there may be so many.
-    fn within_limit(&self, declared: usize) -> Result<usize> {
-        let count = declared.min(self.length / SHORTEST);
-        limits::MESH
-            .check(count, "")
-            .map_err(|why| self.tokens.error(Fault::Memory { why: why.what }))?;
-        Ok(count)
     }
 
     /// Reads the coordinates of the node `number`, and keeps it.

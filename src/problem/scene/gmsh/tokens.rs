@@ -1,109 +1,51 @@
 //! The sequence of numbers and words in a file, the same for text and for binary.
 
 use std::borrow::Cow;
-use std::io::{self, Read};
 use std::str::FromStr;
 
 use super::error::{Fault, GmshError, Place, Result};
 
-#[derive(Clone, Copy, Default, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub enum Encoding {
-    #[default]
     Text,
-    LittleEndian,
-    BigEndian,
+    /// Numbers in bytes, the least significant first.
+    Binary,
 }
-
-/// The bytes that are read at a time.
-const PART: usize = 1 << 18;
-
-/// The bytes of the longest word or line; what is longer ends there.
-const LONGEST: usize = 1 << 16;
 
 pub struct Tokens<'a> {
-    source: Box<dyn Read + 'a>,
-    /// The part of the file that is held, of which the bytes from `at` on are not read yet.
-    held: Vec<u8>,
+    file: &'a [u8],
+    /// The place behind what was read.
     at: usize,
-    /// The place in `held` where the last token began, which errors report.
+    /// The place where the last token began, which errors report.
     last: usize,
-    /// The bytes of the file before `held`, and the line ends among them.
-    before: [usize; 2],
-    /// Whether nothing follows `held`.
-    is_all: bool,
-    /// Why the file could not be read on.
-    broken: Option<String>,
     pub encoding: Encoding,
-}
-
-impl Default for Tokens<'_> {
-    fn default() -> Self {
-        Tokens::new(io::empty())
-    }
 }
 
 impl<'a> Tokens<'a> {
     /// Starts at the beginning of a file, which is text.
-    pub fn new(source: impl Read + 'a) -> Self {
-        Tokens {
-            source: Box::new(source),
-            held: Vec::new(),
-            at: 0,
-            last: 0,
-            before: [0; 2],
-            is_all: false,
-            broken: None,
-            encoding: Encoding::Text,
-        }
+    pub fn new(file: &'a [u8]) -> Self {
+        Tokens { file, at: 0, last: 0, encoding: Encoding::Text }
     }
 
-    /// Begins a token: from here on the longest one is held, or the rest of the file.
-    fn begin(&mut self) {
-        if self.held.len() - self.at < LONGEST && !self.is_all {
-            self.read_on();
-        }
-        self.last = self.at;
+    /// Returns what was not read yet.
+    fn rest(&self) -> &'a [u8] {
+        &self.file[self.at..]
     }
 
-    /// Holds the next part of the file, and nothing that was read.
-    fn read_on(&mut self) {
-        let read = self.held.drain(..self.at);
-        let ends = read.as_slice().iter().filter(|byte| **byte == b'\n').count();
-        drop(read);
-        self.before = [self.before[0] + self.at, self.before[1] + ends];
-        self.at = 0;
-        let wanted = PART - self.held.len();
-        let got = (&mut self.source).take(wanted as u64).read_to_end(&mut self.held);
-        self.is_all = got.as_ref().map_or(true, |got| *got < wanted);
-        self.broken = got.err().map(|why| why.to_string());
+    /// Returns the bytes of the last token.
+    fn token(&self) -> &'a [u8] {
+        &self.file[self.last..self.at]
     }
 
     /// Passes over blanks, and begins the token behind them.
     fn begin_word(&mut self) {
-        loop {
-            self.begin();
-            self.at += run(&self.held[self.at..], u8::is_ascii_whitespace);
-            if self.at < self.held.len() || self.is_all {
-                break;
-            }
-        }
-        self.begin();
-    }
-
-    /// Returns the bytes of the last token.
-    fn token(&self) -> &[u8] {
-        &self.held[self.last..self.at]
-    }
-
-    /// Returns how many of the next bytes are `such`, at most those of the longest token.
-    fn run_of(&self, such: impl Fn(&u8) -> bool) -> usize {
-        let rest = &self.held[self.at..];
-        run(&rest[..rest.len().min(LONGEST)], such)
+        self.at += run(self.rest(), u8::is_ascii_whitespace);
+        self.last = self.at;
     }
 
     /// Reads the next whole number, which takes four bytes in a binary file.
     pub fn int(&mut self, expected: &str) -> Result<i32> {
-        self.number(expected, i32::from_le_bytes, i32::from_be_bytes)
+        self.number(expected, i32::from_le_bytes)
     }
 
     /// Reads the next [`Self::int`], which must be at least `least`.
@@ -115,7 +57,7 @@ impl<'a> Tokens<'a> {
 
     /// Reads the next count or number of 4.1, which takes eight bytes in a binary file.
     pub fn size(&mut self, expected: &str) -> Result<usize> {
-        let found = self.number(expected, u64::from_le_bytes, u64::from_be_bytes)?;
+        let found = self.number(expected, u64::from_le_bytes)?;
         usize::try_from(found).map_err(|_| self.unexpected(found, expected))
     }
 
@@ -127,30 +69,28 @@ impl<'a> Tokens<'a> {
 
     /// Reads the next real number, which takes eight bytes in a binary file.
     pub fn double(&mut self, expected: &str) -> Result<f64> {
-        self.number(expected, f64::from_le_bytes, f64::from_be_bytes)
+        self.number(expected, f64::from_le_bytes)
     }
 
     /// Reads the next number, which takes `N` bytes in a binary file.
     fn number<T: FromStr + TryFrom<u32>, const N: usize>(
         &mut self,
         expected: &str,
-        little: fn([u8; N]) -> T,
-        big: fn([u8; N]) -> T,
+        of_bytes: fn([u8; N]) -> T,
     ) -> Result<T> {
         match self.encoding {
             Encoding::Text => match self.digits().and_then(|number| T::try_from(number).ok()) {
                 Some(number) => Ok(number),
                 None => self.parse(expected),
             },
-            Encoding::LittleEndian => self.raw(expected).map(little),
-            Encoding::BigEndian => self.raw(expected).map(big),
+            Encoding::Binary => self.raw(expected).map(of_bytes),
         }
     }
 
     /// Reads the next `N` bytes.
     fn raw<const N: usize>(&mut self, expected: &str) -> Result<[u8; N]> {
-        self.begin();
-        let Some(raw) = self.held[self.at..].first_chunk() else {
+        self.last = self.at;
+        let Some(raw) = self.rest().first_chunk() else {
             return Err(self.unexpected("the end of the file", expected));
         };
         self.at += N;
@@ -179,7 +119,7 @@ impl<'a> Tokens<'a> {
     /// Reads the next word if it is up to nine digits, as most are; any number type holds them.
     fn digits(&mut self) -> Option<u32> {
         self.begin_word();
-        let rest = &self.held[self.at..];
+        let rest = self.rest();
         let length = run(rest, u8::is_ascii_digit);
         let ends = rest.get(length).is_none_or(u8::is_ascii_whitespace);
         if !(ends && (1..=9).contains(&length)) {
@@ -192,7 +132,7 @@ impl<'a> Tokens<'a> {
     /// Reads the next word, which ends at white space; empty at the end of the file.
     fn word(&mut self) {
         self.begin_word();
-        self.at += self.run_of(|byte| !byte.is_ascii_whitespace());
+        self.at += run(self.rest(), |byte| !byte.is_ascii_whitespace());
     }
 
     /// Reads a count with a line to itself, which is text in binary files too (2.2).
@@ -226,9 +166,9 @@ impl<'a> Tokens<'a> {
 
     /// Reads the rest of the line, with its end.
     fn line(&mut self) {
-        self.begin();
-        let length = self.run_of(|byte| *byte != b'\n') + 1;
-        self.at = self.held.len().min(self.at + length);
+        self.last = self.at;
+        let length = run(self.rest(), |byte| *byte != b'\n') + 1;
+        self.at = self.file.len().min(self.at + length);
     }
 
     /// Reads the name of the section that begins here, without `$`; None at the file's end.
@@ -237,7 +177,7 @@ impl<'a> Tokens<'a> {
     /// Something else is there than what was `expected`.
     pub fn section(&mut self, expected: &str) -> Result<Option<String>> {
         self.word();
-        if self.token().is_empty() && self.broken.is_none() {
+        if self.token().is_empty() {
             return Ok(None);
         }
         let name = std::str::from_utf8(self.token()).ok().and_then(|word| word.strip_prefix('$'));
@@ -259,31 +199,12 @@ impl<'a> Tokens<'a> {
         self.line_end()
     }
 
-    /// Skips to the next occurrence of `keyword`.
-    fn skip_to(&mut self, keyword: &str) -> Result<()> {
-        loop {
-            self.begin();
-            let rest = &self.held[self.at..];
-            let mut windows = rest.windows(keyword.len());
-            if let Some(distance) = windows.position(|window| window == keyword.as_bytes()) {
-                self.at += distance;
-                return Ok(());
-            }
-            if self.is_all {
-                self.last = self.held.len();
-                return Err(self.unexpected("the end of the file", keyword));
-            }
-            // It may begin in this part and end in the next one.
-            self.at = self.held.len() - (keyword.len() - 1);
-        }
-    }
-
-    /// Reads the byte order in which the next four bytes are the number 1.
-    pub fn byte_order(&mut self) -> Result<Encoding> {
+    /// Reads the four bytes that are the number 1 in the order that is read.
+    pub fn byte_order(&mut self) -> Result<()> {
         let expected = "the number 1 in four bytes, which tells their order";
         match self.raw(expected)? {
-            [1, 0, 0, 0] => Ok(Encoding::LittleEndian),
-            [0, 0, 0, 1] => Ok(Encoding::BigEndian),
+            [1, 0, 0, 0] => Ok(()),
+            [0, 0, 0, 1] => Err(self.error(Fault::BigEndian)),
             found => Err(self.unexpected(format!("the bytes {found:?}"), expected)),
         }
     }
@@ -291,7 +212,12 @@ impl<'a> Tokens<'a> {
     /// Skips the section `name`, of which the first line is read.
     pub fn skip(&mut self, name: &str) -> Result<()> {
         let end = format!("$End{name}");
-        self.skip_to(&end)?;
+        let mut windows = self.rest().windows(end.len());
+        let Some(distance) = windows.position(|window| window == end.as_bytes()) else {
+            self.last = self.file.len();
+            return Err(self.unexpected("the end of the file", end));
+        };
+        self.at += distance;
         self.keyword(&end, &end)
     }
 
@@ -300,8 +226,7 @@ impl<'a> Tokens<'a> {
     /// # Errors
     /// It is that of UTF-16.
     pub fn skip_mark(&mut self) -> Result<()> {
-        self.begin();
-        match self.held[..] {
+        match self.file {
             [0xEF, 0xBB, 0xBF, ..] => self.at = 3,
             [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => {
                 return Err(self.unexpected("a file in UTF-16", "ASCII or UTF-8: save it so"));
@@ -316,18 +241,13 @@ impl<'a> Tokens<'a> {
         self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
     }
 
-    /// Returns an error at the last token; where the file could not be read on, that is the fault.
+    /// Returns an error at the last token.
     pub fn error(&self, fault: Fault) -> GmshError {
-        let read = &self.held[..self.last];
-        let [bytes, ends] = self.before;
+        let read = &self.file[..self.last];
         let place = match self.encoding {
-            Encoding::Text => {
-                Place::Line(1 + ends + read.iter().filter(|byte| **byte == b'\n').count())
-            }
-            Encoding::LittleEndian | Encoding::BigEndian => Place::Byte(bytes + self.last),
+            Encoding::Text => Place::Line(1 + read.iter().filter(|byte| **byte == b'\n').count()),
+            Encoding::Binary => Place::Byte(self.last),
         };
-        let broken = self.broken.as_ref().filter(|_| self.at == self.held.len());
-        let fault = broken.map_or(fault, |why| Fault::Broken { why: why.clone() });
         GmshError { place, fault }
     }
 }

@@ -46,7 +46,8 @@ pub struct Claim {
     /// What the measured number is, with its unit.
     #[serde(rename = "of")]
     pub number: &'static str,
-    /// The arguments of a command that prints the number in JSON; SCENE stands for the scene's name.
+    /// The arguments of a command that prints the number in JSON; SCENE stands for the scene's name. None
+    /// on random scenes, which a test draws.
     #[serde(skip)]
     command: &'static [&'static str],
     /// Where it stands there: a JSON pointer, or two of which it is the quotient; VARIANT stands for
@@ -76,7 +77,7 @@ choices! {
     Basis {
         /// The text of a listing: the verdict follows from its lines.
         Listing = "proved on the listing",
-        /// Random scenes whose statuses are known.
+        /// Random scenes whose statuses are known: `golden/tables/statuses.md`.
         Random = "measured on random scenes",
         /// Runs of a scene.
         Runs = "measured on runs",
@@ -163,7 +164,7 @@ pub struct JudgedClaim {
     /// What the scene says of it.
     #[serde(flatten)]
     pub measured: Evidence,
-    /// The arguments of a command that prints the number in JSON.
+    /// The arguments of a command that prints the number in JSON; none of what was measured on random scenes.
     pub command: Vec<String>,
     /// Where it stands there: a JSON pointer, or two of which it is the quotient.
     pub at: Vec<String>,

@@ -5,8 +5,8 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 use std::fmt;
 
-use numbers::operators;
-use numbers::scalar::{Scalar, Subscript};
+use plane_contact::numbers::operators;
+use plane_contact::numbers::scalar::{Scalar, Subscript};
 
 thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };

@@ -10,9 +10,8 @@
 //! ```
 
 use fastrand::Rng;
-
-use problem::element::Plane;
-use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;
