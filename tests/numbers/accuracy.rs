@@ -294,19 +294,19 @@ fn what_no_precision_reaches_is_refused_with_every_reason() {
             "exact numbers would take too long",
             large.clone().variant(Variant::Tied),
             1e-33,
-            &["f64x2-bounded: its digits are too few", "exact: it may take", "ask for less"],
+            &["f64x2-bounded: its digits are too few", "exact: it takes too long", "ask for less"],
         ),
         (
             "stepped too, where double-doubles have the digits and rounding takes them",
             large.clone().variant(Variant::Stepped),
             1e-31,
-            &["f64x2-bounded: within", "exact: it may take"],
+            &["f64x2-bounded: within", "exact: it takes too long"],
         ),
         (
             "no precision decides a tie",
             tie,
             1e-3,
-            &["f64-bounded: no bound", "f64x2-bounded: no bound", "exact: it may take"],
+            &["f64-bounded: no bound", "f64x2-bounded: no bound", "exact: it takes too long"],
         ),
         (
             "unilateral runs in one precision",
