@@ -9,7 +9,7 @@ use std::rc::Rc;
 use arbitrary::{Result, Unstructured};
 use plane_contact::mathcad::array::Table;
 use plane_contact::mathcad::xmcd::document::{self, Content};
-use plane_contact::mathcad::xmcd::page;
+use plane_contact::mathcad::xmcd::page::Page;
 use plane_contact::mathcad::{self, Array, Limits, Listing, Settings, Sheet, Value, file};
 use plane_contact::paper::door;
 use plane_contact::paper::edited::Edited;
@@ -87,7 +87,9 @@ pub fn reads_back(listing: &Listing) {
 
 /// Writes a listing as a worksheet, and reads it back as text.
 fn by_worksheet(listing: &Listing) -> String {
-    let written = page::listings(std::slice::from_ref(listing));
+    let mut page = Page::default();
+    page.program(listing);
+    let written = page.finish(listing.function(), &Settings::default());
     let read = document::read(&written, "fuzz").expect("a worksheet that was written");
     match &read.regions[0].content {
         Content::Function { text, .. } => text.clone(),

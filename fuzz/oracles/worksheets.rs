@@ -3,8 +3,7 @@
 
 use plane_contact::mathcad::Listing;
 use plane_contact::mathcad::worksheet::execute;
-use plane_contact::mathcad::xmcd::document::{Region, read};
-use plane_contact::report::exports::probe;
+use plane_contact::mathcad::xmcd::document::{Content, Region, read};
 use plane_contact::report::worksheet;
 
 use super::{listing, sound};
@@ -18,12 +17,18 @@ pub fn hold(data: &[u8]) {
     sheet.regions.iter().filter_map(program).for_each(|program| listing::reads_back(&program));
     let checked = execute(&sheet, &listing::limits());
     checked.iter().filter_map(|region| region.value.as_ref()).for_each(listing::is_finite);
-    let decided = probe::decided(&sheet, &checked);
-    sound::document(&worksheet::json("fuzz", &checked, &decided));
-    assert!(!worksheet::report(&checked, &decided).text(80).is_empty());
+    sound::document(&worksheet::json("fuzz", &checked));
+    assert!(!worksheet::report(&checked).text(80).is_empty());
 }
 
 /// Returns the program of a region, which has one if it can be read in the text notation.
 fn program(region: &Region) -> Option<Listing> {
-    Listing::parse_within("fuzz", &region.listing()?, &listing::limits()).ok()
+    let text = match &region.content {
+        Content::Function { text, .. } => text.clone(),
+        Content::Definition { name, entry: None, lines, .. } => {
+            format!("{name}() :=\n  {}\n", lines.join("\n  "))
+        }
+        _ => return None,
+    };
+    Listing::parse_within("fuzz", &text, &listing::limits()).ok()
 }

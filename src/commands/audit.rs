@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 fn prices(args: &Args) -> Result<()> {
-    args.tables.check("audit")?;
+    args.tables.check()?;
     let reading = args.reading.reading;
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(&scene, reading)?;
@@ -116,13 +116,13 @@ fn prices(args: &Args) -> Result<()> {
     let json = price_report::json(&document, &scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
-        let files: Vec<_> = [("prices.json", json.clone())].into_iter().chain(picture).collect();
-        files::write_all(out, "audit --prices", &files)?;
+        let files: Vec<_> = picture.into_iter().chain([("prices.json", json.clone())]).collect();
+        files::write_all(out, &files)?;
     }
     if args.json {
         return print(&json);
     }
-    args.tables.print("audit", price_report::report(&document, &scene))
+    args.tables.print(price_report::report(&document, &scene))
 }
 
 /// Returns the places of the range, none where they are not asked for.
@@ -167,8 +167,7 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let document = claims::Document { judged: &judged, by_reading: &by_reading };
     let json = claims::claim_json(&document, &case.scene);
     if let Some(out) = &args.out {
-        let files = [(format!("{}.json", claim.id), &json)];
-        files::write_all(out, &format!("audit --claim {}", claim.id), &files)?;
+        files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
     }
     print_either(args.json, || json, || claims::explanation(&document, &case.scene, &reading))
 }
@@ -181,19 +180,19 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
+    let json = || report::finding_json(finding, &measured, &case.scene);
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
-        let name = format!("{}.svg", finding.id);
-        files::write_all(out, &format!("audit --finding {}", finding.id), &[(name, picture)])?;
+        let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
+        files::write_all(out, &[(svg, picture), (document, json())])?;
     }
-    let json = || report::finding_json(finding, &measured, &case.scene);
     print_either(args.json, json, || report::explanation(finding, &measured, &case.scene, &reading))
 }
 
 fn whole(args: &Args) -> Result<()> {
-    args.tables.check("audit")?;
+    args.tables.check()?;
     if let Some(out) = &args.out {
-        files::check_folder(out, "audit", &["audit.txt", "audit.json"])?;
+        files::check_folder(out, &["audit.txt", "audit.json"])?;
     }
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let reading = args.reading.reading;
@@ -211,13 +210,12 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }
-    if args.json { print(&json) } else { args.tables.print("audit", report) }
+    if args.json { print(&json) } else { args.tables.print(report) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
 fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
-    let mut files: Vec<(String, Vec<u8>)> =
-        vec![("audit.txt".into(), text.into()), ("audit.json".into(), json.into())];
+    let mut files: Vec<(String, Vec<u8>)> = vec![("audit.txt".into(), text.into())];
     for (finding, _) in &audit.findings {
         let picture = folder::finding_picture(finding.id, &finding.scene());
         files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
@@ -238,5 +236,6 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
         let picture = pressure::picture(&case.scene, &runs, Hertz::from_solution(last).as_ref());
         files.push(("pressure.svg".into(), picture.into_bytes()));
     }
-    Ok(files::write_all(out, "audit", &files)?)
+    files.push(("audit.json".into(), json.into()));
+    Ok(files::write_all(out, &files)?)
 }

@@ -53,9 +53,9 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    args.tables.check("compare")?;
+    args.tables.check()?;
     if let Some(out) = &args.out {
-        files::check_folder(out, "compare", &["nodes.csv", "elements.csv", "compare.json"])?;
+        files::check_folder(out, &["nodes.csv", "elements.csv", "compare.json"])?;
     }
     let Code::Calculix = args.with;
     calculix::check(&args.ccx)?;
@@ -87,5 +87,5 @@ pub fn run(args: &Args) -> Result<()> {
         return print(&json);
     }
     let report = report::report(&compared).line(format!("Written to {}", out.display()));
-    args.tables.print("compare", report)
+    args.tables.print(report)
 }

@@ -46,11 +46,11 @@ pub fn run(args: &Args) -> Result<()> {
     if args.list {
         return print_report(report::list(&chosen));
     }
-    args.tables.check("extremes")?;
+    args.tables.check()?;
     let out = folder(&args.out, "extremes".into());
     let is_written = !args.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, "extremes", &["extremes.txt", "extremes.json"])?;
+        files::check_folder(&out, &["extremes.txt", "extremes.json"])?;
     }
     let measured = waiting("sweeping", || measure(&chosen));
     let json = report::json(&measured);
@@ -60,15 +60,16 @@ pub fn run(args: &Args) -> Result<()> {
     let pictures: Vec<_> = measured.iter().map(|of| (of.name, report::pictures(of))).collect();
     let report = report::report(&measured);
     let text = report.text(usize::MAX);
-    let mut written = vec![("extremes.txt".into(), &text), ("extremes.json".into(), &json)];
+    let mut written = vec![("extremes.txt".into(), &text)];
     for (name, pictures) in &pictures {
         for (picture, k) in pictures.iter().zip(1..) {
             let more = if k == 1 { String::new() } else { format!("-{k}") };
             written.push((format!("{name}{more}.svg"), picture));
         }
     }
-    files::write_all(&out, "extremes", &written)?;
-    if args.json { print(&json) } else { args.tables.print("extremes", report) }
+    written.push(("extremes.json".into(), &json));
+    files::write_all(&out, &written)?;
+    if args.json { print(&json) } else { args.tables.print(report) }
 }
 
 /// The generators of these names, in the order of the list; all of them where no name is given.

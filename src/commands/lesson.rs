@@ -9,11 +9,9 @@ use plane_contact::paper::edited::Edited;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
-use plane_contact::report::page::exercise;
 use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding};
-use plane_contact::studies::lesson::exercise::Exercise;
 use plane_contact::studies::lesson::{
     self as study, Iterations, Repairs, Switch, run as execute, switches,
 };
@@ -33,7 +31,6 @@ Examples:
   plane-contact lesson two-blocks --out two-blocks.html
   plane-contact lesson strand --nodes 113,114
   plane-contact lesson fig1 --listing my-c_cnt.txt       an edited listing beside the printed one
-  plane-contact lesson --exercise 7 --seed 2026
   plane-contact lesson --lang ru                         in Russian")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: fig1].
@@ -45,32 +42,17 @@ pub struct Args {
     /// An edited listing, offered beside the printed one.
     #[arg(long, value_name = "FILE")]
     listing: Option<String>,
-    /// Make the page of an exercise: a scene that belongs to this number, such as a student's, and
-    /// to the seed. The page saves answers for `plane-contact snapshot verify`.
-    #[arg(long, value_name = "N", conflicts_with_all = ["scene", "nodes", "listing"])]
-    exercise: Option<u64>,
-    /// The seed of the class.
-    #[arg(long, value_name = "S", requires = "exercise", default_value = "1")]
-    seed: u64,
     /// The language of the page: en, ru; messages of the interpreter stay English.
     #[arg(long, default_value_t)]
     lang: Language,
-    /// The file of the page [default: out/lesson.html, out/exercise-N.html].
+    /// The file of the page [default: out/lesson.html].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let (name, page) = match args.exercise {
-        Some(number) => {
-            let exercise = Exercise { exercise: number, seed: args.seed };
-            (format!("exercise-{number}"), exercise::html(exercise))
-        }
-        None => ("lesson".into(), lesson(args)?),
-    };
-    let own = || Path::new("out").join(format!("{name}.html"));
-    let out = args.out.clone().unwrap_or_else(own);
-    files::write(&out, &page)?;
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
+    files::write(&out, &lesson(args)?)?;
     report_written(&out, true);
     Ok(())
 }

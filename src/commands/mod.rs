@@ -15,7 +15,7 @@ mod solve;
 mod sweep;
 mod trade;
 
-use std::fs::File;
+use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -36,6 +36,7 @@ use plane_contact::problem::modelling::{
     check_tolerance,
 };
 use plane_contact::problem::scene::{Scene, SceneBuilder};
+use plane_contact::report::json;
 use plane_contact::report::model::Report;
 use plane_contact::report::text::fitted;
 
@@ -44,7 +45,8 @@ pub enum Command {
     Solve(solve::Args),
     Extremes(extremes::Args),
     Trade(trade::Args),
-    Sweep(sweep::Args),
+    #[command(subcommand)]
+    Sweep(sweep::Command),
     Audit(audit::Args),
     Report(report::Args),
     Lesson(lesson::Args),
@@ -67,7 +69,7 @@ impl Command {
             Command::Solve(args) => solve::run(&args),
             Command::Extremes(args) => extremes::run(&args).map(done),
             Command::Trade(args) => trade::run(&args).map(done),
-            Command::Sweep(args) => sweep::run(&args),
+            Command::Sweep(command) => sweep::run(&command).map(done),
             Command::Audit(args) => audit::run(&args).map(done),
             Command::Report(args) => report::run(&args).map(done),
             Command::Lesson(args) => lesson::run(&args).map(done),
@@ -256,7 +258,7 @@ pub const LARGEST_LISTING: u64 = 1 << 24;
 
 /// Reads a file of listings.
 pub fn read_listing(place: &str) -> Result<String, InputError> {
-    let file = File::open(place).and_then(|file| files::read_up_to(file, LARGEST_LISTING));
+    let file = files::read_most(Path::new(place), LARGEST_LISTING);
     file.and_then(files::text).map_err(|why| {
         let what = format!("the listing cannot be read: {why}");
         InputError::new(place, what, "give the path of a text file of listings")
@@ -294,7 +296,7 @@ pub fn print(text: &str) -> Result<()> {
 }
 
 /// Prints to standard output what `write` writes, as it comes.
-pub fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
@@ -358,6 +360,9 @@ pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
     asked.clone().unwrap_or_else(|| Path::new("out").join(name))
 }
 
+/// The file that tells that a folder of tables is this program's: CSV has no place for it.
+const TABLES: &str = "tables.json";
+
 /// Where tables go beside standard output.
 #[derive(clap::Args)]
 pub struct TablesArgs {
@@ -367,32 +372,23 @@ pub struct TablesArgs {
 }
 
 impl TablesArgs {
-    /// Checks that the tables of `command` can be written, before they are computed.
+    /// Checks that tables can be written, before they are computed.
     ///
     /// # Errors
     /// Those of [`files::check_folder`].
-    pub fn check(&self, command: &str) -> Result<()> {
-        let command = format!("{command} --csv");
-        Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &command, &[]))?)
+    pub fn check(&self) -> Result<()> {
+        Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &[TABLES]))?)
     }
 
-    /// Refuses `--csv` where a command prints no table.
-    ///
-    /// # Errors
-    /// Says that it has none, and why.
-    pub fn refuse(&self, why: &str) -> Result<()> {
-        match self.csv {
-            Some(_) => Err(InputError::new("--csv", why, "leave out --csv").into()),
-            None => Ok(()),
-        }
-    }
-
-    /// Prints a report that `command` made.
-    pub fn print(&self, command: &str, report: Report) -> Result<()> {
+    /// Prints a report, and writes its tables; [`TABLES`], which names them, marks their folder.
+    pub fn print(&self, report: Report) -> Result<()> {
         if let Some(folder) = &self.csv {
             let tables = report.csv().into_iter();
-            let tables: Vec<_> = tables.map(|(name, csv)| (format!("{name}.csv"), csv)).collect();
-            files::write_all(folder, &format!("{command} --csv"), &tables)?;
+            let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
+            let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
+            let mark = json::line(None, &BTreeMap::from([("tables", names)]));
+            tables.push((TABLES.into(), mark));
+            files::write_all(folder, &tables)?;
         }
         print_report(report)
     }

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use plane_contact::engine::error::Result;
 use plane_contact::engine::{Assessment, Solution};
 use plane_contact::error::InputError;
-use plane_contact::files::{self, Folder};
+use plane_contact::files;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::{Scene, sha256_of};
 use plane_contact::report::comparison;
 use plane_contact::report::document::{Contents, Run, document};
 use plane_contact::report::page::report as page;
@@ -126,13 +126,19 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
     match args.format {
         Format::Html => files::write(out, &page::html(&report, &contents))?,
         Format::Markdown => {
-            files::write(out, &report.markdown())?;
-            for (name, svg) in report.figures() {
-                files::write(&out.with_file_name(name), svg)?;
-            }
+            let page = files::MARKDOWN.to_string() + &report.markdown();
+            let mut written = report.figures();
+            written.push((name_of(out)?, &page));
+            files::write_all(out.parent().unwrap_or(Path::new("")), &written)?;
         }
     }
     Ok(())
+}
+
+/// Returns the name of the page, beside which its figures lie.
+fn name_of(out: &Path) -> Result<String, InputError> {
+    let name = out.file_name().and_then(|name| name.to_str()).map(String::from);
+    name.ok_or_else(|| InputError::new("--out", "its name is not in UTF-8", "name another file"))
 }
 
 fn audited(case: &Case) -> (Audit, Conclusion) {
@@ -195,7 +201,7 @@ fn asked(args: &Args, scene: &Scene) -> Vec<(&'static str, String)> {
     let model = &scene.model;
     let variants = if args.variant.is_empty() { "all".to_string() } else { variants(args) };
     let size = format!("{} nodes, {} triangles", model.nodes.len(), model.triangles.len());
-    let program = std::env::current_exe().and_then(File::open).and_then(files::sum_of);
+    let program = std::env::current_exe().and_then(File::open).and_then(sha256_of);
     vec![
         ("program", format!("plane-contact {}", env!("CARGO_PKG_VERSION"))),
         ("program, SHA-256", program.unwrap_or_else(|why| why.to_string())),
@@ -254,11 +260,10 @@ fn charts(folder: &Path) -> Result<Vec<(String, String)>> {
         let what = format!("the charts cannot be read: {why}");
         InputError::new(folder.display().to_string(), what, "give a folder that trade wrote")
     };
-    let charts = Folder::open(folder).map_err(fault)?;
     let read = |name: String| {
-        let text = charts.read(&name, CHART).and_then(files::text);
+        let text = files::read_in(folder, Path::new(&name), CHART).and_then(files::text);
         let text = text.map_err(|why| fault(io::Error::other(format!("{name}: {why}"))))?;
         Ok((name.trim_end_matches(".svg").into(), text))
     };
-    charts.names("svg").map_err(fault)?.into_iter().map(read).collect()
+    files::names(folder, "svg").map_err(fault)?.into_iter().map(read).collect()
 }

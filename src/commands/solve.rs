@@ -90,14 +90,14 @@ pub struct Args {
 
 /// Solves a scene and writes its files; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
-    args.tables.check("solve")?;
+    args.tables.check()?;
     let request = request(args)?;
     let out = folder(&args.out, own_folder(args, &request));
     let wanted = FolderOptions { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.json || args.out.is_some();
     if is_written {
         let names = report::folder::names(wanted);
-        files::check_folder(&out, "solve", &names.iter().map(String::as_str).collect::<Vec<_>>())?;
+        files::check_folder(&out, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
     }
     // The plan's count of the factors takes a fifth of the time of a large run.
     let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request));
@@ -121,7 +121,7 @@ pub fn run(args: &Args) -> Result<u8> {
         .then(beside_the_print(&solution))
         .line(report::plan::line(&plan))
         .line(format!("Written to {}", out.display()));
-    args.tables.print("solve", report)?;
+    args.tables.print(report)?;
     Ok(status(&solution))
 }
 

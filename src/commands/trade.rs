@@ -58,7 +58,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    args.tables.check("trade")?;
+    args.tables.check()?;
     let scene = Scene::open(&args.scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     if let Some(name) = &args.peak_of {
@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<()> {
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, "trade", &["trade.json", "trade.csv"])?;
+        files::check_folder(&out, &["trade.csv", "trade.json"])?;
     }
     let bar = progress(trade::steps(&request, &options)?, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> Result<()> {
         return print(&json);
     }
     let report = report::report(&measured).line(format!("Written to {}", out.display()));
-    args.tables.print("trade", report)
+    args.tables.print(report)
 }
 
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more

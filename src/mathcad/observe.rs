@@ -101,7 +101,7 @@ impl From<Access<'_>> for Named {
     }
 }
 
-/// Hands every statement to a function once it is done: the `trace` command's observer.
+/// Hands every statement to a function once it is done.
 ///
 /// A `for` line is handed over once for each turn. A statement is done when the next begins, and
 /// the last one when the recorder is dropped.

@@ -1,7 +1,5 @@
 //! The audit report that a referee hands in, as one report: HTML and Markdown are renderings of it.
 
-use std::io;
-
 use super::comparison::{self, Compared};
 use super::folder::field_picture;
 use super::layout::listed;
@@ -9,11 +7,10 @@ use super::model::{Report, Table};
 use super::picture::{self, Drawing};
 use super::quantities::triangle_array;
 use super::{audit, claims, glossary, pressure, prices, tables};
-use base::files::sum_of;
 use engine::{Assessment, Hertz, Solution, TriangleValues};
 use paper::listings::Which;
 use problem::modelling::Variant;
-use problem::scene::Scene;
+use problem::scene::{Scene, sha256_of};
 use studies::audit::Audit;
 use studies::audit::claims::Verdict as ClaimVerdict;
 use studies::audit::conclusion::Conclusion;
@@ -211,5 +208,5 @@ fn origin(contents: &Contents) -> Report {
 }
 
 fn hash(text: &str) -> String {
-    sum_of(text.as_bytes()).unwrap_or_else(|why: io::Error| why.to_string())
+    sha256_of(text.as_bytes()).expect("memory can be read")
 }

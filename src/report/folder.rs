@@ -42,8 +42,9 @@ pub fn write(
     wanted: FolderOptions,
 ) -> Result<String> {
     let mut files = contents(solution, assessment, plan, wanted);
-    files::write_all(folder, "solve", &files)?;
-    Ok(String::from_utf8(files.swap_remove(0).1).expect("JSON is UTF-8"))
+    files::write_all(folder, &files)?;
+    let (_, result) = files.pop().expect("every run has a result");
+    Ok(String::from_utf8(result).expect("JSON is UTF-8"))
 }
 
 /// A file of a run.
@@ -64,7 +65,7 @@ impl File {
         let scalars = quantities.filter(|quantity| quantity.components().len() == 1);
         let pictures = std::iter::once(File::Mesh).chain(scalars.map(File::Picture));
         let pictures = pictures.chain([File::Pressure]).filter(move |_| wanted.pictures);
-        [File::Result, File::Fields].into_iter().chain(pictures)
+        std::iter::once(File::Fields).chain(pictures).chain([File::Result])
     }
 
     fn name(self) -> String {
@@ -78,7 +79,7 @@ impl File {
     }
 }
 
-/// Returns the names of the files that a run may leave.
+/// Returns the names of the files that a run may leave; the last is `result.json`.
 pub fn names(wanted: FolderOptions) -> Vec<String> {
     File::all(wanted).map(File::name).collect()
 }
@@ -98,7 +99,7 @@ pub fn help() -> String {
 /// Computes the content of a file.
 type Content<'a> = Box<dyn Fn() -> Vec<u8> + Send + Sync + 'a>;
 
-/// Returns the files of a run, each with its name; the first is `result.json`.
+/// Returns the files of a run, each with its name; the last is `result.json`.
 pub fn contents(
     solution: &Solution,
     assessment: &Assessment,

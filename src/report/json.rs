@@ -1,7 +1,6 @@
 //! What several reports write as JSON.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -43,16 +42,11 @@ pub struct OnScene {
 pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
     let own = value(own);
     let nulls = reasons(&own);
-    with_reasons(headed(scene, own), &nulls)
-}
-
-/// Returns a command's own value behind its head, without the reasons of its nulls.
-fn headed(scene: Option<&Scene>, own: Value) -> Value {
     let scene = scene.map(|scene| {
         let [scene_sha256, mesh_sha256] = scene.hashes().expect("a file describes it").clone();
         OnScene { units: scene.units.clone(), scene_sha256, mesh_sha256 }
     });
-    value(&Document { format: FORMAT, version: VERSION, scene, own, nulls: BTreeMap::new() })
+    value(&Document { format: FORMAT, version: VERSION, scene, own, nulls })
 }
 
 /// Adds the reasons of nulls to an object; nothing where there is none.
@@ -66,56 +60,6 @@ fn with_reasons(mut object: Value, nulls: &BTreeMap<String, &'static str>) -> Va
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
 pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
     document(scene, own).to_string() + "\n"
-}
-
-/// A document on a scene of which one list is written item by item, as the items are computed: a
-/// list of any length takes no memory.
-pub struct Stream<'o> {
-    out: &'o mut dyn Write,
-    nulls: BTreeMap<String, &'static str>,
-    is_first: bool,
-}
-
-impl<'o> Stream<'o> {
-    /// Writes the document's head, the fields of `before`, and the start of the list.
-    ///
-    /// # Errors
-    /// Something was not written; so for each of the functions.
-    pub fn new(
-        out: &'o mut dyn Write,
-        scene: &Scene,
-        before: &impl Serialize,
-        list: &str,
-    ) -> io::Result<Self> {
-        let before = value(before);
-        let nulls = reasons(&before);
-        let head = headed(Some(scene), before).to_string();
-        let fields = head.strip_suffix('}').expect("a document is an object");
-        write!(out, "{fields},{}:[", Value::from(list))?;
-        Ok(Stream { out, nulls, is_first: true })
-    }
-
-    /// Writes an item of the list.
-    ///
-    /// # Errors
-    /// It was not written.
-    pub fn item(&mut self, item: &impl Serialize) -> io::Result<()> {
-        let item = value(item);
-        self.nulls.append(&mut reasons(&item));
-        let comma = if std::mem::take(&mut self.is_first) { "" } else { "," };
-        write!(self.out, "{comma}{item}")
-    }
-
-    /// Writes the end of the list, the fields of `after`, and the reasons of all nulls.
-    ///
-    /// # Errors
-    /// They were not written.
-    pub fn finish(mut self, after: &impl Serialize) -> io::Result<()> {
-        let after = value(after);
-        self.nulls.append(&mut reasons(&after));
-        let after = with_reasons(after, &self.nulls).to_string();
-        writeln!(self.out, "],{}", after.strip_prefix('{').expect("its fields are an object's"))
-    }
 }
 
 fn value(document: &impl Serialize) -> Value {

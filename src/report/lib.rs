@@ -10,24 +10,21 @@
 //! | `quantities`                                       | columns and arrays of quantities       |
 //! | `audit`, `claims`, `conclusion`, `prices`          | the audit                              |
 //! | `document`, `glossary`                             | the audit report that is handed in     |
-//! | `comparison`, `extremes`, `plan`, `trace`          | a study each                           |
-//! | `answers`                                          | the marks of answers to exercises      |
+//! | `comparison`, `extremes`, `plan`                   | a study each                           |
 //! | `snapshot`, `trade`                                | a study each                           |
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
 //! | `matrix_market`, `output`                          | other files                            |
-//! | `sweep`                                            | job files of engines                   |
+//! | `sweep`                                            | job files of engines, table of results |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
-//! | `changes`, `edited`, `scenes`                      | edited listings, scenes that are there |
+//! | `edited`, `scenes`                                 | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
 //! | `language`                                         | the lesson's words in Russian          |
 #![forbid(unsafe_code)]
 
-pub mod answers;
 pub mod audit;
-pub mod changes;
 pub mod claims;
 pub mod comparison;
 pub mod conclusion;
@@ -60,7 +57,6 @@ pub mod snapshot;
 pub mod sweep;
 pub mod tables;
 pub mod text;
-pub mod trace;
 pub mod trade;
 pub mod vtu;
 pub mod worksheet;

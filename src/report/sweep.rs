@@ -1,139 +1,178 @@
-//! Sweeps on the engines that run many jobs: a job file, or a list of commands.
+//! Sweeps on the engines that run many jobs, and their results as one table.
 //!
-//! Every case is `plane-contact sweep FILE --case K --row ROW`, which writes one file and leaves an
-//! equal one alone; `plane-contact sweep FILE --rows DIR` gathers the rows and runs what is missing.
+//! Every job is `plane-contact sweep run FILE --out DIR --only K`, which leaves a result that is there
+//! alone; its file is named by the job's key.
 
-use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::Path;
 
+use serde_json::{Value, json};
+
+use super::json;
+use super::model::{Cell, Table};
 use base::choices;
+use base::error::{InputError, Result};
 use problem::scene::sha256;
+use studies::sweep::{Job, Row};
 
 choices! {
     /// An engine that runs jobs.
     Engine {
-        /// HyperQueue: a Python script for the package on PyPI.
+        /// A Python script for its package on PyPI.
         HyperQueue = "hyperqueue",
-        /// Snakemake: a rule for each case.
+        /// A rule for all jobs.
         Snakemake = "snakemake",
-        /// Any other: a command of the shell on each line.
-        Commands = "commands",
+        /// A target for each job, named by its number.
+        Make = "make",
     }
 }
 
-/// The exit status of a case whose row could not be written, as on a full disk: worth another try.
-pub const TRY_AGAIN: u8 = 75;
-
-/// What a job file is written for.
-pub struct Jobs<'a> {
-    /// The program, as it is called.
-    pub program: &'a str,
-    /// The file of the sweep.
-    pub sweep: &'a str,
-    /// The folder of the rows.
-    pub rows: &'a str,
-    /// The number of cases, at least one.
-    pub cases: usize,
-    /// The most memory that a case takes, bytes.
-    pub memory: f64,
+/// Returns the name of a job's result.
+pub fn result_name(job: &Job) -> String {
+    format!("{}.json", job.key)
 }
 
-impl Jobs<'_> {
-    /// Returns the memory of a case in whole megabytes, rounded up.
-    fn megabytes(&self) -> u64 {
-        (self.memory / 1e6).ceil() as u64
-    }
+/// Returns the content of a job's result.
+pub fn result(job: &Job, row: &Row) -> String {
+    json::line(None, &json!({"key": job.key, "values": job.values, "result": row}))
+}
 
-    /// Returns the job file for an engine.
-    pub fn file(&self, engine: Engine) -> String {
-        match engine {
-            Engine::HyperQueue => self.hyperqueue(),
-            Engine::Snakemake => self.snakemake(),
-            Engine::Commands => self.commands(),
+/// Reads the result of a job.
+///
+/// # Errors
+/// The text is no result, or that of another job.
+pub fn read_result(job: &Job, text: &[u8]) -> io::Result<Row> {
+    let result: Value = serde_json::from_slice(text)?;
+    match result["result"].as_object().filter(|row| row.contains_key("exit_status")) {
+        Some(row) if result["key"] == *job.key => Ok(row.clone()),
+        _ => Err(io::Error::other("it is not the result of this job")),
+    }
+}
+
+/// Returns the job file of an engine, for the program, the sweep and the folder of the results.
+///
+/// # Errors
+/// A name cannot stand in the file.
+pub fn job_file(engine: Engine, jobs: &[Job], words: [&Path; 3]) -> Result<String> {
+    let fault = |path: &Path, what| InputError::new(path.display().to_string(), what, "rename it");
+    let mut names = Vec::new();
+    for path in words {
+        let name = path.to_str().ok_or_else(|| fault(path, "its name is not in UTF-8"))?;
+        if engine == Engine::Make && name.contains(['\n', '\r']) {
+            return Err(fault(path, "a line of a makefile holds no name with a line break"));
+        }
+        // No program takes it for an option.
+        let is_option = name.starts_with(['-', '+']);
+        names.push(if is_option { format!("./{name}") } else { name.into() });
+    }
+    let keys: BTreeMap<&str, usize> = jobs.iter().map(|job| &*job.key).zip(0..).collect();
+    let head = |names: Vec<String>| {
+        let [program, sweep, out] = [0, 1, 2].map(|k| Value::from(&*names[k]).to_string());
+        format!("PROGRAM, SWEEP, OUT = {program}, {sweep}, {out}\nJOBS = {}\n", json!(keys))
+    };
+    Ok(match engine {
+        Engine::Make => make(jobs.len(), &names),
+        Engine::HyperQueue => HYPERQUEUE.replace("HEAD", &head(names)),
+        Engine::Snakemake => {
+            let link = format!(".results-{}", &sha256(&names[2])[..16]);
+            SNAKEMAKE.replace("LINK", &link).replace("HEAD", &head(names))
+        }
+    })
+}
+
+const HYPERQUEUE: &str = "\
+# HyperQueue (PyPI: hyperqueue): python this file, with a server and workers running; the server's
+# folder is HQ_SERVER_DIR, or HyperQueue's own. Started again, it runs what is missing.
+import os
+from hyperqueue import Client, Job
+
+HEAD
+os.makedirs(OUT, exist_ok=True)
+job = Job(max_fails=len(JOBS))
+missing = [k for key, k in JOBS.items() if not os.path.exists(f\"{OUT}/{key}.json\")]
+for k in missing:
+    command = [PROGRAM, \"sweep\", \"run\", SWEEP, \"--out\", OUT, \"--only\", str(k)]
+    job.program(command, stdout=None, stderr=None, crash_limit=5)
+if missing:
+    client = Client(os.environ.get(\"HQ_SERVER_DIR\"))
+    client.wait_for_jobs([client.submit(job)], raise_on_error=True)
+";
+
+/// The folder of the results is named by a link: Snakemake takes braces in a name for wildcards.
+const SNAKEMAKE: &str = "\
+# Snakemake: snakemake -s this file --cores all. Results that are there are not made again.
+import os
+
+HEAD
+os.environ.update(PROGRAM=PROGRAM, SWEEP=SWEEP, OUT=OUT)
+os.makedirs(OUT, exist_ok=True)
+if not os.path.islink(\"LINK\"):
+    os.symlink(os.path.abspath(OUT), \"LINK\")
+
+rule all:
+    input: expand(\"LINK/{key}.json\", key=JOBS)
+
+rule job:
+    output: \"LINK/{key}.json\"
+    wildcard_constraints: key=\"[0-9a-f]+\"
+    params: number=lambda wildcards: JOBS[wildcards.key]
+    retries: 2
+    shell: '\"$PROGRAM\" sweep run \"$SWEEP\" --out \"$OUT\" --only {params.number}'
+";
+
+/// A target is a number, as no name with a blank or a colon can be one.
+fn make(jobs: usize, names: &[String]) -> String {
+    let quoted = |name: &String| format!("'{}'", name.replace('\'', "'\\''").replace('$', "$$"));
+    let words: Vec<String> = names.iter().map(quoted).collect();
+    let targets: Vec<String> = (0..jobs).map(|job| job.to_string()).collect();
+    format!(
+        "# Make: make -j 4 -f this file. Results that are there are not made again.\n\
+         JOBS = {}\n\
+         .PHONY: all $(JOBS)\n\
+         all: $(JOBS)\n\
+         $(JOBS):\n\
+         \t{} sweep run {} --out {} --only $@\n",
+        targets.join(" "),
+        words[0],
+        words[1],
+        words[2]
+    )
+}
+
+/// Returns the table of all jobs with what came of each, as CSV or as JSON.
+pub fn table(jobs: &[Job], rows: &[Option<Row>], as_json: bool) -> String {
+    let lines = jobs.iter().zip(rows).zip(0..).map(|((job, row), k): (_, usize)| {
+        let mut line = Row::from_iter([("job".into(), json!(k)), ("key".into(), json!(job.key))]);
+        line.extend(job.values.clone());
+        line.extend(
+            row.clone()
+                .unwrap_or_else(|| Row::from_iter([("error".into(), json!("it has not run"))])),
+        );
+        line
+    });
+    let lines: Vec<Row> = lines.collect();
+    if as_json {
+        return json::line(None, &json!({"rows": lines}));
+    }
+    let mut headings: Vec<&String> = Vec::new();
+    for name in lines.iter().flat_map(Row::keys) {
+        if !headings.contains(&name) {
+            headings.push(name);
         }
     }
-
-    /// Returns the program, the sweep and the rows, none of which a program takes for an option.
-    fn words(&self) -> [String; 3] {
-        [self.program, self.sweep, self.rows].map(|word| {
-            let is_option = word.starts_with(['-', '+']);
-            if is_option { format!("./{word}") } else { word.into() }
-        })
-    }
-
-    fn hyperqueue(&self) -> String {
-        let [program, sweep, rows] = self.words().map(|word| Value::from(word).to_string());
-        format!(
-            "# HyperQueue (PyPI: hyperqueue): python this file, with a server and workers running; the\n\
-             # server's folder is HQ_SERVER_DIR, or HyperQueue's own. Cases that a lost worker had go to\n\
-             # others; started again, it goes on where it was.\n\
-             import os\n\
-             import subprocess\n\
-             from hyperqueue import Client, Job\n\
-             from hyperqueue.ffi.protocol import ResourceRequest\n\n\
-             PROGRAM, SWEEP, ROWS, CASES, MEGABYTES = {program}, {sweep}, {rows}, {cases}, {memory}\n\n\
-             # Workers of a LocalCluster say nothing of their memory: HQ_MEMORY=0 asks for none.\n\
-             memory = {{}} if os.environ.get(\"HQ_MEMORY\") == \"0\" else {{\"mem\": MEGABYTES}}\n\
-             os.makedirs(ROWS, exist_ok=True)\n\
-             job = Job(max_fails=CASES)\n\
-             missing = [k for k in range(CASES) if not os.path.exists(f\"{{ROWS}}/{{k}}.json\")]\n\
-             for k in missing:\n    \
-                 job.program(\n        \
-                     [PROGRAM, \"sweep\", SWEEP, \"--case\", str(k), \"--row\", f\"{{ROWS}}/{{k}}.json\"],\n        \
-                     stdout=None, stderr=None, crash_limit=5,\n        \
-                     resources=ResourceRequest(cpus=1, resources=dict(memory)),\n    \
-                 )\n\
-             if missing:\n    \
-                 client = Client(os.environ.get(\"HQ_SERVER_DIR\"))\n    \
-                 client.wait_for_jobs([client.submit(job)], raise_on_error=False)\n\
-             subprocess.run([PROGRAM, \"sweep\", SWEEP, \"--rows\", ROWS], check=True)\n",
-            cases = self.cases,
-            memory = self.megabytes(),
-        )
-    }
-
-    fn commands(&self) -> String {
-        let [program, sweep, rows] = self.words();
-        let (program, sweep) = (quoted(&program), quoted(&sweep));
-        let command = |case: usize| {
-            let row = quoted(&format!("{rows}/{case}.json"));
-            format!("{program} sweep {sweep} --case {case} --row {row}\n")
-        };
-        (0..self.cases).map(command).collect()
-    }
-
-    /// The folder of the rows is named by a link: Snakemake takes braces in a name for wildcards.
-    fn snakemake(&self) -> String {
-        let words = self.words();
-        let link = format!(".rows-{}", &sha256(&words[2])[..16]);
-        let [program, sweep, rows] = words.map(|word| Value::from(word).to_string());
-        format!(
-            "# Snakemake: snakemake -s this file --cores all. Rows that are there are not made again.\n\
-             import os\n\n\
-             PROGRAM, SWEEP, ROWS, CASES = {program}, {sweep}, {rows}, {cases}\n\
-             os.environ.update(PROGRAM=PROGRAM, SWEEP=SWEEP, ROWS=ROWS)\n\
-             os.makedirs(ROWS, exist_ok=True)\n\
-             if not os.path.islink(\"{link}\"):\n    \
-                 os.symlink(os.path.abspath(ROWS), \"{link}\")\n\n\
-             rule all:\n    \
-                 input: expand(\"{link}/{{case}}.json\", case=range(CASES))\n    \
-                 shell: '\"$PROGRAM\" sweep \"$SWEEP\" --rows \"$ROWS\"'\n\n\
-             rule case:\n    \
-                 output: \"{link}/{{case}}.json\"\n    \
-                 wildcard_constraints: case=r\"\\d+\"\n    \
-                 resources: mem_mb={memory}\n    \
-                 retries: 2\n    \
-                 shell: '\"$PROGRAM\" sweep \"$SWEEP\" --case {{wildcards.case}} --row {{output}}'\n",
-            cases = self.cases,
-            memory = self.megabytes(),
-        )
-    }
+    let of = |line: &Row| headings.iter().map(|name| cell(line.get(*name))).collect();
+    Table::new(&headings, lines.iter().map(of)).csv()
 }
 
-/// Returns a word as the shell reads it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:@".contains(c);
-    match !word.is_empty() && word.chars().all(is_plain) {
-        true => word.into(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
+fn cell(value: Option<&Value>) -> Cell {
+    match value {
+        None | Some(Value::Null) => Cell::Empty,
+        Some(Value::String(text)) => Cell::Text(text.clone()),
+        Some(Value::Number(number)) => match number.as_i64() {
+            Some(whole) => Cell::Integer(whole.into()),
+            None => Cell::plain(number.as_f64().unwrap_or(f64::NAN)),
+        },
+        Some(other) => Cell::Text(other.to_string()),
     }
 }

@@ -32,8 +32,8 @@ pub fn write(folder: &Path, scene: &Scene, trade: &Trade) -> Result<String> {
     let pictures: Vec<_> =
         timed.into_iter().chain(trade.sections.iter().flat_map(geometry)).collect();
     let pictures = pictures.iter().map(|(name, picture)| (&**name, &**picture));
-    let tables = [("trade.json", &*json), ("trade.csv", &csv(trade))];
-    write_all(folder, "trade", &tables.into_iter().chain(pictures).collect::<Vec<_>>())?;
+    let tables = [("trade.csv", &*csv(trade)), ("trade.json", &json)];
+    write_all(folder, &pictures.chain(tables).collect::<Vec<_>>())?;
     Ok(json)
 }
 

@@ -9,9 +9,8 @@ use super::json;
 use super::model::{Report, Table};
 use mathcad::worksheet::{ExecutedRegion, Verdict};
 
-/// Reports each region with what came of it, what a worksheet of questions decides, and how many
-/// regions came out how.
-pub fn report(regions: &[ExecutedRegion], decided: &[(String, String)]) -> Report {
+/// Reports each region with what came of it, and how many regions came out how.
+pub fn report(regions: &[ExecutedRegion]) -> Report {
     let table = Table::from_rows(regions)
         .column("region", |region| region.id.clone())
         .column("tag", |region| region.tag.clone())
@@ -22,11 +21,7 @@ pub fn report(regions: &[ExecutedRegion], decided: &[(String, String)]) -> Repor
             shown + more
         })
         .column("compared with Mathcad", words);
-    let report = Report::default().table("Regions", table);
-    let report = decided.iter().fold(report, |report, (question, answer)| {
-        report.line(format!("Question: {question}")).note(answer)
-    });
-    report.line(summary(regions))
+    Report::default().table("Regions", table).line(summary(regions))
 }
 
 /// Says what came of a region.
@@ -74,8 +69,6 @@ fn summary(regions: &[ExecutedRegion]) -> String {
 pub struct Document<'a> {
     file: &'a str,
     regions: Vec<RegionRow<'a>>,
-    /// What a worksheet of questions decides.
-    questions: Vec<Question<'a>>,
 }
 
 /// A region as it was executed.
@@ -125,15 +118,8 @@ enum VerdictRow<'a> {
     },
 }
 
-/// A question, and what Mathcad's results say to it.
-#[derive(Serialize)]
-struct Question<'a> {
-    question: &'a str,
-    decides: &'a str,
-}
-
 /// Writes the regions on one line.
-pub fn json(file: &str, regions: &[ExecutedRegion], decided: &[(String, String)]) -> String {
+pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
     let regions = regions.iter().map(|region| RegionRow {
         region: &region.id,
         tag: &region.tag,
@@ -142,9 +128,7 @@ pub fn json(file: &str, regions: &[ExecutedRegion], decided: &[(String, String)]
         inputs: &region.inputs,
         value: region.value.as_ref().map(mathcad::json::write),
     });
-    let questions =
-        decided.iter().map(|(question, decides)| Question { question, decides }).collect();
-    json::line(None, &Document { file, regions: regions.collect(), questions })
+    json::line(None, &Document { file, regions: regions.collect() })
 }
 
 fn verdict(verdict: &Verdict) -> VerdictRow<'_> {

@@ -17,8 +17,7 @@ use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
-use plane_contact::studies::audit::trace::Product;
-use plane_contact::studies::lesson::{self, Run, Switch};
+use plane_contact::studies::lesson::{self, Product, Run, Switch};
 use serde_json::{Value, json};
 
 fn finding(id: &str) -> &'static Finding {

@@ -20,7 +20,7 @@ pub fn number(x: f64) -> String {
 
 /// `golden/*/snapshot.json`: facts of every iteration, displacements, stresses, reactions and the contact
 /// surface; of every shipped scene, under each variant. A golden snapshot changes by
-/// `plane-contact snapshot accept` only, with its reason.
+/// `plane-contact snapshot accept` only.
 #[test]
 fn golden_snapshots_are_verified() {
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");

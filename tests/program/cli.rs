@@ -60,7 +60,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 8, "with the list of them, and no temporary file is left");
+    assert_eq!(count, 7, "no temporary file is left");
 }
 
 /// Returns `fields.vtu` of a run's folder without its arrays.
@@ -90,8 +90,8 @@ fn solve_leaves_out_pictures_and_estimates() {
         names.sort();
         names
     };
-    assert_eq!(files(&pictures.1), ["SHA256SUMS", "fields.vtu", "result.json"]);
-    assert_eq!(files(&estimates.1).len(), 7);
+    assert_eq!(files(&pictures.1), ["fields.vtu", "result.json"]);
+    assert_eq!(files(&estimates.1).len(), 6);
     assert_eq!(pictures.0.replace("no-pictures", "all"), all);
     assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
     assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));
@@ -355,26 +355,58 @@ fn a_change_of_a_scene_is_named_by_its_option() {
     }
 }
 
-/// A link is written through, a pipe is written to: neither is replaced.
+/// No link is followed, and no pipe is written to: neither is replaced.
 #[cfg(unix)]
 #[test]
-fn links_and_pipes_stay_what_they_are() {
+fn links_and_pipes_are_refused() {
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);
     std::fs::write(at("real.mtx"), "old").unwrap();
     std::os::unix::fs::symlink("real.mtx", at("link.mtx")).unwrap();
-    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "link.mtx"]);
-    assert!(std::fs::symlink_metadata(at("link.mtx")).unwrap().is_symlink());
-    assert!(std::fs::read_to_string(at("real.mtx")).unwrap().starts_with("%%MatrixMarket"));
+    std::os::unix::fs::symlink("nowhere", at("dangling.mtx")).unwrap();
     let made = Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
     assert!(made.success());
-    let reader = std::thread::spawn({
-        let pipe = at("pipe");
-        move || std::fs::read_to_string(pipe).unwrap()
-    });
-    succeeds(folder.path(), &["listing", "run", "Km", "fig1", "--matrix-market", "pipe"]);
-    assert!(reader.join().unwrap().starts_with("%%MatrixMarket"));
-    assert!(!std::fs::metadata(at("pipe")).unwrap().is_file());
+    for (name, words) in [
+        ("link.mtx", "it is a link"),
+        ("dangling.mtx", "it is a link"),
+        ("pipe", "it is no ordinary file"),
+        ("/dev/null", "it is no ordinary file"),
+    ] {
+        let args = ["listing", "run", "Km", "fig1", "--matrix-market", name];
+        let output = run(folder.path(), &args);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && error.contains(words), "{name}: {error}");
+    }
+    assert_eq!(std::fs::read_to_string(at("real.mtx")).unwrap(), "old");
+    assert!(!at("nowhere").exists());
+}
+
+/// An output that would replace what the run reads is refused.
+#[test]
+fn no_output_replaces_an_input() {
+    let folder = TempDir::new().unwrap();
+    succeeds(folder.path(), &["scene", "copy", "fig1", "--out", "my"]);
+    succeeds(folder.path(), &["snapshot", "record", "fig1", "--out", "s.json"]);
+    let c_cnt = concat!(env!("CARGO_MANIFEST_DIR"), "/listings/c_cnt.txt");
+    std::fs::copy(c_cnt, folder.path().join("l.txt")).unwrap();
+    for (line, file) in [
+        ("report my --no-audit --out my/scene.json", "my/scene.json"),
+        ("lesson ./my/../my/scene.json --out my/scene.json", "my/scene.json"),
+        ("scene export my --out my/scene.json", "my/scene.json"),
+        ("mathcad export my --out my/scene.json", "my/scene.json"),
+        ("lesson fig1 --listing l.txt --out l.txt", "l.txt"),
+        ("snapshot verify s.json --report s.json", "s.json"),
+        ("snapshot verify s.json --junit s.json", "s.json"),
+    ] {
+        let before = std::fs::read(folder.path().join(file)).unwrap();
+        let output = run(folder.path(), &line.split(' ').collect::<Vec<_>>());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(2) && error.contains("this run reads it"),
+            "{line}: {error}"
+        );
+        assert!(std::fs::read(folder.path().join(file)).unwrap() == before, "{line}");
+    }
 }
 
 /// A scene by path: its mesh is resolved beside it, its name is that of its folder.
@@ -394,187 +426,39 @@ fn a_scene_by_path_reads_its_mesh_beside_it() {
     );
 }
 
+/// Edited listings that end in something else than the paper's listing does, that ask for too much, or that
+/// are no listing: errors, no panic. `limits.rs` has one that never ends.
 #[test]
-fn trace_shows_what_each_line_read_and_wrote() {
-    let folder = TempDir::new().unwrap();
-    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--node", "7"]);
-    for words in [
-        "contact node 7 (2.3 of fig. 1) (i1 = 3 of 5)",
-        "17  dy[i1] ← 1 if i1 < rows(cnt) ∧ yt[i1] < 0 ∧ yt[i1+1] > 0 ∧ ct[i1] > 0",
-        "⇒ dy[3] ← 1",
-        "⇒ k_cnt[7,3] ← 3",
-        "(lines 4-7 for 2 more edges: the node is outside their boxes)",
-        "trace() wrote: 1 | 2 | 2 | 3",
-    ] {
-        assert!(trace.contains(words), "{words:?}: {trace}");
-    }
-    let km =
-        succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "Km", "--node", "13"]);
-    assert!(km.contains("element n = 7 of 9 (nodes 7 (2.3 of fig. 1), 13, 12)"), "{km}");
-    let json: Value =
-        serde_json::from_str(&succeeds(folder.path(), &["listing", "trace", "fig1", "--json"]))
-            .unwrap();
-    assert_eq!(json["result"]["dy"], serde_json::json!([1, 1, 1, 0, 1]));
-    assert!(json["steps"].as_array().unwrap().len() > 100);
-    fails(
-        folder.path(),
-        &["listing", "trace", "fig1", "--node", "1"],
-        2,
-        &["node 1 is no contact node"],
-    );
-}
-
-/// A summary has what each condition decided; lines, and all digits, as they are asked for.
-#[test]
-fn trace_shows_as_much_as_is_asked_for() {
-    let folder = TempDir::new().unwrap();
-    let trace =
-        |args: &[&str]| succeeds(folder.path(), &[&["listing", "trace", "fig1"], args].concat());
-    let summary = trace(&["--summary", "--node", "7"]);
-    let decided = "   7  yes  ct[3] ← 2
-  10  yes  yt[3] ← -0.0015
-  16  no   |yt[i1]| < c_tll is false
-  17  yes  dy[3] ← 1
-  18  no   yt[i1−1] > 0 is false
-  19  yes  dy[i1] = 1
-";
-    assert!(summary.contains(decided), "{summary}");
-    assert!(trace(&["--summary", "--listing", "Km", "--node", "7"]).contains(" times)"));
-    let lines = trace(&["--lines", "16-18", "--node", "7"]);
-    let numbers: Vec<&str> =
-        lines.lines().filter_map(|line| line.get(..4)).filter(|n| n.trim() != "").collect();
-    assert_eq!(numbers[1..4], ["  16", "  17", "  18"], "{lines}");
-    assert!(!lines.contains("  15  "), "{lines}");
-    assert!(trace(&["--lines", "10", "--node", "5"]).contains("yt[1] ← -0.0005\n"));
-    assert!(
-        trace(&["--lines", "10", "--node", "5", "--exact"])
-            .contains("yt[1] ← -0.0004999999999999996\n")
-    );
-    for lines in ["0", "18-16", "x"] {
-        fails(
-            folder.path(),
-            &["listing", "trace", "fig1", "--lines", lines],
-            2,
-            &["such as 16-18"],
-        );
-    }
-}
-
-/// An edited listing runs on the same scene; what it changes is told. Line 18 without its slip on
-/// the sign, for example.
-#[test]
-fn trace_runs_an_edited_listing() {
-    let folder = TempDir::new().unwrap();
-    let listing = include_str!("../../listings/c_cnt.txt");
-    let edited = listing.replace("if |yt[i1]| < c_tll", "if |yt[i1]| < 5·c_tll");
-    std::fs::write(folder.path().join("edited.txt"), edited).unwrap();
-    let trace = succeeds(
-        folder.path(),
-        &["listing", "trace", "fig1", "--listing", "edited.txt", "--node", "8"],
-    );
-    assert!(trace.contains("dy[4] (node 8): 0 as printed, 1 edited"), "{trace}");
-    std::fs::write(folder.path().join("same.txt"), listing).unwrap();
-    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "same.txt"]);
-    assert!(trace.contains("The edit changes nothing on this scene."), "{trace}");
-    // Another order of the operations rounds otherwise, and changes nothing else.
-    let line_22 = "  k1 ← 1 − (node[cnt[i1],2] − node[elem[ct[i1],6],2])";
-    let rounds = listing.replace(line_22, "  k1 ← 1 + (node[elem[ct[i1],6],2] − node[cnt[i1],2])");
-    let rounds = rounds.replace("k1 + k_cnt[cnt[i1],2]", "(0.1 + k1) − 0.1 + k_cnt[cnt[i1],2]");
-    std::fs::write(folder.path().join("rounds.txt"), rounds).unwrap();
-    let trace = succeeds(folder.path(), &["listing", "trace", "fig1", "--listing", "rounds.txt"]);
-    assert!(
-        trace.contains("The edit changes nothing on this scene.\nThe edit changes the rounding")
-    );
-    std::fs::write(folder.path().join("broken.txt"), listing.replace("dy[i1] ← 0", "dy[i1 ← 0"))
-        .unwrap();
-    fails(
-        folder.path(),
-        &["listing", "trace", "fig1", "--listing", "broken.txt"],
-        2,
-        &["line 15", "column", "expected"],
-    );
-    std::fs::write(folder.path().join("stops.txt"), listing.replace("yt[i1] ← 0", "yt[i1] ← 1/0"))
-        .unwrap();
-    fails_after_output(
-        folder.path(),
-        &["listing", "trace", "fig1", "--listing", "stops.txt"],
-        2,
-        "Division by zero",
-    );
-    fails_after_output(
-        folder.path(),
-        &["listing", "trace", "fig1", "--reading", "R4=eager"],
-        3,
-        "c_cnt, line 18",
-    );
-    // C10's repair, where the listing as printed stops: the guard first.
-    let line_18 = "yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ i1 ≥ 2 ∧ ct[i1] > 0";
-    let repaired = listing.replace(line_18, "i1 ≥ 2 ∧ yt[i1] < 0 ∧ yt[i1−1] > 0 ∧ ct[i1] > 0");
-    std::fs::write(folder.path().join("repaired.txt"), repaired).unwrap();
-    let args =
-        ["listing", "trace", "fig1", "--listing", "repaired.txt", "--reading", "R4=left-to-right"];
-    assert!(
-        succeeds(folder.path(), &args).contains("The edited listing runs; as printed it fails")
-    );
-    fails(
-        folder.path(),
-        &["listing", "trace", "fig1", "--listing", "none.txt"],
-        2,
-        &["cannot be read"],
-    );
-    std::fs::write(folder.path().join("other.txt"), "f(x) :=\n  x\n").unwrap();
-    fails(
-        folder.path(),
-        &["listing", "trace", "fig1", "--listing", "other.txt"],
-        2,
-        &["neither c_cnt nor Km"],
-    );
-}
-
-/// Edits that end in something else than the paper's listing does, that ask for too much, or that are no
-/// listing: errors, no panic. `limits.rs` has one that never ends.
-#[test]
-fn trace_survives_hostile_listings() {
+fn edited_listings_that_are_wrong_are_refused() {
     let folder = TempDir::new().unwrap();
     let c_cnt = include_str!("../../listings/c_cnt.txt");
-    let traced = |text: &str| {
+    let solved = |option: &str, text: &str| {
         std::fs::write(folder.path().join("listing.txt"), text).unwrap();
-        let output =
-            run(folder.path(), &["listing", "trace", "fig1", "--listing", "listing.txt", "--json"]);
+        let args = ["solve", "fig1", "--variant", "tied", option, "listing.txt", "--no-pictures"];
+        let output = run(folder.path(), &args);
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
-    let edited = |from: &str, to: &str| traced(&c_cnt.replace(from, to));
-    let (status, error) = edited("dy[i1] ← 0\n", "dy[i1] ← 0.4\n");
-    assert!(status == Some(2) && error.contains("whole numbers"), "{status:?} {error}");
-    let (status, _) = edited("trace(ct[i1])", "trace(identity(0))");
-    assert_eq!(status, Some(0));
+    let refused = |option: &str, text: &str, words: &str| {
+        let (status, error) = solved(option, text);
+        assert!(status == Some(2) && error.contains(words), "{status:?} {error}");
+    };
+    let edited = |from: &str, to: &str| c_cnt.replace(from, to);
+    refused("--c-cnt", &edited("dy[i1] ← 0\n", "dy[i1] ← 0.4\n"), "whole numbers");
     let sum = vec!["x + 0"; 35].join(", ");
-    let (status, error) =
-        traced(&format!("c_cnt(node_n) :=\n  x[30000000] ← 1\n  a ← min({sum}, 0)\n"));
-    assert!(status == Some(2) && error.contains("limit"), "{status:?} {error}");
+    let large = format!("c_cnt(node_n) :=\n  x[30000000] ← 1\n  a ← min({sum}, 0)\n");
+    refused("--c-cnt", &large, "limit");
+    let missing = edited("ct[i1] ← 0\n", "ct[i1] ← none\n");
+    refused("--c-cnt", &missing, "none");
     for matrix in ["MJS[26,1] ← 1", "MJS[30,1] ← 1", "MJS[1,99] ← 1"] {
-        let (status, error) = traced(&format!("Km(c_cnt) :=\n  {matrix}\n  MJS\n"));
-        assert_eq!(status, Some(0), "{error}");
-        let output = run(folder.path(), &["listing", "trace", "fig1", "--listing", "listing.txt"]);
-        assert!(
-            text(&output.stdout).contains("the shape of the result"),
-            "{}",
-            text(&output.stdout)
-        );
+        refused("--km", &format!("Km(c_cnt) :=\n  {matrix}\n  MJS\n"), "MJS is ");
     }
-    for nothing in ["", "\u{feff}", "\tc_cnt"] {
-        assert_eq!(traced(nothing).0, Some(2), "{nothing:?}");
+    for nothing in ["", "\u{feff}", "\tc_cnt", "f(x) :=\n  x\n"] {
+        refused("--c-cnt", nothing, "");
     }
-    assert_eq!(traced(&format!("\u{feff}{c_cnt}")).0, Some(0));
-}
-
-/// A trace that stops shows what came before.
-#[track_caller]
-fn fails_after_output(folder: &Path, args: &[&str], status: i32, words: &str) {
-    let output = run(folder, args);
-    assert_eq!(output.status.code(), Some(status), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("contact node 5"));
-    assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
+    for runs in [edited("trace(ct[i1])", "trace(identity(0))"), format!("\u{feff}{c_cnt}")] {
+        assert_eq!(solved("--c-cnt", &runs).0, Some(0));
+    }
+    refused("--c-cnt", "Km(c_cnt) :=\n  MJS\n", "");
 }
 
 #[test]
@@ -611,7 +495,7 @@ fn audit_shows_readings_findings_and_variants() {
     fails(folder.path(), &["audit", "--claim", "P99"], 2, &["no claim", "P1, P2"]);
 }
 
-/// A scene without contact has an audit and a trace of Km; c_cnt is not called.
+/// A scene without contact has an audit.
 #[test]
 fn a_scene_without_contact_is_audited_too() {
     let folder = TempDir::new().unwrap();
@@ -625,18 +509,6 @@ fn a_scene_without_contact_is_audited_too() {
     let failed = |row: &&Value| !row["failure"].is_null();
     let rows: Vec<&Value> = audit["readings"].as_array().unwrap().iter().filter(failed).collect();
     assert_eq!(rows.iter().map(|row| &row["reading"]).collect::<Vec<_>>(), ["R9: ORIGIN = 0"]);
-    fails(folder.path(), &["listing", "trace", "plain.json"], 2, &["the scene has no contact"]);
-    fails(
-        folder.path(),
-        &["listing", "trace", "plain.json", "--listing", "Km"],
-        2,
-        &["no element has a linked node"],
-    );
-    let km = succeeds(
-        folder.path(),
-        &["listing", "trace", "plain.json", "--listing", "Km", "--node", "1"],
-    );
-    assert!(km.contains("element n = 1 of 16"), "{km}");
 }
 
 /// What depends on a reading and what does not, on a scene small enough to know.

@@ -267,7 +267,7 @@ fn no_name_of_a_scene_commands_a_terminal() {
         &["solve", "s.json", "--out", "o"][..],
         &["audit", "s.json"],
         &["solve", &name, "--out", "o"],
-        &["listing", "trace", &name, "--lines", "1-2"],
+        &["listing", "run", "c_cnt", &name],
         &["snapshot", "record", &name, "--out", "snapshot.json"],
         &["snapshot", "verify", "snapshot.json", "--scene", "fig1"],
         &["solve", "s.json", "--out", &title],

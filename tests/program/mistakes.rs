@@ -96,7 +96,7 @@ const OTHERS: &[(&str, &str, &str)] = &[
         "listing evaluate FILE --call g(1)",
     ),
     ("a snapshot that is none", "{}", "snapshot verify FILE"),
-    ("a sweep without a format", "{\"scene\": \"fig1\"}", "sweep FILE"),
+    ("a sweep without a format", "{\"scene\": \"fig1\"}", "sweep run FILE"),
     ("a worksheet that is no XML", "worksheet", "mathcad run FILE"),
 ];
 

@@ -108,17 +108,7 @@ fn c_cnt() {
         .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
 }
 
-#[test]
-fn trace() {
-    assert_text("fig1", "trace-c_cnt", &["listing", "trace", "fig1"]);
-    assert_text(
-        "fig1",
-        "trace-Km",
-        &["listing", "trace", "fig1", "--listing", "Km", "--node", "7"],
-    );
-}
-
-/// Returns the names of all commands, such as `listing trace`, by the lists on the pages of help.
+/// Returns the names of all commands, such as `listing run`, by the lists on the pages of help.
 pub fn commands() -> Vec<String> {
     let mut commands = inner(&[]);
     let mut k = 0;
@@ -206,9 +196,7 @@ fn every_command_that_a_text_names_exists() {
     let mut found = 0;
     for file in texts {
         let text = std::fs::read_to_string(&file).expect("text");
-        // The kind of a document is no command.
-        let is_command = |words: &Vec<&str>| words.first().is_some_and(|word| *word != "answers");
-        for words in named(&text).filter(is_command) {
+        for words in named(&text) {
             let is_group = |command: &String| command.starts_with(&format!("{} ", words[0]));
             let in_group = commands.iter().any(is_group);
             let name = words.iter().take(1 + usize::from(in_group)).copied().collect::<Vec<_>>();

@@ -1,17 +1,13 @@
 //! Files are read up to a limit, as a device would never end, and written beside their target and
-//! then renamed, so that no file is ever half written; those of a folder all at once.
+//! then renamed, so that no file is ever half written. There is one way in and one way out: no run
+//! writes over what it reads.
 
-mod folder;
 pub mod json;
-mod manifest;
 mod read;
-mod set;
-mod staged;
 mod write;
 
-pub use folder::Folder;
-pub use manifest::{MANIFEST, sum_of};
-pub use read::{MOST, read, read_from, read_text, read_up_to, text};
-pub use set::{check_folder, write_all};
-pub use staged::{Staged, abandon};
-pub use write::{check_file, write, write_new};
+pub use read::{MOST, names, read, read_from, read_in, read_most, text};
+pub use write::{
+    MARKDOWN, abandon, check_file, check_folder, rewrite, temporary_folder, write, write_all,
+    write_new,
+};

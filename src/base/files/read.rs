@@ -1,46 +1,52 @@
-//! Files and pipes that the user named, read whole up to a limit: a device would never end.
+//! Files and pipes that the user named, and files that stand beside them, read up to a limit.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
+use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// The bytes of a text that is read whole.
 pub const MOST: u64 = 1 << 28;
 
-/// What was read of pipes (`<(...)`), which give it once.
-static PIPES: Mutex<BTreeMap<PathBuf, Vec<u8>>> = Mutex::new(BTreeMap::new());
+/// What this process has opened to read, without links on the way.
+static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Reads a text of up to 268 MB, of a pipe as often as it is asked for.
-///
-/// # Errors
-/// The file cannot be read, or is longer.
-pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    if path.is_file() {
-        return read_from(std::fs::File::open(path)?);
-    }
-    let mut pipes = PIPES.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = pipes.get(path) {
-        return Ok(known.clone());
-    }
-    let text = read_from(std::fs::File::open(path)?)?;
-    pipes.insert(path.into(), text.clone());
-    Ok(text)
+/// Returns whether this process has read the file at `path`.
+pub(super) fn is_input(path: &Path) -> bool {
+    let inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
+    path.canonicalize().is_ok_and(|path| inputs.contains(&path))
 }
 
-/// Reads up to 268 MB to their end.
+fn open(path: &Path) -> io::Result<File> {
+    let file = File::open(path)?;
+    if let Ok(path) = path.canonicalize() {
+        INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+    }
+    Ok(file)
+}
+
+/// Reads a file or a pipe of up to 268 MB.
 ///
 /// # Errors
-/// They cannot be read, or there are more.
-pub fn read_from(source: impl Read) -> io::Result<Vec<u8>> {
-    read_up_to(source, MOST)
+/// It cannot be read, or is longer.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    read_most(path, MOST)
+}
+
+/// Reads a file or a pipe of up to `most` bytes.
+///
+/// # Errors
+/// It cannot be read, or is longer.
+pub fn read_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    read_from(open(path)?, most)
 }
 
 /// Reads up to `most` bytes to their end.
 ///
 /// # Errors
 /// They cannot be read, or there are more.
-pub fn read_up_to(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
+pub fn read_from(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
@@ -50,12 +56,43 @@ pub fn read_up_to(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a text in UTF-8 of up to 268 MB.
+/// Reads an ordinary file of up to `most` bytes that another file names, in `folder` or below; the current
+/// one where that is empty. A pipe would wait, and a device would never end.
 ///
 /// # Errors
-/// The file cannot be read, is longer, or is not in UTF-8, with the line where it is not.
-pub fn read_text(path: &Path) -> io::Result<String> {
-    text(read(path)?)
+/// The name leads out of the folder, be it absolute, by `..` or through a link, or to no ordinary
+/// file, or the file may not be read or is longer.
+pub fn read_in(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let folder = folder.canonicalize()?;
+    let path = match name.components().all(is_plain) {
+        true => folder.join(name).canonicalize()?,
+        false => PathBuf::new(),
+    };
+    if !path.starts_with(&folder) {
+        let why = "the name leads out of the folder";
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+    }
+    if !path.metadata()?.is_file() {
+        return Err(io::Error::other("it is no ordinary file"));
+    }
+    read_from(open(&path)?, most)
+}
+
+/// Returns the names in `folder` that end in `.extension`, sorted; a name that is no text is left out.
+///
+/// # Errors
+/// The folder may not be read.
+pub fn names(folder: &Path, extension: &str) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in folder.read_dir()? {
+        let name = entry?.file_name();
+        let is_wanted = Path::new(&name).extension().is_some_and(|found| found == extension);
+        names.extend(name.into_string().ok().filter(|_| is_wanted));
+    }
+    names.sort();
+    Ok(names)
 }
 
 /// Returns a text in UTF-8.

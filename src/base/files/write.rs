@@ -1,41 +1,80 @@
-//! Files that the user named, written beside their place and then moved there.
+//! The one way in which files are written: beside their target, and then renamed.
+//!
+//! No link is followed, no device is written to, and what the run has read is not replaced. A file that
+//! the user named is replaced. Of a folder only what is the program's own is replaced: where the last
+//! of the files, the *mark* of the folder, is already there and was written by this program.
 
-use std::io;
-use std::path::Path;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::TempPath;
+use tempfile::{Builder, TempDir, TempPath};
 
-use super::staged::{Staged, registry};
+use super::json::is_from_program;
+use super::read::{is_input, read_from};
 use crate::error::{InputError, Result};
 
-/// Writes `content` to `path`, and creates its folder where it is missing. A link is followed; a
-/// target that is no ordinary file (a pipe, a device) is written directly.
+/// How the name of everything temporary begins.
+const PREFIX: &str = ".plane-contact-";
+
+/// The first bytes of a file that tell whether this program wrote it.
+const HEAD: u64 = 256;
+
+/// How often something temporary is removed that another program is still writing.
+const TRIES: usize = 100;
+
+/// What begins a page of Markdown that marks a folder; no reader shows it.
+pub const MARKDOWN: &str = "<!-- plane-contact -->\n";
+
+/// The temporary files and folders of this process.
+static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Returns the list of what is temporary; a signal waits for who holds it.
+fn temporary() -> MutexGuard<'static, Vec<PathBuf>> {
+    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what is temporary and does `last`, which ends the process.
+pub fn abandon(last: impl FnOnce()) {
+    let temporary = temporary();
+    for path in temporary.iter() {
+        let is_left = |_: &usize| {
+            let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
+            path.exists()
+        };
+        let _ = (0..TRIES).take_while(is_left).count();
+    }
+    last();
+}
+
+/// Makes a temporary folder for another program.
 ///
 /// # Errors
-/// The folder or the file cannot be written; an existing file keeps its content.
+/// The system's folder for them cannot be written.
+pub fn temporary_folder() -> io::Result<TempDir> {
+    let mut temporary = temporary();
+    let folder = Builder::new().prefix(PREFIX).tempdir()?;
+    temporary.push(folder.path().into());
+    Ok(folder)
+}
+
+/// Writes `content` to a file that the user named, and creates its folder where it is missing.
+///
+/// # Errors
+/// There is a link, a device, a folder or a file that this run reads, or the file cannot be written; an
+/// existing file keeps its content.
 pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
-    let content = content.as_ref();
-    let written = match std::fs::canonicalize(path) {
-        Ok(there) if !there.is_file() && !there.is_dir() => std::fs::write(there, content),
-        Ok(there) => put(&there, content, replace),
-        Err(_) => put(path, content, replace),
-    };
-    written.map_err(|why| {
-        let place = path.display().to_string();
-        InputError::new(place, format!("the file cannot be written: {why}"), "choose another place")
-    })
+    let written = is_there(path).and_then(|_| put(vec![staged(path, content.as_ref())?]));
+    written.map_err(|why| unwritable(path, &why))
 }
 
 /// Checks that a file can be written to `path`, before its content is computed.
 ///
 /// # Errors
-/// A folder is in its place.
+/// There is a link, a device, a folder, or a file that this run reads.
 pub fn check_file(path: &Path) -> Result<()> {
-    if !path.is_dir() {
-        return Ok(());
-    }
-    let what = "the file cannot be written: it is a folder";
-    Err(InputError::new(path.display().to_string(), what, "name a file"))
+    is_there(path).map(drop).map_err(|why| unwritable(path, &why))
 }
 
 /// Writes `content` to a new file at `path`, and creates its folder where it is missing.
@@ -43,34 +82,169 @@ pub fn check_file(path: &Path) -> Result<()> {
 /// # Errors
 /// There is a file, or it cannot be written.
 pub fn write_new(path: &Path, content: &str) -> io::Result<()> {
-    put(path, content.as_bytes(), |from, to| {
-        Ok(TempPath::try_from_path(from)?.persist_noclobber(to)?)
-    })
+    let (staged, target) = staged(path, content.as_bytes())?;
+    let _undisturbed = temporary();
+    Ok(staged.persist_noclobber(target)?)
 }
 
-fn replace(from: &Path, to: &Path) -> io::Result<()> {
-    std::fs::rename(from, to)
+/// Writes `content` in place of what this run read from `path`, `was`.
+///
+/// # Errors
+/// There is a link or a device, the file was changed since it was read, or it cannot be written.
+pub fn rewrite(path: &Path, was: &[u8], content: &str) -> Result<()> {
+    let write = || {
+        ordinary(path)?;
+        let staged = staged(path, content.as_bytes())?;
+        // Of several processes only one compares and replaces; a file system may have no locks.
+        let there = fs::File::open(path)?;
+        let _ = there.lock();
+        match is_same(path, was)? {
+            true => put(vec![staged]),
+            false => Err(io::Error::other("it was changed since it was read")),
+        }
+    };
+    write().map_err(|why| InputError { fix: "run it again".into(), ..unwritable(path, &why) })
 }
 
-/// Writes a file in a temporary folder beside `path`, and moves it there by `rename`.
-fn put(
-    path: &Path,
-    content: &[u8],
-    rename: impl Fn(&Path, &Path) -> io::Result<()>,
-) -> io::Result<()> {
-    const NAME: &str = "file";
-    let folder = folder_of(path);
-    std::fs::create_dir_all(folder)?;
-    let staged = Staged::new(folder)?;
-    staged.write(NAME, content)?;
-    let _undisturbed = registry();
-    rename(&staged.path().join(NAME), path)
+/// Writes files by their names in `folder`; the last, which marks the folder as this program's, last. All
+/// other files there are left alone.
+///
+/// # Errors
+/// Those of [`check_folder`], before anything is written; or a file cannot be written.
+pub fn write_all<N: AsRef<str>, C: AsRef<[u8]>>(folder: &Path, files: &[(N, C)]) -> Result<()> {
+    let write = || {
+        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_ref()).collect();
+        let foreign = foreign(folder, &names)?;
+        for (name, content) in files {
+            let (name, content) = (name.as_ref(), content.as_ref());
+            if foreign.contains(&name) && !is_same(&folder.join(name), content)? {
+                return Err(in_the_way(name, &names));
+            }
+        }
+        let new = files.iter().filter(|(name, _)| !foreign.contains(&name.as_ref()));
+        let staged =
+            new.map(|(name, content)| staged(&folder.join(name.as_ref()), content.as_ref()));
+        put(staged.collect::<io::Result<_>>()?)
+    };
+    write().map_err(|why| no_folder(folder, &why))
 }
 
-/// Returns the folder in which `path` lies.
-pub(super) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
+/// Checks that files of these names can be written to `folder`, before they are computed; the last is
+/// the mark of the folder.
+///
+/// # Errors
+/// Says which file is in place of the folder, or is in it and would be lost: a link, a device, a file that
+/// this run reads, or any file where the mark is not there or not from this program.
+pub fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
+    let checked = foreign(folder, names).and_then(|foreign| match foreign.first() {
+        Some(name) => Err(in_the_way(name, names)),
+        None => Ok(()),
+    });
+    checked.map_err(|why| no_folder(folder, &why))
+}
+
+/// Returns those of the names whose files are in `folder` already and are not known to be from this
+/// program.
+fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
+    if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
+        let why = format!("{} is a file", file.display());
+        return Err(io::Error::new(io::ErrorKind::NotADirectory, why));
+    }
+    let mut there = Vec::new();
+    for name in names {
+        let place =
+            |why: io::Error| io::Error::new(why.kind(), format!("{name} is in the way: {why}"));
+        let ways = Path::new(name).ancestors().skip(1);
+        if ways.into_iter().any(|way| way != Path::new("") && folder.join(way).is_symlink()) {
+            return Err(place(io::Error::other("a folder on its way is a link")));
+        }
+        if is_there(&folder.join(name)).map_err(place)? {
+            there.push(*name);
+        }
+    }
+    let mark = names.last().filter(|mark| there.contains(mark));
+    let is_ours = mark.is_some_and(|mark| is_mark(&folder.join(mark)).unwrap_or(false));
+    Ok(if is_ours { Vec::new() } else { there })
+}
+
+/// Returns whether this program wrote the file, which marks a folder.
+fn is_mark(path: &Path) -> io::Result<bool> {
+    let head = read_from(io::Read::take(fs::File::open(path)?, HEAD), HEAD)?;
+    Ok(is_from_program(&head) || head.starts_with(MARKDOWN.as_bytes()))
+}
+
+fn in_the_way(name: &str, names: &[&str]) -> io::Error {
+    let mark = names.last().unwrap_or(&name);
+    io::Error::other(format!(
+        "{name} is in the way: {mark} does not tell that it is from this program"
+    ))
+}
+
+/// Returns whether there is a file at `path`, which may be replaced.
+fn is_there(path: &Path) -> io::Result<bool> {
+    let is_there = ordinary(path)?;
+    if is_there && is_input(path) {
+        return Err(io::Error::other("this run reads it"));
+    }
+    Ok(is_there)
+}
+
+/// Returns whether there is a file at `path`; nothing but an ordinary one may be there.
+fn ordinary(path: &Path) -> io::Result<bool> {
+    let there = match fs::symlink_metadata(path) {
+        Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(false),
+        there => there?.file_type(),
+    };
+    match () {
+        () if there.is_file() => Ok(true),
+        () if there.is_dir() => Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")),
+        () if there.is_symlink() => Err(io::Error::other("it is a link")),
+        () => Err(io::Error::other("it is no ordinary file")),
+    }
+}
+
+/// Returns whether a file has this content.
+fn is_same(path: &Path, content: &[u8]) -> io::Result<bool> {
+    let is_as_long = fs::metadata(path)?.len() == content.len() as u64;
+    Ok(is_as_long && fs::read(path)? == content)
+}
+
+/// Writes a temporary file beside `target`, with the permissions and the errors of other files: those
+/// that tempfile makes are the owner's alone, and its errors hold names that no two runs share.
+fn staged(target: &Path, content: &[u8]) -> io::Result<(TempPath, PathBuf)> {
+    let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
+    };
+    fs::create_dir_all(folder)?;
+    let mut file = {
+        let mut temporary = temporary();
+        let create = |path: &Path| OpenOptions::new().write(true).create_new(true).open(path);
+        let file = Builder::new().prefix(PREFIX).make_in(folder, create)?;
+        temporary.push(file.path().into());
+        file
+    };
+    file.as_file_mut().write_all(content)?;
+    Ok((file.into_temp_path(), target.into()))
+}
+
+/// Renames temporary files to their targets, in their order, undisturbed by a signal.
+fn put(files: Vec<(TempPath, PathBuf)>) -> io::Result<()> {
+    let mut temporary = temporary();
+    for (file, target) in files {
+        temporary.retain(|path| **path != *file);
+        file.persist(target)?;
     }
+    Ok(())
+}
+
+fn unwritable(path: &Path, why: &io::Error) -> InputError {
+    let what = format!("the file cannot be written: {why}");
+    InputError::new(path.display().to_string(), what, "choose another place")
+}
+
+fn no_folder(folder: &Path, why: &io::Error) -> InputError {
+    let what = format!("the folder cannot be written: {why}");
+    let fix = "choose another place, or move what is in the way";
+    InputError::new(folder.display().to_string(), what, fix)
 }

@@ -92,7 +92,7 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
     if args.json {
         return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
     }
-    args.tables.print("listing run c_cnt", tables::pairs(&scene, &model, &reading, &call))
+    args.tables.print(tables::pairs(&scene, &model, &reading, &call))
 }
 
 fn km(args: &KmArgs) -> Result<()> {

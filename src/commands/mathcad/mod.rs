@@ -1,22 +1,19 @@
 //! `plane-contact mathcad`.
 
 mod export;
-mod probe;
-pub mod run;
+mod run;
 
 use plane_contact::engine::error::Result;
 
-/// Run a worksheet of Mathcad, export a scene to one, or ask Mathcad.
+/// Run a worksheet of Mathcad, or export a scene to one.
 #[derive(clap::Subcommand)]
 #[command(after_help = "\
 Examples:
   plane-contact mathcad run worksheet.xmcd
-  plane-contact mathcad export fig1 --out fig1.xmcd
-  plane-contact mathcad probe --out probe.xmcd")]
+  plane-contact mathcad export fig1 --out fig1.xmcd")]
 pub enum Command {
     Run(run::Args),
     Export(export::Args),
-    Probe(probe::Args),
 }
 
 /// Runs the command; returns the exit status.
@@ -24,6 +21,5 @@ pub fn run(command: &Command) -> Result<u8> {
     match command {
         Command::Run(args) => run::run(args),
         Command::Export(args) => export::run(args).map(|()| 0),
-        Command::Probe(args) => probe::run(args).map(|()| 0),
     }
 }

@@ -1,6 +1,5 @@
 //! `plane-contact mathcad run`.
 
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +9,6 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::mathcad::worksheet::{self, Verdict};
 use plane_contact::mathcad::{Limits, xmcd::document};
-use plane_contact::report::exports::probe;
 use plane_contact::report::worksheet as report;
 
 use crate::commands::{print_either, progress};
@@ -53,16 +51,15 @@ pub fn run(args: &Args) -> Result<u8> {
         bar.set_position(done as u64);
     });
     bar.finish_and_clear();
-    let decided = probe::decided(&sheet, &checked);
-    let json = || report::json(&args.file.display().to_string(), &checked, &decided);
-    print_either(args.json, json, || report::report(&checked, &decided))?;
+    let json = || report::json(&args.file.display().to_string(), &checked);
+    print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
     let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. }));
     Ok(u8::from(differs || !some(Verdict::agrees)))
 }
 
 /// Reads a worksheet's file.
-pub fn open(file: &Path) -> Result<document::Worksheet, InputError> {
+fn open(file: &Path) -> Result<document::Worksheet, InputError> {
     let place = file.display().to_string();
     let text = read_text(file).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
@@ -72,17 +69,17 @@ pub fn open(file: &Path) -> Result<document::Worksheet, InputError> {
 }
 
 /// Reads the text of a worksheet, packed or not.
-pub fn read_text(file: &Path) -> io::Result<String> {
+fn read_text(file: &Path) -> io::Result<String> {
     let most = document::LARGEST as u64;
-    let bytes = files::read_up_to(File::open(file)?, most)?;
+    let bytes = files::read_most(file, most)?;
     let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
-        true => files::read_up_to(GzDecoder::new(&*bytes), most)?,
+        true => files::read_from(GzDecoder::new(&*bytes), most)?,
         false => bytes,
     };
     files::text(bytes)
 }
 
 /// The limits of a region: arrays that are spelled out make long lines.
-pub fn limits() -> Limits {
+fn limits() -> Limits {
     Limits { lines: 10_000, characters: 1 << 20, entries: 1 << 22, ..Limits::default() }
 }

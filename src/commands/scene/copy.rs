@@ -36,7 +36,7 @@ pub fn run(args: &Args) -> Result<()> {
     }
     let mut written = scene.files.to_vec();
     written.push(("scene.json", scene.scene));
-    files::write_all(&folder, "scene copy", &written)?;
+    files::write_all(&folder, &written)?;
     let folder = folder.display();
     print_fitted(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
 }

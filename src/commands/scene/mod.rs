@@ -2,7 +2,6 @@
 
 mod copy;
 mod export;
-mod key;
 mod list;
 mod mesh;
 mod plan;
@@ -10,7 +9,7 @@ mod schema;
 
 use plane_contact::engine::error::Result;
 
-/// List, copy, mesh, plan, or export a scene, or print its key or the schema of scene files.
+/// List, copy, mesh, plan, or export a scene, or print the schema of scene files.
 #[derive(clap::Subcommand)]
 #[command(after_help = "\
 Examples:
@@ -25,7 +24,6 @@ pub enum Command {
     Mesh(mesh::Args),
     Plan(plan::Args),
     Export(export::Args),
-    Key(key::Args),
     Schema(schema::Args),
 }
 
@@ -37,7 +35,6 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Mesh(args) => mesh::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Export(args) => export::run(args),
-        Command::Key(args) => key::run(args),
         Command::Schema(_) => schema::run(),
     }
 }

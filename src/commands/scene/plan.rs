@@ -40,5 +40,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print("scene plan", report::report(&plan, &scene.units, memory::free()))
+    args.tables.print(report::report(&plan, &scene.units, memory::free()))
 }

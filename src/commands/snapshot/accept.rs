@@ -4,51 +4,41 @@ use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::files;
-use plane_contact::report::snapshot as report;
-use plane_contact::studies::snapshot::{Chosen, accept};
+use plane_contact::problem::scene::Scene;
+use plane_contact::report::snapshot::{self as report, VerifiedFile};
+use plane_contact::studies::snapshot::{accept, difference};
 
-use super::verify::verify_one;
-use crate::commands::print_report;
+use super::verify::snapshot_of;
+use crate::commands::{print_report, waiting, within};
 
-/// Take new values into a snapshot, with a reason.
+/// Record a snapshot again, and print what changed.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Runs the snapshot again, takes what differs, and adds to the log in the snapshot: what, from, to, by
-how much in units of its bound, the reason, the version of the program; a short summary is
-printed. Nothing is taken where a run fails that did not, unless --failing says that it should.
+Its runs, what is recorded of each, and its tolerances stay. What changed is printed as verify prints
+it; see it before by verify.
 
 Examples:
-  plane-contact snapshot accept out/fig1.snapshot.json --reason \"the load was doubled\"
-  plane-contact snapshot accept my/snapshot.json --dry-run --reason \"not yet\"
-  plane-contact snapshot accept my/snapshot.json --entry stepped/u --reason \"a finer solver\"
-  plane-contact snapshot accept my/snapshot.json --scene my/scene.json --reason \"a stiffer block\"")]
+  plane-contact snapshot accept out/fig1.snapshot.json
+  plane-contact snapshot accept my/snapshot.json --scene my/scene.json    the scene as it is today")]
 pub struct Args {
     /// A snapshot.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The run, or the run and the entry, that is taken: stepped, stepped/u [default: all].
-    #[arg(long, value_name = "E")]
-    entry: Option<String>,
-    /// Why the new values are right.
-    #[arg(long, value_name = "TEXT")]
-    reason: String,
-    /// Take a run that fails where it did not, or fails otherwise.
-    #[arg(long)]
-    failing: bool,
-    /// Print what would be taken, and leave the file as it is.
-    #[arg(long)]
-    dry_run: bool,
-    /// Run this scene in place of the one in the snapshot, and take it too.
+    /// Record this scene in place of the one in the snapshot.
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let (mut snapshot, verified) = verify_one(&args.file, args.scene.as_deref())?;
-    let (entry, reason, failing) = (args.entry.as_deref(), &args.reason[..], args.failing);
-    let accepted = accept(&mut snapshot, &verified, Chosen { entry, reason, failing })?;
-    if !args.dry_run {
-        files::write(&args.file, &report::file(&snapshot))?;
-    }
-    print_report(report::accepted(&accepted))
+    let file = args.file.display().to_string();
+    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let text = files::read(&args.file);
+    // What cannot be read is named below.
+    let was = text.as_ref().ok().cloned().unwrap_or_default();
+    let old = snapshot_of(&args.file, text)?;
+    let new = waiting("recording", || accept(&old, scene.as_ref()));
+    let new = new.map_err(|error| within(error, &file))?;
+    files::rewrite(&args.file, &was, &report::file(&new))?;
+    let verified = Ok(difference(&old, &new));
+    print_report(report::report(&[VerifiedFile { file, verified }]))
 }

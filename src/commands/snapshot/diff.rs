@@ -1,14 +1,14 @@
 //! `plane-contact snapshot diff`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
-use plane_contact::files::{self, json};
+use plane_contact::files::json;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::{Scene, SceneFile};
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
 
@@ -19,7 +19,7 @@ use crate::commands::{print_either, report_written, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two
-values, one for each run. A difference is explained as verify does it.
+values, one for each run. A difference is told as verify tells it.
 
 Examples:
   plane-contact snapshot diff strand --variant stepped,tied
@@ -91,12 +91,12 @@ fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run,
 
 /// Reads a snapshot, or runs a scene.
 fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
-    // It is read once: a snapshot may come through a pipe.
-    let text = files::read(Path::new(name)).unwrap_or_default();
-    if json::has_field(&text, "format") {
-        return Ok(Snapshot::read(&text).map_err(|error| error.within(name))?);
+    // It is read once: it may come through a pipe.
+    let file = SceneFile::read(name)?;
+    if json::has_field(&file.text, "format") {
+        return Ok(Snapshot::read(&file.text).map_err(|error| error.within(name))?);
     }
-    let scene = Scene::open(name)?;
+    let scene = Scene::of_file(&file)?;
     let mut request = plane_contact::engine::Request::new(&scene);
     request.variant = of_side(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
     request.reading = of_side(&args.reading, side, "--reading")?.unwrap_or_default();

@@ -1,27 +1,23 @@
 //! `plane-contact snapshot`.
 
 mod accept;
-mod answers;
 mod diff;
-mod explain;
 mod record;
 mod verify;
 
 use plane_contact::engine::error::Result;
 
-/// Record, verify, explain, diff, or accept what a scene gives.
+/// Record, verify, diff, or accept what a scene gives.
 #[derive(clap::Subcommand)]
 #[command(after_help = "\
 Examples:
   plane-contact snapshot record fig1
   plane-contact snapshot verify out/fig1.snapshot.json
-  plane-contact snapshot explain my/snapshot.json --scene my/scene.json
   plane-contact snapshot diff fig1 --variant tied,stepped
-  plane-contact snapshot accept my/snapshot.json --reason \"the load was doubled\"")]
+  plane-contact snapshot accept my/snapshot.json")]
 pub enum Command {
     Record(record::Args),
     Verify(verify::Args),
-    Explain(explain::Args),
     Diff(diff::Args),
     Accept(accept::Args),
 }
@@ -31,7 +27,6 @@ pub fn run(command: &Command) -> Result<u8> {
     match command {
         Command::Record(args) => record::run(args).map(|()| 0),
         Command::Verify(args) => verify::run(args),
-        Command::Explain(args) => explain::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Accept(args) => accept::run(args).map(|()| 0),
     }

@@ -86,12 +86,9 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Writes a snapshot; an existing file with another content is kept. What is no ordinary file (a
-/// pipe, a device) has no content.
+/// Writes a snapshot; an existing file with another content is kept.
 fn write_new(file: &Path, text: &str) -> Result<()> {
-    if file.exists() && !file.is_file() {
-        return Ok(files::write(file, text)?);
-    }
+    files::check_file(file)?;
     let place = file.display().to_string();
     if let Err(why) = files::write_new(file, text) {
         if why.kind() != io::ErrorKind::AlreadyExists {

@@ -8,10 +8,9 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
-use plane_contact::studies::snapshot::{self, Snapshot, Verified};
+use plane_contact::studies::snapshot::{self, Snapshot};
 
-use super::answers;
-use crate::commands::{TablesArgs, print_either, progress, report_error, waiting, within};
+use crate::commands::{print_either, progress, report_error, within};
 
 /// The exit status where what was compared differs, or nothing was compared.
 pub const DIFFERS: u8 = 1;
@@ -21,20 +20,16 @@ pub const DIFFERS: u8 = 1;
 #[command(after_help = "\
 Facts and units are the same or not; numbers agree within the bounds on both runs' rounding errors, or
 within the tolerance that the snapshot gives. What is new or missing and other lengths are differences.
-A difference is explained: its first cause, and how that is known. The exit status also tells a
-difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
+Of a difference it says what went in and differs too, where the runs first differ, and the printed
+condition that gave the first status that differs. The exit status also tells a difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
 all the same.
-
-Files that the page of an exercise saved (`lesson --exercise`) are marked: each student's score, how
-many answers to each question are right, and what the others should be.
 
 Examples:
   plane-contact snapshot verify out/fig1.snapshot.json
   plane-contact snapshot verify my/*.json --junit verify.xml --report summary.markdown
-  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today
-  plane-contact snapshot verify answers/*.json --csv marks                a class")]
+  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
 pub struct Args {
-    /// Snapshots; or answers to exercises.
+    /// Snapshots.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Run this scene in place of the one in the snapshot.
@@ -43,8 +38,6 @@ pub struct Args {
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
-    #[command(flatten)]
-    tables: TablesArgs,
     /// Write a file of JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -54,14 +47,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<u8> {
-    // Each is read once: it may be a pipe.
-    let texts: Vec<_> = args.files.iter().map(|file| files::read(file)).collect();
-    if texts.iter().flatten().any(|text| answers::are_in(text)) {
-        return answers::verify(&args.files, texts, args.json, &args.tables);
-    }
-    args.tables.refuse("snapshots have no table; answers to exercises do")?;
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let snapshots = args.files.iter().zip(texts).map(|(file, text)| snapshot_of(file, text));
+    let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
     let checked = check(&args.files, snapshots.collect(), scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
@@ -74,7 +61,7 @@ pub fn run(args: &Args) -> Result<u8> {
 
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
-pub fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
+fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
     print_either(json, || report::json(checked), || report::report(checked))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
     let statuses: Vec<u8> = failures.map(report_error).collect();
@@ -82,17 +69,8 @@ pub fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
     Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
 }
 
-/// Reads a snapshot and runs it again, on `scene` where that is given.
-pub fn verify_one(file: &Path, scene: Option<&str>) -> Result<(Snapshot, Verified)> {
-    let scene = scene.map(Scene::open).transpose()?;
-    let snapshot = snapshot_of(file, files::read(file))?;
-    let verified = waiting("verifying", || snapshot::verify(&snapshot, scene.as_ref(), &|| ()));
-    let verified = verified.map_err(|error| within(error, &file.display().to_string()))?;
-    Ok((snapshot, verified))
-}
-
 /// Reads the snapshot in the text of a file.
-fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
+pub fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
     let place = file.display().to_string();
     let text = text.map_err(|why| {
         let what = format!("the snapshot cannot be read: {why}");

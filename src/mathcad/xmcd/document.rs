@@ -38,20 +38,6 @@ pub struct Region {
     pub saved: Option<Saved>,
 }
 
-impl Region {
-    /// Returns the text of the listing that a region is: a function, or a program, which is a function
-    /// without parameters.
-    pub fn listing(&self) -> Option<String> {
-        match &self.content {
-            Content::Function { text, .. } => Some(text.clone()),
-            Content::Definition { name, lines, is_program: true, .. } => {
-                Some(format!("{name}() :=\n  {}\n", lines.join("\n  ")))
-            }
-            _ => None,
-        }
-    }
-}
-
 /// What a region says, in the text notation.
 #[derive(Clone, Debug)]
 #[expect(missing_docs, reason = "what is said of each names its fields")]
@@ -62,13 +48,7 @@ pub enum Content {
     Function { name: String, text: String },
     /// `target := value`: the name, the target if it has subscripts, and the lines of the value, which
     /// may be a program.
-    Definition {
-        name: String,
-        entry: Option<String>,
-        lines: Vec<String>,
-        is_program: bool,
-        global: bool,
-    },
+    Definition { name: String, entry: Option<String>, lines: Vec<String>, global: bool },
     /// `name :=` an array of numbers.
     Table { name: String, value: Value },
     /// `name := from, second .. to`.
@@ -282,8 +262,7 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
             if let Some(value) = table(right).filter(|_| !global) {
                 return Ok(Content::Table { name, value });
             }
-            let is_program = right.tag() == "program";
-            Ok(Content::Definition { name, entry: None, lines: lines(0)?, is_program, global })
+            Ok(Content::Definition { name, entry: None, lines: lines(0)?, global })
         }
         "apply" => {
             if right.tag() == "program" {
@@ -291,7 +270,7 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
             }
             let name = read::name(left.part(1)?)?;
             let entry = Some(read::target(left)?);
-            Ok(Content::Definition { name, entry, lines: lines(0)?, is_program: false, global })
+            Ok(Content::Definition { name, entry, lines: lines(0)?, global })
         }
         "matrix" => Err(Unsupported("a definition of several names at once".into())),
         _ => Err(read::unsupported(left)),

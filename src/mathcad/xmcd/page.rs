@@ -107,13 +107,3 @@ impl Page {
             .replace("{regions}", &regions)
     }
 }
-
-/// Writes listings as a worksheet, with `ORIGIN` 1.
-pub fn listings(listings: &[Listing]) -> String {
-    let mut page = Page::default();
-    for listing in listings {
-        page.program(listing);
-    }
-    let names: Vec<_> = listings.iter().map(Listing::function).collect();
-    page.finish(&names.join(", "), &Settings::default())
-}

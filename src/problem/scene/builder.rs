@@ -183,6 +183,6 @@ impl SceneBuilder {
         let mesh_file = format!("{}.msh", self.name);
         let mesh = gmsh::write(&self.mesh);
         let scene = file::write(&self.description, &mesh_file);
-        files::write_all(folder, "mesh", &[(&*mesh_file, mesh), ("scene.json", scene)])
+        files::write_all(folder, &[(&*mesh_file, mesh), ("scene.json", scene)])
     }
 }

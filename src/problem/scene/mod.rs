@@ -36,7 +36,7 @@ pub use description::{
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use groups::GroupRef;
 use groups::Groups;
-pub use hashes::{sha256, source_hashes};
+pub use hashes::{sha256, sha256_of, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use base::error::{InputError, Result};
-use base::files::{self, Folder};
+use base::files;
 use base::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -38,7 +38,7 @@ impl SceneFile {
             return Ok(embedded);
         }
         if name_or_path == "-" {
-            let text = files::read_from(std::io::stdin()).map_err(|why| {
+            let text = files::read_from(std::io::stdin(), files::MOST).map_err(|why| {
                 let what = format!("the scene cannot be read: {why}");
                 InputError::new("standard input", what, "direct a scene file to it")
             })?;
@@ -63,7 +63,7 @@ impl SceneFile {
         let name = Path::new(name_or_path);
         let is_folder = folder.join(name).is_dir();
         let name = if is_folder { name.join("scene.json") } else { name.into() };
-        let text = Folder::open(folder).and_then(|folder| folder.read(&name, files::MOST));
+        let text = files::read_in(folder, &name, files::MOST);
         Self::from_read(&folder.join(name), text, name_or_path)
     }
 
@@ -110,7 +110,7 @@ impl SceneFile {
                 found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(|| "not embedded".to_string())
             }
             Files::Folder(folder, _) => {
-                let read = Folder::open(folder).and_then(|folder| folder.read(file, files::MOST));
+                let read = files::read_in(folder, Path::new(file), files::MOST);
                 read.map_err(|why| why.to_string())
             }
         }

@@ -51,7 +51,6 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let json = document(compared, &nodes, &elements);
     write_all(
         folder,
-        "compare",
         &[
             ("nodes.csv", &nodes_csv(&nodes)),
             ("elements.csv", &elements_csv(&elements)),

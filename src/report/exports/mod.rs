@@ -3,7 +3,6 @@
 
 pub mod mathcad;
 pub mod octave;
-pub mod probe;
 
 use ::mathcad::array::Table;
 use paper::corrected::Bound;

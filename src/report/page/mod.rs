@@ -4,7 +4,6 @@
 //! `textContent` alone: nothing that a scene or a listing says is ever read as HTML. The script is
 //! the files of a folder one behind the other, in one scope.
 
-pub mod exercise;
 pub mod lesson;
 pub mod report;
 

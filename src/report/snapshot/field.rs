@@ -1,7 +1,9 @@
 //! The field of a difference: the displacements of a run less those that were recorded.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::json;
 use crate::picture::{self, Drawing, Field};
 use crate::quantities::Array;
 use crate::vtu;
@@ -11,7 +13,7 @@ use problem::scene::Scene;
 use studies::snapshot::Run;
 
 /// Writes `difference.vtu` and `difference.svg` to `folder`: the displacements of `new` less those of
-/// `old`, by node. Returns false, and writes nothing, where the two have other nodes or none.
+/// `old`, by node; and `difference.json`, which names the scene. Returns false, and writes nothing, where the two have other nodes or none.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -42,7 +44,12 @@ pub fn difference_files(folder: &Path, scene: &Scene, [old, new]: [&Run; 2]) -> 
         [Array::new("difference", unit, 2, difference), Array::new("displacement", unit, 2, is)];
     let vtu = vtu::document(&[], &drawing.points, &drawing.triangles, &points, &[]);
     let picture = picture::field(&drawing, &field);
-    let files = [("difference.svg", picture.as_bytes()), ("difference.vtu", &vtu)];
-    files::write_all(folder, "diff", &files)?;
+    let mark = json::line(Some(scene), &BTreeMap::from([("scene", &scene.name)]));
+    let files = [
+        ("difference.svg", picture.as_bytes()),
+        ("difference.vtu", &vtu),
+        ("difference.json", mark.as_bytes()),
+    ];
+    files::write_all(folder, &files)?;
     Ok(true)
 }

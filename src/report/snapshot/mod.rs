@@ -6,7 +6,6 @@ mod words;
 use serde::Serialize;
 
 pub use field::difference_files;
-pub use words::{difference, explanation};
 
 use super::failure::Failure;
 use super::json::{self, OnScene, pretty};
@@ -14,9 +13,7 @@ use super::layout::{counted, first_line};
 use super::model::Report;
 use base::xml::Element;
 use engine::error::Error;
-use studies::snapshot::{
-    Acceptance, Difference, Explanation, Presence, Snapshot, Verified, VerifiedRun,
-};
+use studies::snapshot::{Change, Difference, First, Presence, Snapshot, Verified, VerifiedRun};
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct VerifiedFile {
@@ -77,7 +74,7 @@ fn verdict(run: &VerifiedRun) -> String {
     }
 }
 
-/// Reports what verifying found: file by file its runs, and why they differ and in what.
+/// Reports what verifying found: file by file its runs, and in what they differ.
 pub fn report(checked: &[VerifiedFile]) -> Report {
     checked.iter().fold(Report::default(), |report, VerifiedFile { file, verified }| match verified
     {
@@ -106,13 +103,9 @@ fn outcome(verified: &Verified) -> String {
     }
 }
 
-/// Returns why a run differs and in what; no text where it does not.
+/// Returns in what a run differs.
 fn run_words(run: &VerifiedRun) -> String {
-    if run.differences.is_empty() {
-        return String::new();
-    }
-    let why = run.explanation.as_ref().map(explanation).unwrap_or_default();
-    why + &words::summary(&run.differences)
+    words::first(run) + &words::summary(&run.differences)
 }
 
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
@@ -187,8 +180,10 @@ struct RunRow<'a> {
     /// The iteration from which on rounding decides the path to the equilibrium, which is not compared
     /// from there on; null where the runs take the same path.
     path: Option<usize>,
-    /// Why it differs; null where it does not.
-    explanation: &'a Option<Explanation>,
+    /// What went in and differs too, where it differs.
+    changes: &'a [Change],
+    /// Where it first differs; null where it does not.
+    first: &'a Option<First>,
     /// What differs, in the order of computation.
     differences: &'a [Difference],
 }
@@ -201,7 +196,8 @@ impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
             presence: run.presence,
             compared: run.compared,
             path: run.path,
-            explanation: &run.explanation,
+            changes: &run.changes,
+            first: &run.first,
             differences: &run.differences,
         }
     }
@@ -228,45 +224,4 @@ impl<'a> From<&'a VerifiedFile> for FileRow<'a> {
 pub fn json(checked: &[VerifiedFile]) -> String {
     let same = checked.iter().all(VerifiedFile::is_same);
     json::line(None, &Document { same, files: checked.iter().map(FileRow::from).collect() })
-}
-
-/// The most lines of what was accepted.
-const LINES: usize = 20;
-
-/// Reports what was accepted: a line for each entry, one for all iterations of a run.
-pub fn accepted(accepted: &[Acceptance]) -> Report {
-    let mut lines: Vec<(String, usize)> = Vec::new();
-    for acceptance in accepted {
-        let start = in_iteration(&acceptance.entry).map(|run| format!("accepted {run}/iteration "));
-        match (start, lines.last_mut()) {
-            (Some(start), Some((line, count))) if line.starts_with(&start) => *count += 1,
-            _ => lines.push((line(acceptance), 1)),
-        }
-    }
-    let shown = if lines.len() > LINES { LINES - 1 } else { lines.len() };
-    let report = lines[..shown].iter().fold(Report::default(), |report, (line, count)| {
-        report.line(match count {
-            1 => line.clone(),
-            count => format!("{line}; and {} other entries of iterations", count - 1),
-        })
-    });
-    let entries: usize = lines[shown..].iter().map(|(_, count)| count).sum();
-    match entries {
-        0 => report,
-        entries => report.line(format!("and {entries} other entries, see the log")),
-    }
-}
-
-/// Returns the run of an entry that is one of an iteration.
-fn in_iteration(entry: &str) -> Option<&str> {
-    entry.split_once("/iteration ").map(|(run, _)| run)
-}
-
-fn line(a: &Acceptance) -> String {
-    let by = match (a.bounds, a.differing) {
-        (Some(bounds), Some(count)) => format!(" ({bounds:.3e} x tolerance; {count} numbers)"),
-        (None, Some(count)) => format!(" ({count} numbers)"),
-        _ => String::new(),
-    };
-    format!("accepted {}: {}, was {}{by}", a.entry, words::short(&a.to), words::short(&a.from))
 }

@@ -1,15 +1,15 @@
-//! Differences and their causes in words.
+//! Differences in words.
 
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use studies::snapshot::{Difference, Explanation, Kind, Number, Presence, VerifiedRun};
+use studies::snapshot::{Change, Difference, Kind, Number, Presence, Status, VerifiedRun};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
 
 /// Returns a fact in words, shortened where it is long.
-pub fn short(value: &Value) -> String {
+fn short(value: &Value) -> String {
     let text = value.to_string();
     match text.char_indices().nth(WIDTH) {
         Some((end, _)) => format!("{}...", &text[..end]),
@@ -17,31 +17,29 @@ pub fn short(value: &Value) -> String {
     }
 }
 
-/// Returns why a run differs.
-pub fn explanation(explanation: &Explanation) -> String {
-    let mut text = format!("cause: {} ({})\n", explanation.cause, explanation.class);
-    text += &format!("  known by: {}\n", explanation.known_by);
-    for other in explanation.causes.iter().skip(1) {
-        text += &format!("  also: {}: {}, was {}\n", other.place, other.is, other.was);
+/// The most changes of what went in that are printed.
+const CHANGES: usize = 10;
+
+/// Returns what went into a run and differs, and where it first differs.
+pub fn first(run: &VerifiedRun) -> String {
+    let mut text: String = run.changes.iter().take(CHANGES).map(change).collect();
+    if let Some(more @ 1..) = run.changes.len().checked_sub(CHANGES) {
+        text += &format!("and {more} more changes\n");
     }
-    match (&explanation.first, &explanation.flip) {
-        (None, _) => text += "nothing that was recorded differs\n",
-        (Some(first), None) => text += &format!("first difference: {first}\n"),
-        (Some(first), Some(flip)) => {
-            text += &format!("first difference: {first}\n");
-            let later = if explanation.later > 0 { "; everything later follows" } else { "" };
-            text += &format!("first divergence: {}{later}\n", turn(flip));
-            text.extend(flip.line.iter().map(|line| format!("  {line}\n")));
-        }
+    let Some(first) = &run.first else { return text };
+    let node = first.node.map_or(String::new(), |node| format!(", node {node}"));
+    text += &format!("first difference: {}{node}\n", first.entry);
+    if let Some(Status { iteration, node, words, line, rounding }) = &first.status {
+        text += &format!("first status: iteration {iteration}, node {node}: {words}\n");
+        text.extend(line.iter().map(|line| format!("  {line}\n")));
+        let decided = |what| format!("  rounding may have decided {what}\n");
+        text.extend(rounding.iter().map(decided));
     }
     text
 }
 
-fn turn(flip: &studies::snapshot::Flip) -> String {
-    let node = flip.node.map_or(String::new(), |node| format!(", node {node}"));
-    let line = flip.line.as_deref().and_then(|line| line.split_once(':'));
-    let line = line.map_or(String::new(), |(place, _)| format!(", {place}"));
-    format!("iteration {}{node}{line}: {}", flip.iteration, flip.words)
+fn change(Change { place, was, is }: &Change) -> String {
+    format!("changed: {place}: {is}, was {was}\n")
 }
 
 /// Returns where a run is that one side alone has.
@@ -53,18 +51,18 @@ pub fn presence(presence: Presence) -> &'static str {
     }
 }
 
-/// Returns the cause of a run's differences, or the first of them, in a line.
+/// Returns the first change of what went into a run that differs, or else its first difference, in a line.
 pub fn headline(run: &VerifiedRun) -> String {
-    match (&run.explanation, run.differences.first()) {
+    match (run.changes.first(), run.differences.first()) {
         _ if run.presence != Presence::Both => presence(run.presence).into(),
-        (Some(explanation), _) => format!("{} ({})", explanation.cause, explanation.class),
+        (Some(first), _) => change(first).trim_end().into(),
         (None, Some(first)) => difference(first),
         (None, None) => "nothing was compared".into(),
     }
 }
 
 /// Returns a difference in a line.
-pub fn difference(difference: &Difference) -> String {
+fn difference(difference: &Difference) -> String {
     let entry = &difference.entry;
     match &difference.kind {
         Kind::Missing => format!("{entry}: missing"),
@@ -86,10 +84,6 @@ pub fn difference(difference: &Difference) -> String {
                  {by:.3e}, {limit} {:.3e}",
                 w.differing, w.of, w.at, w.component, w.is, w.was, w.limit
             )
-        }
-        Kind::Expected { was, is, limit, reason } => {
-            let is = is.map_or("nothing".into(), |is| format!("{is:e}"));
-            format!("{entry}: {is}, expected {was:e} within {limit:.3e} ({reason})")
         }
     }
 }

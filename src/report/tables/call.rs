@@ -2,18 +2,22 @@
 
 use super::{direction, dropped};
 use crate::model::{Cell, Report, Table};
-use crate::trace::in_figure;
 use paper::door::Call;
 use paper::mirror::Reading;
 use problem::model::{EdgeId, Model, NodeId};
 use problem::scene::Scene;
+use studies::lesson::figure_numbers;
 
 /// Reports a call of `c_cnt` at the initial shape: its contact nodes, then the rows of k_cnt that
 /// are not zero. In the scene of the paper's fig. 1 each node has its number there.
 pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Report {
     let number = |edge: Option<EdgeId>| edge.map_or(0, |edge| model.edge(edge).number);
-    let in_figure = |node: NodeId| in_figure(scene, model, node);
     let is_figure = scene.name == "fig1";
+    let figure = if is_figure { figure_numbers(model) } else { Vec::new() };
+    let in_figure = |node: NodeId| {
+        let numbered = figure.iter().find(|(other, _)| *other == node);
+        numbered.map(|(_, number)| number.clone())
+    };
     let mut found = Table::from_rows(call.statuses.iter().enumerate())
         .column("i1", |(k, _)| k + 1)
         .column("cnt", |(_, status)| status.node)

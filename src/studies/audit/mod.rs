@@ -8,7 +8,6 @@ pub mod findings;
 pub mod prices;
 pub mod range;
 pub mod readings;
-pub mod trace;
 pub mod variants;
 
 use rayon::prelude::*;

@@ -9,7 +9,7 @@ use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
 use base::error::{InputError, Result};
-use base::files::{self, Staged};
+use base::files;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -60,13 +60,13 @@ fn print(program: &str, deck: &str) -> Result<String> {
         let what = format!("no temporary folder can be written: {why}");
         InputError::new("the temporary folder", what, "set TMPDIR to a place that can be written")
     };
-    let folder = Staged::new(&std::env::temp_dir()).map_err(no_folder)?;
-    folder.write("job.inp", deck).map_err(no_folder)?;
+    let folder = files::temporary_folder().map_err(no_folder)?;
+    std::fs::write(folder.path().join("job.inp"), deck).map_err(no_folder)?;
     let (status, text) = ended(program, &["job"], folder.path())?;
     if !status.success() || text.contains("*ERROR") {
         return Err(failed(program, &format!("failed ({status})"), &text));
     }
-    let results = folder.folder().read("job.dat", RESULTS);
+    let results = files::read_in(folder.path(), Path::new("job.dat"), RESULTS);
     let results = results.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
     results.map_err(|why| failed(program, &format!("left no results ({why})"), &text))
 }
@@ -87,7 +87,7 @@ fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, Str
     };
     let (mut child, output) = start(program, args, folder)
         .map_err(|why| fault(format!("{program} cannot be started: {why}")))?;
-    let printed = files::read_up_to(output, PRINTED);
+    let printed = files::read_from(output, PRINTED);
     if printed.is_err() {
         // One that has ended by itself cannot be killed.
         let _ = child.kill();

@@ -1,15 +1,14 @@
 //! A lesson: both listings executed on a small scene, every step kept, under each reading that the
 //! lesson offers.
 
-pub mod exercise;
 mod iterations;
 mod repairs;
 mod switches;
+mod trace;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::audit::trace::{Product, Trace, trace};
 use base::error::InputError;
 use engine::Request;
 use engine::error::Result;
@@ -19,10 +18,12 @@ use paper::listings::{Which, settings};
 use paper::mirror::Reading;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
+use trace::trace;
 
 pub use iterations::{Iterations, Recorded, State, recorded};
 pub use repairs::Repairs;
 pub use switches::{Switch, chapter, switches};
+pub use trace::{Product, Step, Trace};
 
 /// The statements that a page holds at most, both listings together.
 const MOST_SHOWN: usize = 20_000;
@@ -68,9 +69,8 @@ pub fn run(scene: &Scene, switch: Switch, nodes: &[usize]) -> Result<Run> {
         None => Some(call),
     };
     let km = call.map(|call| executed(Which::Km, &call));
-    let traces = || [&c_cnt, &km].into_iter().flatten().map(|program| &program.trace);
-    let steps = traces().map(|trace| trace.steps.len()).sum::<usize>();
-    if steps > MOST_SHOWN || traces().any(|trace| trace.is_cut) {
+    let programs = [&c_cnt, &km].into_iter().flatten();
+    if programs.map(|program| program.trace.steps.len()).sum::<usize>() > MOST_SHOWN {
         let what = format!("the listings take more steps than the {MOST_SHOWN} that a page shows");
         let fix = "choose contact nodes, such as 5 and 6";
         return Err(InputError::new("SCENE", what, fix).into());
@@ -110,10 +110,8 @@ impl Kept {
 
     fn program(&self, which: Which, listing: Listing, settings: &Settings, call: &Call) -> Program {
         let turns = &self.turns[usize::from(which == Which::Km)];
-        let mut trace = trace(which, &listing, settings, call, |turn| turns.contains(&turn));
-        if !self.outside {
-            trace.steps.retain(|step| step.turn.is_some());
-        }
+        let wanted = |turn: Option<usize>| turn.map_or(self.outside, |turn| turns.contains(&turn));
+        let trace = trace(which, &listing, settings, call, wanted, MOST_SHOWN + 1);
         Program { listing, trace }
     }
 }

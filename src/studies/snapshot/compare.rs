@@ -1,13 +1,10 @@
 //! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
 
-use std::collections::HashMap;
-
 use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::Run;
-use super::expected::EntryNumbers;
 use super::numbers::{Number, Numbers, WITHOUT_BOUND};
 use super::place::place;
 
@@ -38,8 +35,6 @@ pub enum Kind {
     Shape { was: usize, is: usize, at: Option<f64> },
     /// Numbers differ by more than the limit.
     Numbers(Worst),
-    /// A number that the user expects is not reached.
-    Expected { was: f64, is: Option<Number>, limit: Number, reason: String },
 }
 
 /// The number that differs most, in multiples of its tolerance.
@@ -66,7 +61,7 @@ pub struct Worst {
 impl Difference {
     /// Returns whether it is one of discrete facts, or of what there is at all.
     pub fn is_discrete(&self) -> bool {
-        !matches!(self.kind, Kind::Numbers(_) | Kind::Expected { .. })
+        !matches!(self.kind, Kind::Numbers(_))
     }
 
     /// Returns whether both runs have the entry.
@@ -99,21 +94,6 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
             found.push(difference(name, kind));
         }
         found.extend(numbers(was, is).map(|kind| difference(name, kind)));
-    }
-    let mut there = HashMap::new();
-    for expected in &old.expected {
-        compared += 1;
-        let entry = &expected.entry[..];
-        let there = there.entry(entry).or_insert_with(|| EntryNumbers::new(new, entry));
-        if let Some(missed) = expected.missed(there) {
-            let kind = Kind::Expected {
-                was: expected.value,
-                is: missed.found.map(Number),
-                limit: Number(missed.limit),
-                reason: expected.reason.clone(),
-            };
-            found.push(difference(&expected.entry, kind));
-        }
     }
     found.sort_by_cached_key(|difference| place(&difference.entry));
     (found, compared)

@@ -1,10 +1,10 @@
 //! Regression snapshots: what a scene gives, recorded; verified later by running it again; and where
-//! it differs, what differed first and why.
+//! it differs, what went in and differs too, and what differed first.
 //!
 //! ```text
-//!  Scene --input--> Input --+
-//!  Request --record--> Run -+--> Snapshot --verify--> compare --> Difference --explain--> cause
-//!                                    ^---- accept (a new value, with its reason) <---+
+//!  Scene --input--> Input --+                                 +--> Difference --> First
+//!  Request --record--> Run -+--> Snapshot --verify--> compare +
+//!                                    ^---- accept             +--> Change
 //! ```
 //!
 //! Discrete facts (who is in contact, the target edge of each node, the number of iterations) stand
@@ -12,10 +12,9 @@
 //! errors.
 
 mod accept;
+mod changes;
 mod compare;
-mod expected;
-mod explain;
-mod flip;
+mod first;
 mod input;
 mod numbers;
 mod options;
@@ -37,12 +36,11 @@ use engine::Decision;
 use engine::{Request, check};
 use problem::scene::{Scene, Units};
 
-pub use accept::{Acceptance, Chosen, accept};
+pub use accept::accept;
 pub use base::files::json::{FORMAT, VERSION};
+pub use changes::Change;
 pub use compare::{Difference, Kind, compare};
-pub use expected::{Expected, Origin};
-pub use explain::{Cause, Class, Explanation, Side, explain};
-pub use flip::Flip;
+pub use first::{First, Status};
 pub use input::Input;
 pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
 pub use options::Options;
@@ -65,9 +63,6 @@ pub struct Snapshot {
     pub input: Input,
     /// The runs by name.
     pub runs: IndexMap<String, Run>,
-    /// What was accepted since, in order.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub log: Vec<Acceptance>,
 }
 
 /// A run: what it was asked for and what came of it.
@@ -84,9 +79,6 @@ pub struct Run {
     pub facts: IndexMap<String, Value>,
     /// What is the same within bounds.
     pub numbers: IndexMap<String, Numbers>,
-    /// Numbers that a user expects, with their origin.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub expected: Vec<Expected>,
     /// The decisions on who is in contact that rounding may have taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub decided_by_rounding: Vec<Decision>,
@@ -95,8 +87,7 @@ pub struct Run {
 impl Run {
     fn new(options: Options) -> Self {
         let (facts, numbers) = (IndexMap::new(), IndexMap::new());
-        let (expected, decided_by_rounding) = (Vec::new(), Vec::new());
-        Run { options, only: None, facts, numbers, expected, decided_by_rounding }
+        Run { options, only: None, facts, numbers, decided_by_rounding: Vec::new() }
     }
 
     /// Brings facts and numbers into the order of computation.
@@ -120,7 +111,7 @@ impl Run {
     /// Checks what the types of its parts do not tell.
     ///
     /// # Errors
-    /// A bound is negative; a number that is asked for or expected has no name of one.
+    /// A bound is negative; a number that is asked for has no name of one.
     fn check(&self) -> Result<()> {
         for (name, numbers) in self.numbers.iter() {
             for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
@@ -131,8 +122,7 @@ impl Run {
                 }
             }
         }
-        self.only.iter().flatten().try_for_each(|name| check_field(name))?;
-        self.expected.iter().try_for_each(|expected| expected.check(self))
+        self.only.iter().flatten().try_for_each(|name| check_field(name))
     }
 
     /// Returns the exit status of `solve` on this run, where the run has that fact.
@@ -184,7 +174,15 @@ impl Snapshot {
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         let (version, units) = (VERSION.into(), scene.units.clone());
         let input = Input::from_scene(scene)?;
-        Ok(Snapshot { format: FORMAT, version, units, input, runs, log: Vec::new() })
+        Ok(Snapshot { format: FORMAT, version, units, input, runs })
+    }
+
+    /// Returns the scene that was recorded.
+    ///
+    /// # Errors
+    /// It was changed after it was recorded, or is at fault.
+    pub fn scene(&self) -> Result<Scene> {
+        self.input.build().map_err(|error| error.within("the snapshot"))
     }
 
     /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.

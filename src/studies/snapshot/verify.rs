@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::changes::{Change, Side, changes};
 use super::compare::{Difference, compare};
-use super::explain::{Explanation, Side, explain};
+use super::first::{First, first};
 use super::place::iteration;
 use super::record::{Bounds, record};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
@@ -49,8 +50,10 @@ pub struct VerifiedRun {
     /// The iteration from which on rounding decides the path to the equilibrium, such as which of two
     /// nodes closes first. The two runs take different paths, which are not compared from there on.
     pub path: Option<usize>,
-    /// Why it differs; None where it does not.
-    pub explanation: Option<Explanation>,
+    /// What went in and differs too, where it differs.
+    pub changes: Vec<Change>,
+    /// Where it first differs; None where it does not.
+    pub first: Option<First>,
 }
 
 impl Verified {
@@ -68,15 +71,17 @@ impl VerifiedRun {
 
     /// Makes a run that is not compared.
     fn new(name: impl Into<String>, presence: Presence, run: Run) -> Self {
-        let (name, differences) = (name.into(), Vec::new());
-        VerifiedRun { name, presence, run, differences, compared: 0, path: None, explanation: None }
+        let (name, differences, changes) = (name.into(), Vec::new(), Vec::new());
+        let (compared, path, first) = (0, None, None);
+        VerifiedRun { name, presence, run, differences, compared, path, changes, first }
     }
 
     fn compared(name: String, old: Side, new: Side) -> Self {
         let (differences, compared) = compare(old.run, new.run);
-        let explanation = explain(old, new, &differences);
+        let changes = if differences.is_empty() { Vec::new() } else { changes(old, new) };
+        let first = first(old.run, new.run, &differences);
         let run = VerifiedRun::new(name, Presence::Both, new.run.clone());
-        VerifiedRun { differences, compared, explanation, ..run }
+        VerifiedRun { differences, compared, changes, first, ..run }
     }
 }
 
@@ -90,7 +95,7 @@ pub fn verify(
     scene: Option<&Scene>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Verified> {
-    let own = snapshot.input.build().map_err(|error| error.within("the snapshot"));
+    let own = snapshot.scene();
     let (scene, input) = match scene {
         None => (own?, snapshot.input.clone()),
         Some(scene) => (scene.clone(), Input::from_scene(scene)?),
@@ -133,8 +138,8 @@ fn verify_run(
         let run = VerifiedRun::new(name, Presence::Both, run);
         return Ok(VerifiedRun { compared, path: Some(first), ..run });
     }
-    let was = Side { version: &snapshot.version, input: &snapshot.input, run: old };
-    Ok(VerifiedRun::compared(name.into(), was, Side { version: VERSION, input, run: &run }))
+    let is = Side { version: VERSION, input, run: &run };
+    Ok(VerifiedRun::compared(name.into(), Side::new(snapshot, old), is))
 }
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
@@ -146,9 +151,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
             return VerifiedRun::new(name, Presence::Missing, was.clone());
         };
         let name = if name == other { name.clone() } else { format!("{name} and {other}") };
-        let was = Side { version: &old.version, input: &old.input, run: was };
-        let is = Side { version: &new.version, input: &new.input, run: is };
-        VerifiedRun::compared(name, was, is)
+        VerifiedRun::compared(name, Side::new(old, was), Side::new(new, is))
     });
     let added = new.runs.iter().filter(|(name, _)| !single && !old.runs.contains_key(*name));
     let added = added.map(|(name, is)| VerifiedRun::new(name, Presence::New, is.clone()));

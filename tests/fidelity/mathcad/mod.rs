@@ -14,6 +14,7 @@ mod values;
 mod xmcd;
 
 use plane_contact::mathcad::failure::Fallible;
+use plane_contact::mathcad::xmcd::page::Page;
 use plane_contact::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
 
 /// An embedded scene as a worksheet, as `export --to mathcad` writes it.
@@ -23,6 +24,15 @@ pub fn exported(scene: &str) -> String {
         &["mathcad", "export", scene, "--to", "mathcad"],
     );
     String::from_utf8(out.stdout).expect("UTF-8")
+}
+
+/// Writes listings as a worksheet.
+fn worksheet(listings: &[Listing]) -> String {
+    let mut page = Page::default();
+    for listing in listings {
+        page.program(listing);
+    }
+    page.finish("", &Settings::default())
 }
 
 /// Makes a listing `f(x)` of the given lines.

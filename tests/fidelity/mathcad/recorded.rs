@@ -4,10 +4,11 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use plane_contact::mathcad::failure::Fallible;
-use plane_contact::mathcad::xmcd::document::{self, Region};
-use plane_contact::mathcad::xmcd::page;
+use plane_contact::mathcad::xmcd::document;
+use plane_contact::mathcad::xmcd::document::{Content, Region};
 use plane_contact::mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
 
+use super::worksheet;
 use crate::common::draws::one_of;
 use crate::common::recorded::assert_recorded_exactly;
 
@@ -232,10 +233,19 @@ fn program(rng: &mut Rng) -> String {
 
 /// Writes listings into a worksheet and reads them back.
 fn back(listings: &[Listing]) -> Vec<Listing> {
-    let sheet = document::read(&page::listings(listings), "sheet").expect("a worksheet");
+    let sheet = document::read(&worksheet(listings), "sheet").expect("a worksheet");
     let limits = Limits { characters: 1 << 20, ..Limits::default() };
-    let read = |text: String| Listing::parse_within("f", &text, &limits).expect("a listing");
-    sheet.regions.iter().filter_map(Region::listing).map(read).collect()
+    let read = |region: &Region| {
+        let text = match &region.content {
+            Content::Function { text, .. } => text.clone(),
+            Content::Definition { name, lines, .. } => {
+                format!("{name}() :=\n  {}\n", lines.join("\n  "))
+            }
+            other => panic!("{other:?}"),
+        };
+        Listing::parse_within("f", &text, &limits).expect("a listing")
+    };
+    sheet.regions.iter().map(read).collect()
 }
 
 /// Random functions, those of one line and those without parameters among them, come back from a
@@ -263,7 +273,7 @@ fn listings_come_back_from_worksheets() {
     let names = |all: &[Listing]| all.iter().map(|l| l.function().to_owned()).collect::<Vec<_>>();
     assert_eq!(names(&again), names(&listings));
     for (one, other) in listings.iter().zip(&again) {
-        let written = [one, other].map(|listing| page::listings(std::slice::from_ref(listing)));
+        let written = [one, other].map(|listing| worksheet(std::slice::from_ref(listing)));
         let [one_math, other_math] = written.map(|text| math(&text));
         assert_eq!(one_math, other_math, "{one}{other}");
     }

@@ -1,21 +1,21 @@
 //! The second notation: listings to XMCD and back, worksheets executed, hostile files.
 
 use super::spelled::spelled;
+use super::worksheet;
 use crate::bitwise::all_readings;
 use crate::common::random::fixed;
 use plane_contact::mathcad::worksheet::{ExecutedRegion, Verdict, execute};
-use plane_contact::mathcad::xmcd::document::{self, Content, Saved};
-use plane_contact::mathcad::xmcd::page::{self, Page};
+use plane_contact::mathcad::xmcd::document::{self, Content};
+use plane_contact::mathcad::xmcd::page::Page;
 use plane_contact::mathcad::xmcd::write;
 use plane_contact::mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::Reading;
-use plane_contact::report::exports::probe;
 use proptest::prelude::*;
 
 /// Writes a listing as a worksheet, and reads it back as text.
 fn there_and_back(listing: &Listing) -> Result<String, String> {
-    let sheet = page::listings(std::slice::from_ref(listing));
+    let sheet = worksheet(std::slice::from_ref(listing));
     let sheet = document::read(&sheet, "sheet").map_err(|error| error.to_string())?;
     match &sheet.regions[0].content {
         Content::Function { text, .. } => Ok(text.clone()),
@@ -241,31 +241,6 @@ fn origin_is_set_by_a_region_and_entries_show_themselves() {
     assert_eq!(verdicts, [&defined[..], &[same.clone(), same, half]].concat());
 }
 
-/// Every candidate that is said to be ours is, and a recalculated worksheet of probes decides each.
-#[test]
-fn probes_know_their_own_answers() {
-    let text = probe::worksheet();
-    let mut sheet = document::read(&text, "probe").unwrap();
-    let checked = execute(&sheet, &Limits::default());
-    let asked = |c: &&ExecutedRegion| c.tag.starts_with("probe ");
-    for region in sheet.regions.iter_mut().filter(|region| region.tag.starts_with("probe ")) {
-        let ours = checked.iter().find(|c| c.tag == region.tag).unwrap();
-        region.saved = Some(match &ours.value {
-            Some(value) => Saved::Value(value.clone()),
-            None => Saved::Error("an error".into()),
-        });
-    }
-    let decided = probe::decided(&sheet, &checked);
-    assert_eq!(decided.len(), checked.iter().filter(asked).count());
-    assert_eq!(decided.len(), 20);
-    for (question, answer) in &decided {
-        let default = ["as here", "guarded", "runs as printed", "another", "stops or is guarded"];
-        assert!(default.iter().any(|words| answer.contains(words)), "{question}: {answer}");
-    }
-    let unsaved = probe::decided(&document::read(&text, "probe").unwrap(), &checked);
-    assert!(unsaved.iter().all(|(_, answer)| answer.starts_with("nothing is saved")));
-}
-
 /// Every element and attribute that is written occurs in a file that Mathcad saved.
 #[test]
 fn nothing_is_written_that_mathcad_does_not_write() {
@@ -275,7 +250,7 @@ fn nothing_is_written_that_mathcad_does_not_write() {
         .map(|line| line.split_whitespace().collect())
         .collect();
     let listings: Vec<_> = Which::ALL.iter().map(|w| w.under(&Reading::default())).collect();
-    for text in [probe::worksheet(), page::listings(&listings), super::exported("fig1")] {
+    for text in [worksheet(&listings), super::exported("fig1")] {
         let xml = roxmltree::Document::parse(&text).unwrap();
         for node in xml.descendants().filter(roxmltree::Node::is_element) {
             let math = node.tag_name().namespace() == Some("http://schemas.mathsoft.com/math30");
@@ -319,8 +294,8 @@ proptest! {
         let body = super::limits::spell(&words);
         let listing = Listing::parse("f", &format!("f(x) :=\n  {body}"));
         let mut text = match listing {
-            Ok(listing) => page::listings(&[listing]),
-            Err(_) => probe::worksheet(),
+            Ok(listing) => worksheet(&[listing]),
+            Err(_) => worksheet(&[Which::Km.under(&Reading::default())]),
         };
         for (at, length, kind) in cuts {
             let places: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();

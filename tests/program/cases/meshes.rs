@@ -122,15 +122,6 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "(printf '{\"format\": 1, \"scene\": \"fig1\", \"list\": [{}'; \
-                  head -c 5000000 /dev/zero | sed 's/\\x00/,{}/g'; echo ']}') >big.json; \
-                  ulimit -v 1000000; plane-contact sweep big.json",
-        status: 2,
-        contains: &["big.json: the sweep", "GB are free"],
-        lacks: &[],
-    },
-    Case {
-        input: "",
         command: "(printf '{\"format\": 1, \"runs\": {\"a\": {\"facts\": {\"b\": [0'; \
                   head -c 20000000 /dev/zero | sed 's/\\x00/,0/g'; echo ']}}}}') >big.json; \
                   ulimit -v 1000000; plane-contact snapshot verify big.json",

@@ -1,4 +1,4 @@
-//! The one reader of JSON: scenes, snapshots, sweeps, results, answers, inputs of programs.
+//! The one reader of JSON: scenes, snapshots, sweeps, results, inputs of programs.
 
 mod fields;
 mod strict;
@@ -19,6 +19,15 @@ pub const FORMAT: u32 = 1;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Returns whether a text begins as every document that the program writes: with the two versions.
+pub(super) fn is_from_program(head: &[u8]) -> bool {
+    let head: String = String::from_utf8_lossy(head).split_whitespace().collect();
+    let version = head.strip_prefix("{\"format\":").and_then(|rest| rest.split_once(','));
+    version.is_some_and(|(format, rest)| {
+        format.parse::<u32>().is_ok() && rest.starts_with("\"version\":\"")
+    })
+}
 
 /// A kind of document.
 pub struct Kind {
