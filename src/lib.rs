@@ -83,7 +83,7 @@ pub mod guide {
     pub mod glossary {}
 }
 
-pub use base::{choices, error, files, memory, plain, suggestion, xml};
+pub use base::{choices, error, files, limits, plain, suggestion, xml};
 pub use {engine, mathcad, numbers, paper, problem, report, studies};
 
 #[doc(inline)]

@@ -10,7 +10,6 @@ use commands::Command;
 use plane_contact::Error;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::memory;
 use plane_contact::report::failure::failure;
 
 /// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
@@ -76,10 +75,6 @@ fn main() -> ExitCode {
     let Some(command) = cli.command else {
         return exit_code(commands::print(&shell_files(&cli, grammar)).map(|()| 0), json);
     };
-    // What they take is no longer free when a command asks how much is.
-    if let Err(why) = start_threads() {
-        return exit_code(Err(why.into()), json);
-    }
     exit_code(command.run().map_err(named_by_option), json)
 }
 
@@ -105,19 +100,6 @@ fn named_by_option(error: Error) -> Error {
         }
         other => other,
     }
-}
-
-/// Starts the threads that all commands share, as many as rayon would: RAYON_NUM_THREADS, or one for
-/// each processor.
-fn start_threads() -> Result<(), InputError> {
-    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
-    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = asked.filter(|threads| *threads > 0).unwrap_or_else(processors);
-    memory::check_stacks(threads)?;
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|why| {
-        let what = format!("its threads cannot start: {why}");
-        InputError::new("the process", what, memory::FIX_THREADS)
-    })
 }
 
 /// Returns the exit status of a command, once its error is reported.

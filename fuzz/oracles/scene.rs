@@ -37,9 +37,6 @@ fn reads_back(scene: &Scene) {
 fn is_planned(scene: &Scene, variant: Variant) {
     match Plan::new(&Request::new(scene).variant(variant)) {
         Err(error) => sound::input_error(&error),
-        Ok(plan) => {
-            assert!(plan.cost.bytes.total().is_finite() && plan.cost.operations.is_finite());
-            sound::document(&report::plan::json(scene, &plan));
-        }
+        Ok(plan) => drop(sound::document(&report::plan::json(scene, &plan))),
     }
 }

@@ -4,7 +4,7 @@
 pub mod choices;
 pub mod error;
 pub mod files;
-pub mod memory;
+pub mod limits;
 pub mod plain;
 pub mod suggestion;
 pub mod xml;

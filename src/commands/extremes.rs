@@ -6,7 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::report::extremes as report;
-use plane_contact::studies::extremes::{Generator, generators, measure};
+use plane_contact::studies::extremes::{GENERATORS, Generator, measure};
 
 use super::{TablesArgs, folder, print, print_report, waiting};
 
@@ -42,7 +42,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let chosen = chosen(generators(), &args.names)?;
+    let chosen = chosen(&args.names)?;
     if args.list {
         return print_report(report::list(&chosen));
     }
@@ -73,13 +73,14 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 /// The generators of these names, in the order of the list; all of them where no name is given.
-fn chosen(all: Vec<Generator>, names: &[String]) -> Result<Vec<Generator>, InputError> {
+fn chosen(names: &[String]) -> Result<Vec<&'static Generator>, InputError> {
+    let all = &GENERATORS;
     if let Some(unknown) = names.iter().find(|name| all.iter().all(|g| g.name != **name)) {
         let known: Vec<&str> = all.iter().map(|g| g.name).collect();
         let what = format!("there is no generator {unknown:?}");
         let fix = format!("the generators are {}", known.join(", "));
         return Err(InputError::new("NAME", what, fix));
     }
-    let is_chosen = |g: &Generator| names.is_empty() || names.iter().any(|name| name == g.name);
-    Ok(all.into_iter().filter(is_chosen).collect())
+    let is_chosen = |g: &&Generator| names.is_empty() || names.iter().any(|name| name == g.name);
+    Ok(all.iter().filter(is_chosen).collect())
 }

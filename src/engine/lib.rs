@@ -10,7 +10,6 @@ mod equations;
 pub mod error;
 pub mod estimates;
 mod hertz;
-mod memory;
 mod probe;
 mod published;
 pub mod quantities;
@@ -31,7 +30,6 @@ pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
-pub use memory::Bytes;
 pub use probe::{Probe, ProbeValue, check_points};
 pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
@@ -44,5 +42,5 @@ pub use solution::{
     Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
-pub use sparse::dense_matrices;
+pub use sparse::is_dense;
 pub use stiffness::Stiffness;

@@ -19,10 +19,10 @@ use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
-use super::sparse::dense_matrices;
+use super::sparse::is_dense;
 use super::support::transmitted_force;
 use base::error::InputError;
-use base::memory;
+use base::limits;
 use base::plain::six_digits;
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
@@ -33,17 +33,6 @@ use paper::listings::Which;
 use paper::mirror::{self, Pairs, Schedule, Worksheet};
 use problem::model::{Model, NodeId};
 use problem::modelling::{Coupling, Variant};
-
-/// Returns the bytes that `iterations` of a model take until the result is written: the steps, those of
-/// the run that bounds their rounding, and the tree of which `result.json` is written; measured on
-/// meshes of 13 to 3,875 nodes, with a third more for addresses that the allocator keeps.
-pub(super) fn bytes_of_iterations(model: &Model, iterations: usize) -> f64 {
-    const EACH: f64 = 4500.0;
-    const NODE: f64 = 120.0;
-    const CONTACT_NODE: f64 = 250.0;
-    let [nodes, contact] = [model.nodes.len(), model.contact.nodes.len()].map(|n| n as f64);
-    iterations as f64 * (EACH + NODE * nodes + CONTACT_NODE * contact)
-}
 
 /// Solves a request for one of the variants that the paper describes; `watch` is called after each step.
 ///
@@ -96,7 +85,7 @@ pub(super) fn check_published<T: Precision>(
     request: &Request,
     model: &Model,
 ) -> Result<(), InputError> {
-    check_size::<T>(request, model)?;
+    check_size(request, model)?;
     if request.is_bound_by_mortar() {
         check_mortar(request.arithmetic.scalar)?;
     }
@@ -143,17 +132,13 @@ fn check_load<T: Scalar>(
     }
 }
 
-/// Checks that the matrices fit in memory and that exact numbers end within a bearable time.
-fn check_size<T: Precision>(request: &Request, model: &Model) -> Result<(), InputError> {
-    // The count is in units of an f64, whatever the size of the scalar.
+/// Checks that dense matrices are small, iterations are few, and exact numbers end within a bearable time.
+fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
     // An edited `Km` is interpreted into a dense matrix, of which a sparse one is made.
-    let of_listing = if request.is_edited(Which::Km) { 2 } else { 0 };
-    let matrices = dense_matrices(request.variant, request.arithmetic).max(of_listing)
-        * size_of::<T>().div_ceil(size_of::<f64>());
-    memory::check(model.nodes.len(), matrices, memory::free())?;
-    let kept = bytes_of_iterations(model, request.iterations);
-    let whose = format!("{} iterations of {} nodes", request.iterations, model.nodes.len());
-    memory::check_bytes(kept, "iterations", &whose, "ask for fewer iterations")?;
+    if is_dense(request.variant, request.arithmetic) || request.is_edited(Which::Km) {
+        limits::DENSE.check(model.dofs(), "the mesh")?;
+    }
+    limits::check_steps(request.iterations, model.nodes.len(), "iterations")?;
     if request.arithmetic.scalar != ScalarName::Exact {
         return Ok(());
     }

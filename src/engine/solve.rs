@@ -1,18 +1,17 @@
 //! The solution of a request by the requested variant in the requested numbers.
 
 use super::error::Error;
-use super::memory::{Bytes, FEWER_STEPS, bytes_of_paths};
 use super::published::{check_published, published};
 use super::request::Request;
 use super::solution::{Solution, Step};
 use super::unilateral::unilateral;
 use base::error::InputError;
-use base::memory;
+use base::limits;
 use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
 use numbers::solve::{ScalarName, Solver};
 use paper::listings::Which;
 use problem::element::State;
-use problem::modelling::{Variant, check_iterations, check_tolerance};
+use problem::modelling::{Friction, Variant, check_iterations, check_tolerance};
 
 /// Calls a function in the type of a scalar.
 macro_rules! in_scalar {
@@ -82,21 +81,22 @@ pub fn check(request: &Request) -> Result<(), InputError> {
             in_scalar!(request.arithmetic.scalar, check_published(request, &model))?;
         }
     }
-    check_memory(request)
+    check_size(request)
 }
 
-/// Checks that a run has the memory that it takes, with the runs beside it.
+/// Checks that the mesh, and the path of the load of the run or of the equilibrium beside it, have a size
+/// that fits in memory.
 ///
 /// # Errors
-/// Says how much it needs where that is not free.
-fn check_memory(request: &Request) -> Result<(), InputError> {
+/// Says what there is more of than there may be.
+fn check_size(request: &Request) -> Result<(), InputError> {
     let model = &request.scene.model;
-    let path = bytes_of_paths(request, model);
-    let whose =
-        format!("{} steps of the load on {} nodes", request.contact.load_steps, model.nodes.len());
-    memory::check_bytes(path, "contact.load_steps", &whose, FEWER_STEPS)?;
-    let whose = format!("{} free equations", model.free_dofs());
-    memory::check_bytes(Bytes::estimate(request, model).total(), "the mesh", &whose, memory::FIX)
+    limits::EQUATIONS.check(model.free_dofs(), "the mesh")?;
+    if !model.has_contact() || request.contact.friction == Friction::NONE {
+        return Ok(());
+    }
+    let steps = request.contact.load_steps * model.stages.len();
+    limits::check_steps(steps, model.nodes.len(), "contact.load_steps")
 }
 
 /// Checks that a run with edited listings executes them: in f64, as the interpreter does, and an

@@ -1,7 +1,7 @@
-//! Which solvers take the contact states of `tied` and `stepped` as sparse matrices, and how many dense ones
-//! the others take.
+//! Which solvers take the contact states of `tied` and `stepped` as sparse matrices, and whether
+//! the others hold dense ones.
 
-use numbers::solve::{Arithmetic, ScalarName, Solver};
+use numbers::solve::{Arithmetic, Solver};
 use problem::modelling::Variant;
 
 /// Returns whether `solver` takes Tᵀ K T as a sparse matrix.
@@ -12,19 +12,14 @@ pub(super) fn takes_sparse(solver: Solver) -> bool {
     }
 }
 
-/// Returns the number of dense 2R x 2R matrices of the scalar in memory at once.
-pub fn dense_matrices(variant: Variant, arithmetic: Arithmetic) -> usize {
-    let solver = arithmetic.solver(variant == Variant::Printed);
-    // K beside the matrix of the iteration.
-    let beside = usize::from(variant != Variant::Printed);
+/// Returns whether a run holds dense 2R x 2R matrices of the scalar.
+pub fn is_dense(variant: Variant, arithmetic: Arithmetic) -> bool {
     if variant == Variant::Unilateral {
-        return 0;
+        return false;
     }
-    match solver {
-        // Factored in its place.
-        Solver::DenseLu if arithmetic.scalar == ScalarName::F64 => 1 + beside,
-        Solver::DenseLu => 2 + beside,
-        Solver::SparseLu => 2 * beside,
-        Solver::SparseCholesky => 0,
+    match arithmetic.solver(variant == Variant::Printed) {
+        Solver::DenseLu => true,
+        Solver::SparseLu => variant != Variant::Printed,
+        Solver::SparseCholesky => false,
     }
 }

@@ -19,7 +19,7 @@ pub fn json(measured: &[SweepTable]) -> String {
 }
 
 /// Lists the generators with what they try.
-pub fn list(generators: &[Generator]) -> Report {
+pub fn list(generators: &[&Generator]) -> Report {
     let table = Table::from_rows(generators)
         .column("generator", |generator| generator.name)
         .column("what is swept", |generator| generator.magnitude)

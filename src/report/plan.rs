@@ -1,7 +1,5 @@
 //! The plan of a run, for people and for machines.
 
-use serde::Serialize;
-
 use super::json;
 use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, short, six_digits};
@@ -15,14 +13,12 @@ pub fn line(plan: &Plan) -> String {
         format!("{} contact candidates of {}", found.pairs, found.all())
     });
     let mut text = format!(
-        "plan: {} free equations of {}, {contact}, {}{} in {}; about {} MB, {} operations",
+        "plan: {} free equations of {}, {contact}, {}{} in {}",
         plan.equations.free,
         plan.equations.all,
         if plan.storage == Storage::Dense { "dense matrices, " } else { "" },
         plan.solver,
         plan.scalar,
-        megabytes(plan.cost.bytes.total()),
-        operations(plan.cost.operations),
     );
     text += match (&plan.half, plan.half_would_do()) {
         (None, _) => "",
@@ -35,36 +31,24 @@ pub fn line(plan: &Plan) -> String {
     text
 }
 
-/// Reports the plan with the units of the scene; `free` is the memory that is free, bytes.
-pub fn report(plan: &Plan, units: &Units, free: Option<u128>) -> Report {
-    let refused = plan.check_memory(free).err().map(|why| why.to_string());
+/// Reports the plan with the units of the scene.
+pub fn report(plan: &Plan, units: &Units) -> Report {
     let locking = plan.bodies.iter().filter_map(|body| {
         let why = body.locking.as_ref()?;
         Some(format!("NOTE: body {}: {why}; the error of the mesh is not estimated", body.name))
     });
-    let report = Report::default()
+    Report::default()
         .line(line(plan))
         .table("What is built", built(plan))
         .table("Bodies", bodies(&plan.bodies, units))
         .notes(locking)
         .table("Load", load(plan, units))
-        .table("What it takes", cost(plan));
-    let report = refused.into_iter().fold(report, Report::line);
-    report.table("What is left out, or could be", left_out(plan))
+        .table("What is left out, or could be", left_out(plan))
 }
 
-/// The plan as JSON.
-#[derive(Serialize)]
-pub struct Document<'a> {
-    #[serde(flatten)]
-    plan: &'a Plan,
-    /// Peak memory of the process, bytes.
-    bytes: f64,
-}
-
-/// Writes the plan as JSON, with the sum of its bytes.
+/// Writes the plan as JSON.
 pub fn json(scene: &Scene, plan: &Plan) -> String {
-    json::line(Some(scene), &Document { plan, bytes: plan.cost.bytes.total() })
+    json::line(Some(scene), plan)
 }
 
 fn row(name: &str, value: impl Into<Cell>, why: impl Into<Cell>) -> Vec<Cell> {
@@ -87,8 +71,8 @@ fn built(plan: &Plan) -> Table {
         Some(contact) => rows.extend(contact_rows(contact)),
     }
     rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
-    let numbers = format!("{} numbers in its factors", plan.factors.nonzeros);
-    rows.push(row("matrix", plan.storage.to_string(), numbers));
+    let why = if plan.storage == Storage::Dense { "every entry" } else { "entries that are not 0" };
+    rows.push(row("matrix", plan.storage.to_string(), why));
     Table::new(["", "", "why"], rows)
 }
 
@@ -127,26 +111,6 @@ fn load(plan: &Plan, units: &Units) -> Table {
     Table::new(["", "", "of that"], rows)
 }
 
-fn cost(plan: &Plan) -> Table {
-    let (cost, bytes) = (plan.cost, plan.cost.bytes);
-    let reference = match cost.reference_states {
-        0 => String::new(),
-        states => format!(", {states} of the reference solution beside it"),
-    };
-    let [program, mesh, matrices, iterations] =
-        [bytes.program, bytes.mesh, bytes.matrices, bytes.iterations].map(megabytes);
-    let memory = format!(
-        "program {program}, mesh and files {mesh}, matrices {matrices}, iterations {iterations}"
-    );
-    let states = cost.states + cost.reference_states;
-    let rows = [
-        row("memory, MB", Cell::decimals(bytes.total() / 1e6, 0), memory),
-        row("factorisations", states, format!("{} likely{reference}", cost.states)),
-        row("operations", Cell::scientific(cost.operations, 1), "of the factorisations"),
-    ];
-    Table::new(["", "", "of that"], rows)
-}
-
 fn left_out(plan: &Plan) -> Table {
     let mut rows = vec![
         row("orphan nodes", plan.orphans, "in no triangle: dropped"),
@@ -170,12 +134,4 @@ fn left_out(plan: &Plan) -> Table {
         row("nodes of the other half", plan.nodes - found.nodes, why)
     }));
     Table::new(["", "", "why"], rows)
-}
-
-fn megabytes(bytes: f64) -> String {
-    format!("{:.0}", bytes / 1e6)
-}
-
-fn operations(count: f64) -> String {
-    format!("{count:.1e}")
 }

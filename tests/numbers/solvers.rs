@@ -1,15 +1,12 @@
-//! Solvers of sparse matrices, the size of their factors, and the memory of dense ones.
-
-use std::ops::{Range, RangeInclusive};
+//! Solvers of sparse and dense matrices, and the limit of exact numbers.
 
 use fastrand::Rng;
 use nalgebra::{DMatrix, DVector};
-use plane_contact::memory::check;
 use plane_contact::numbers::scalar::{F64x2, Scalar};
 use plane_contact::numbers::solve::cost;
 use plane_contact::numbers::solve::{
-    DenseLu, FactorSize, Factors, Lu, Pattern, Precision, Singular, Solver, SparseCholesky,
-    SparseSquare, SparseSymmetric,
+    DenseLu, Factors, Lu, Precision, Singular, Solver, SparseCholesky, SparseSquare,
+    SparseSymmetric,
 };
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
@@ -71,43 +68,6 @@ fn dense_lu_exchanges_rows() {
     assert_eq!(lu.residual(&off, &b), 4.0 / (5.0 * 3.0 + 7.0));
 }
 
-#[test]
-fn a_chain_fills_nothing_in() {
-    let chain = (0..5).map(|i| (i, i)).chain((1..5).map(|i| (i, i - 1)));
-    let chain = Pattern::new(5, |visit| chain.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&chain);
-    assert_eq!((size.entries, size.nonzeros), (9, 9));
-    assert_eq!(size.operations, 4.0 * 4.0 + 1.0);
-}
-
-#[test]
-fn a_full_matrix_has_full_factors() {
-    let full = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
-    let full = Pattern::new(6, |visit| full.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&full);
-    assert_eq!((size.entries, size.nonzeros), (21, 21));
-    assert_eq!(size.operations, (1..=6).map(|k| f64::from(k * k)).sum::<f64>());
-}
-
-/// Two blocks of 100 equations and the 50 that both of them reach, each block full with those 50.
-/// The columns of the block that goes first have its own rows and the 50; what it leaves is full:
-/// large enough for columns of one pattern to be factored together.
-#[test]
-fn blocks_fill_in_nothing_but_themselves() {
-    let (blocks, shared) = ([0..100, 100..200], 200..250);
-    let together = |pair: &(usize, usize)| {
-        let reaches = |block: &Range<usize>, k| block.contains(&k) || shared.contains(&k);
-        blocks.iter().any(|block| reaches(block, pair.0) && reaches(block, pair.1))
-    };
-    let lower = (0..250).flat_map(|row| (0..=row).map(move |column| (row, column)));
-    let places = lower.filter(together);
-    let pattern = Pattern::new(250, |visit| places.clone().for_each(|(i, j)| visit(i, j)));
-    let size = FactorSize::sparse_cholesky(&pattern);
-    let squares = |columns: RangeInclusive<u32>| columns.map(|k| f64::from(k * k));
-    let operations: f64 = squares(51..=150).chain(squares(1..=150)).sum();
-    assert_eq!(size.operations, operations);
-}
-
 /// The cube of the equations counts; where numbers grow longer by a factor of the equations with each
 /// iteration behind the first, their power.
 #[test]
@@ -120,13 +80,6 @@ fn exact_numbers_have_a_limit_of_equations() {
     assert!(
         error.to_string().contains("32 free equations: an exact run of 4 iterations may have 31")
     );
-}
-
-#[test]
-fn a_matrix_that_does_not_fit_is_refused_with_its_size() {
-    assert!(check(1000, 3, Some(96_000_000)).is_ok());
-    let error = check(1000, 3, Some(95_999_999)).unwrap_err();
-    assert!(error.what.contains("need 96.000000 MB; 95.999999 MB are free"), "{error}");
 }
 
 /// Two networks of springs, of stiffness 1 and of stiffness `soft`, the first tied to the ground by a

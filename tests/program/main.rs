@@ -21,7 +21,6 @@ mod document;
 mod drawing;
 mod edited;
 mod examples;
-mod factors;
 mod faults;
 mod first_difference;
 mod fuzz;

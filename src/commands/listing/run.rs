@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::engine::Request;
 use plane_contact::engine::error::Result;
-use plane_contact::memory;
+use plane_contact::limits;
 use plane_contact::paper::door::Call;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{json, matrix_market, tables};
@@ -99,7 +99,7 @@ fn km(args: &KmArgs) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
-    memory::check(model.nodes.len(), 1, memory::free())?;
+    limits::DENSE.check(model.dofs(), "the mesh")?;
     let call = match args.coupled_by {
         CoupledBy::CCnt => Call::c_cnt(&model, &reading, &model.nodes)?,
         CoupledBy::None => Call::without_contact(&model),

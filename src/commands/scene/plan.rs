@@ -1,21 +1,19 @@
 //! `plane-contact scene plan`.
 
 use plane_contact::engine::error::Result;
-use plane_contact::memory;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
 use plane_contact::studies::plan::Plan;
 
 use crate::commands::{RunArgs, TablesArgs, print};
 
-/// What solve will build and what not, why, and what it will cost; nothing is solved.
+/// What solve will build and what not, and why; nothing is solved.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Bodies and their size, the load and its nominal strain, by which a mesh in metres or E in GPa shows;
-free equations, contact candidates after a test of boxes, the solver, dense or sparse, the
-numbers in the factors (exact: from a symbolic factorisation), predicted bytes and operations, and
-what is left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half
-of a symmetric scene.
+free equations, contact candidates after a test of boxes, the solver, dense or sparse, and what is
+left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half of a
+symmetric scene.
 
 Examples:
   plane-contact scene plan
@@ -40,5 +38,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print(report::report(&plan, &scene.units, memory::free()))
+    args.tables.print(report::report(&plan, &scene.units))
 }

@@ -9,13 +9,10 @@ use super::forces::load_of;
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use crate::contact::{ContactNode, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
-use crate::memory::{FEWER_STEPS, UNWRITTEN, bytes_of_path};
 use crate::solution::{
     self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
 use crate::support::{support_force, transmitted_force};
-use base::error::InputError;
-use base::memory;
 
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
@@ -80,7 +77,6 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
             slides.map_or_else(|| with_load(why, to, stages, step == total), Error::from)
         })?;
         problem.in_range([&point.u, &equilibrium.last.solution.u], [point.load, to])?;
-        run.check_memory(step, total)?;
         if step == total {
             let confirmed = run.confirmed(to, equilibrium);
             let end = confirmed.map_err(|why| with_load(why, to, stages, true))?;
@@ -227,27 +223,6 @@ impl<'a> Run<'a> {
             statuses: last.statuses.clone(),
             u: last.solution.u.clone(),
         });
-    }
-
-    /// Checks now and then that the whole path will fit in memory if it goes on as so far.
-    ///
-    /// # Errors
-    /// Says how much it needs where that is not free.
-    fn check_memory(&self, step: usize, total: usize) -> Result<(), InputError> {
-        /// How often a long path is checked.
-        const TIMES: usize = 64;
-        let every = total / TIMES;
-        if every < TIMES || !step.is_multiple_of(every) {
-            return Ok(());
-        }
-        let bytes = |steps: usize, iterations: usize| {
-            bytes_of_path(self.problem.model, steps as f64, iterations as f64)
-        };
-        let iterations = self.steps.len();
-        let held = UNWRITTEN * bytes(step, iterations);
-        let needed = bytes(total, iterations * total / step) - held;
-        let whose = format!("{total} steps of the load with {} iterations each", iterations / step);
-        memory::check_bytes(needed, "contact.load_steps", &whose, FEWER_STEPS)
     }
 
     /// Goes to the load `to` in one step by a search.

@@ -49,8 +49,6 @@ choices! {
 pub struct Properties {
     /// The decimal digits that it keeps; None where it keeps all.
     pub digits: Option<u32>,
-    /// The bytes of a number; of a rational number those of its address.
-    pub bytes: usize,
     /// The solvers that are offered.
     pub solvers: &'static [Solver],
     /// Why the integrals of mortar coupling are not computed in it; None where they are.
@@ -63,32 +61,28 @@ impl ScalarName {
         use Solver::{DenseLu, SparseCholesky};
         match self {
             ScalarName::F64 => {
-                Properties { digits: Some(16), bytes: 8, solvers: Solver::ALL, no_mortar: None }
+                Properties { digits: Some(16), solvers: Solver::ALL, no_mortar: None }
             }
             ScalarName::F32 => Properties {
                 digits: Some(7),
-                bytes: 4,
                 solvers: &[DenseLu, SparseCholesky],
                 no_mortar: Some("its integrals lose too many digits"),
             },
             ScalarName::F64x2 => Properties {
                 digits: Some(31),
-                bytes: 16,
                 solvers: &[DenseLu, SparseCholesky],
                 no_mortar: None,
             },
             ScalarName::Bounded => {
-                Properties { digits: Some(16), bytes: 16, solvers: Solver::ALL, no_mortar: None }
+                Properties { digits: Some(16), solvers: Solver::ALL, no_mortar: None }
             }
             ScalarName::BoundedDouble => Properties {
                 digits: Some(31),
-                bytes: 16,
                 solvers: &[DenseLu, SparseCholesky],
                 no_mortar: None,
             },
             ScalarName::Exact => Properties {
                 digits: None,
-                bytes: 16,
                 solvers: &[DenseLu, SparseCholesky],
                 no_mortar: Some("its integrals take square roots"),
             },

@@ -28,7 +28,6 @@ mod schur;
 mod sparse;
 mod sparse_lu;
 mod square;
-mod symbolic;
 mod symmetric;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
@@ -42,5 +41,4 @@ pub use schur::{EliminatedLoad, Schur};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;
-pub use symbolic::FactorSize;
 pub use symmetric::{Pattern, SparseSymmetric};

@@ -9,7 +9,7 @@ use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
 use crate::model::{Force, Model, NodeId, Sides};
 use base::error::{InputError, Result};
-use base::memory;
+use base::limits;
 
 /// The load of a scene, on all 2R degrees of freedom, restrained ones included, force.
 pub struct Loading {
@@ -28,9 +28,7 @@ pub struct Loading {
 /// before the last one.
 pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> Result<Loading> {
     let count: usize = loads.iter().map(|load| count(groups, load)).sum();
-    let whose = format!("the {count} edges and nodes that are loaded");
-    let fix = "give fewer loads, or groups of fewer edges";
-    memory::check_bytes((2 * count * size_of::<Force>()) as f64, "loads", &whose, fix)?;
+    limits::LOADED.check(count, "loads")?;
     let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
     for (k, load) in loads.iter().enumerate() {
         let own = parts(mesh, groups, &model.sides, load, &load_field(k))?;
@@ -71,13 +69,7 @@ fn stages(loads: &[Load], model: &Model) -> Result<usize> {
         let fix = "number the stages 1, 2, ... without a gap";
         return Err(InputError::new("loads", what, fix));
     }
-    let bytes = (last * model.dofs() * size_of::<f64>()) as f64;
-    memory::check_bytes(
-        bytes,
-        "loads",
-        &format!("{last} stages of the load"),
-        "give fewer stages",
-    )?;
+    limits::STAGES.check(last * model.dofs(), "loads")?;
     Ok(last)
 }
 

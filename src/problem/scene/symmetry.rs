@@ -32,8 +32,6 @@ pub struct Half {
     pub triangles: Vec<TriangleId>,
     /// The x coordinate of the line, length.
     pub at: f64,
-    /// The largest distance of a node from its image's place, length.
-    pub departure: f64,
 }
 
 /// Returns half of `scene`; None where it is not symmetric about a vertical line.
@@ -52,10 +50,9 @@ pub fn half(scene: &Scene) -> Option<Half> {
     let nodes: BTreeSet<NodeId> =
         triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
     let nodes: Vec<NodeId> = nodes.into_iter().collect();
-    let departure = nodes.iter().map(|&n| mirror.distance(n, images.image(n))).fold(0.0, f64::max);
     let model = Restriction::new(&mirror, &nodes, &triangles).model();
     let scene = Scene { model: Arc::new(model), source: None, ..scene.clone() };
-    Some(Half { scene, nodes, triangles, at: mirror.at, departure })
+    Some(Half { scene, nodes, triangles, at: mirror.at })
 }
 
 /// The line about which a model may be symmetric.

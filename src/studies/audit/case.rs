@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use base::error::InputError;
-use base::memory;
+use base::limits;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
@@ -36,13 +36,12 @@ impl Case {
         Case::from_request(Request::new(&scene)).expect("the default reading changes no model")
     }
 
-    /// The case of a scene under a reading, where what an audit takes fits in memory: on 2,960 nodes and two
-    /// cores 6.4 times a dense `Km`.
+    /// The case of a scene under a reading, where the dense matrices of an audit fit in memory.
     ///
     /// # Errors
-    /// It does not: says how much it needs. The reading does not allow the model.
+    /// They do not. The reading does not allow the model.
     pub fn within_memory(scene: &Scene, reading: Reading) -> Result<Self, InputError> {
-        memory::check(scene.model.nodes.len(), 7, memory::free())?;
+        limits::DENSE.check(scene.model.dofs(), "the mesh")?;
         Case::from_request(Request::new(scene).reading(reading))
     }
 

@@ -1,47 +1,38 @@
 //! The answer of a run with all its digits, and how far it is from another.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use dashu_ratio::RBig;
 
+use super::blocks::Blocks;
 use super::verdict::Verdict;
+use crate::benchmark::Annulus;
 use engine::error::Error;
 use engine::{self, Request};
-use numbers::solve::{Arithmetic, ScalarName, Solver};
+use numbers::solve::{Arithmetic, ScalarName};
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::SceneBuilder;
 
-/// What is compared of an answer and the exact one, whoever is in contact.
-pub type Quantity = fn(&Answer, &Answer) -> Verdict;
-
 /// What a run computed, with all the digits that its scalar has.
-pub struct Answer {
+struct Answer {
     /// Displacements by degree of freedom, length.
     u: Vec<RBig>,
-    /// Von Mises stress of each triangle.
-    mises: Vec<f64>,
     in_contact: Vec<bool>,
     /// Places in `u` of the degrees of freedom of each body.
     bodies: Vec<Vec<usize>>,
 }
 
-/// Runs `variant` on `scene` in `scalar`, by its own solver unless another is given.
-pub fn solve(
-    scene: &SceneBuilder,
-    variant: Variant,
-    scalar: ScalarName,
-    solver: Option<Solver>,
-) -> Result<Answer, Error> {
+/// Runs `variant` on `scene` in `scalar`.
+fn solve(scene: &SceneBuilder, variant: Variant, scalar: ScalarName) -> Result<Answer, Error> {
     let scene = scene.build()?;
-    let arithmetic = Arithmetic { scalar, solver, ..Arithmetic::default() };
+    let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
     let request = Request::new(&scene).variant(variant).arithmetic(arithmetic);
     let solution = engine::solve(&request, &mut |_| ())?;
     let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
     let dofs = |node: &NodeId| node.dofs().map(|dof| dof.index());
     let bodies = solution.model.bodies.iter();
     Ok(Answer {
-        mises: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
         in_contact: solution.last().statuses(),
         bodies: bodies.map(|body| body.nodes.iter().flat_map(dofs).collect()).collect(),
         u: solution.digits.unwrap_or_else(|| solution.u.iter().map(value).collect()),
@@ -49,33 +40,10 @@ pub fn solve(
 }
 
 impl Answer {
-    /// The answer with its displacements times `factor`.
-    pub fn times(mut self, factor: f64) -> Self {
-        let factor = RBig::try_from(factor).expect("a power of two");
-        self.u.iter_mut().for_each(|u| *u = &*u * &factor);
-        self
-    }
-
-    /// This answer against the `exact` one: another contact state is wrong, whatever `quantity` is.
-    pub fn against(&self, exact: &Answer, quantity: Quantity) -> Verdict {
-        if self.in_contact == exact.in_contact {
-            quantity(self, exact)
-        } else {
-            Verdict::of_status(false)
-        }
-    }
-
     /// Displacements, relative to the largest of their body.
-    pub fn displacement(&self, exact: &Answer) -> Verdict {
+    fn displacement(&self, exact: &Answer) -> Verdict {
         let of_body = |dofs: &Vec<usize>| self.error(exact, dofs);
         Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
-    }
-
-    /// Von Mises stresses, relative to the largest.
-    pub fn mises(&self, exact: &Answer) -> Verdict {
-        let pairs = self.mises.iter().zip(&exact.mises);
-        let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        Verdict::of_error(error / exact.mises.iter().fold(0.0, |m: f64, x| m.max(*x)))
     }
 
     /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and
@@ -96,47 +64,39 @@ impl Answer {
     }
 }
 
-/// Exact answers, each solved once for all methods that are compared with it.
-#[derive(Default)]
-pub struct Exacts(Mutex<Vec<Known>>);
-
-struct Known {
-    scene: SceneBuilder,
-    variant: Variant,
-    answer: Result<Arc<Answer>, Verdict>,
+/// Runs `variant` on `blocks` in `scalar`, and compares with exact numbers: another contact state is wrong.
+/// `unilateral` has no exact run and is compared with `tied`, which is its answer where nothing opens.
+pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Verdict, Error> {
+    let scene = blocks.scene(variant);
+    let answer = solve(&scene, variant, scalar)?;
+    let is_unilateral = variant == Variant::Unilateral;
+    let known = if is_unilateral { Variant::Tied } else { variant };
+    Ok(match solve(&scene, known, ScalarName::Exact) {
+        Ok(exact) if answer.in_contact == exact.in_contact => answer.displacement(&exact),
+        Ok(_) if is_unilateral => Verdict::Unknown,
+        Ok(_) => Verdict::of_status(false),
+        Err(_) => Verdict::Wrong("exact refuses"),
+    })
 }
 
-impl Exacts {
-    /// Runs `variant` on `scene` in exact numbers; else returns how that is refused.
-    pub fn answer(&self, scene: &SceneBuilder, variant: Variant) -> Result<Arc<Answer>, Verdict> {
-        let is_known = |known: &&Known| known.variant == variant && known.scene == *scene;
-        if let Some(known) = self.known().iter().find(is_known) {
-            return known.answer.clone();
-        }
-        let answer = solve(scene, variant, ScalarName::Exact, None);
-        let answer = answer.map(Arc::new).map_err(Verdict::from);
-        self.known().push(Known { scene: scene.clone(), variant, answer: answer.clone() });
-        answer
-    }
-
-    /// Compares `answer` with the exact run of `variant` on `scene`; `unilateral` has no exact run
-    /// and is compared with `tied`, which is its answer where nothing opens.
-    pub fn judge(
-        &self,
-        answer: &Answer,
-        scene: &SceneBuilder,
-        variant: Variant,
-        quantity: Quantity,
-    ) -> Verdict {
-        let unilateral = variant == Variant::Unilateral;
-        match self.answer(scene, if unilateral { Variant::Tied } else { variant }) {
-            Ok(exact) if unilateral && answer.in_contact != exact.in_contact => Verdict::Unknown,
-            Ok(exact) => answer.against(&exact, quantity),
-            Err(_) => Verdict::Wrong("exact refuses"),
-        }
-    }
-
-    fn known(&self) -> MutexGuard<'_, Vec<Known>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// The radial displacement where the quarter's diagonal meets the bore, on a mesh of `radial`
+/// divisions of the wall, against Lamé's.
+pub fn judge_by_lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
+    let mut annulus = Annulus { radial, around: 2 * radial }.generate()?;
+    annulus.description.materials.0[0].1.nu = nu;
+    let request = Request::new(&annulus.build()?).variant(Variant::Unilateral);
+    let solution = engine::solve(&request, &mut |_| ())?;
+    let model = &solution.model;
+    let far = |node: &NodeId| {
+        let at = model.coordinates(*node);
+        at.iter().map(|x| (x - 10.0 * FRAC_1_SQRT_2).abs()).fold(0.0, f64::max)
+    };
+    let nearest = model.node_ids().min_by(|a, b| far(a).total_cmp(&far(b)));
+    let [x, y] = nearest.expect("a mesh has nodes").components(&solution.u);
+    // (1 + nu) p a² / (E (b² − a²)) · ((1 − 2 nu) a + b²/a): a = 10, b = 20, p = 10, E = 30000.
+    let exact = (1.0 + nu) * 1000.0 / (30000.0 * 300.0) * ((1.0 - 2.0 * nu) * 10.0 + 40.0);
+    Ok(match Verdict::of_error((x.hypot(y) - exact).abs() / exact) {
+        Verdict::Wrong("no digit") => Verdict::Wrong("locked"),
+        other => other,
+    })
 }

@@ -15,7 +15,6 @@ use problem::modelling::{Geometry, Variant};
 use problem::scene::{Axis, Contact, Mesh, MeshBuilder, SceneBuilder};
 
 /// What a generator may change of the scene.
-#[derive(Clone, Debug)]
 pub struct Blocks {
     pub length: f64,
     /// What is added to each coordinate, length.
@@ -29,14 +28,13 @@ pub struct Blocks {
     /// Tolerance of the contact search, length.
     pub c_tll: f64,
     pub iterations: usize,
-    pub contact: Vec<usize>,
-    pub target: Vec<usize>,
     /// Distance of an eleventh node from the edge 1-5, in lengths: a sliver stands on that edge.
     pub sliver: Option<f64>,
 }
 
-impl Default for Blocks {
-    fn default() -> Self {
+impl Blocks {
+    /// Blocks with nothing extreme.
+    pub fn new() -> Self {
         Blocks {
             length: 1.0,
             origin: 0.0,
@@ -45,14 +43,10 @@ impl Default for Blocks {
             pressure: 6.3,
             c_tll: 1e-3,
             iterations: 1,
-            contact: vec![6, 7, 8],
-            target: vec![1, 2],
             sliver: None,
         }
     }
 }
-
-pub type BlocksOf = fn(f64) -> Blocks;
 
 /// Coordinates x and y of the ten nodes, in lengths.
 const X: [f64; 10] = [0.0, 3.0, 3.0, 0.0, 1.6, 0.4, 1.3, 2.7, 2.5, 0.6];
@@ -70,7 +64,7 @@ impl Blocks {
     /// The scene on which `variant` runs. `printed` joins no bodies: the stamp is restrained at its
     /// top in both directions, and forces act at nodes 5 and 7.
     pub fn scene(&self, variant: Variant) -> SceneBuilder {
-        let contact = Contact::new(self.contact.clone(), self.target.clone(), self.c_tll);
+        let contact = Contact::new(vec![6, 7, 8], vec![1, 2], self.c_tll);
         let scene = SceneBuilder::new("extreme", self.mesh(), Plane::Strain)
             .material(BLOCK, self.e[0], self.nu)
             .material(STAMP, self.e[1], self.nu)

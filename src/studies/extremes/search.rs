@@ -3,11 +3,9 @@
 
 use nalgebra::DVector;
 
-use super::sweep::Method;
 use super::verdict::Verdict;
 use engine::error::Error;
-use numbers::scalar::{Exact, F64x2, Scalar, scope};
-use numbers::solve::ScalarName;
+use numbers::scalar::{Exact, Scalar, scope};
 use paper::door;
 use paper::mirror::{Reading, c_cnt};
 use problem::element::Plane;
@@ -29,7 +27,8 @@ pub struct Search {
     pub c_tll: f64,
 }
 
-struct Difference<T> {
+/// What a search found.
+struct Found<T> {
     /// Its gap to the edge: as printed a length, projected in edge lengths.
     gap: T,
     /// Its weight at the edge's first node.
@@ -39,8 +38,29 @@ struct Difference<T> {
 }
 
 impl Search {
+    /// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, nearer to it than the
+    /// paper's c_tol. All move by a thousandth, and the edge widens by another: it keeps its angle, but not
+    /// the bits of its x difference.
+    pub fn at_angle(angle: f64) -> Search {
+        const GAP: f64 = 7e-4;
+        let a = [1.0 / 3.0, 1.0 / 7.0];
+        let n = [a[0] + 0.4 * angle - GAP, a[1] + 0.4 + GAP * angle];
+        let moved = [0.0, 0.37e-3, 0.148e-3].map(|part| [1.1e-3 + part * angle, -2.3e-3]);
+        // A tolerance of 10 edges keeps the node in contact: its status would hide its weights.
+        Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
+    }
+
+    /// A node above a level edge, then a sloping one, by the tolerance or by the next number to it.
+    pub fn at_tolerance(case: f64) -> Search {
+        let (case, c_tll) = (case as usize, 1e-3);
+        let (b, height) = if case < 3 { ([2.0, 0.0], 0.0) } else { ([3.0, 1.0], 0.7 / 3.0) };
+        let y: f64 = height + c_tll;
+        let y = [y.next_down(), y, y.next_up()][case % 3];
+        Search { a: [0.0, 0.0], b, n: [0.7, y], moved: [[0.0; 2]; 3], c_tll }
+    }
+
     /// As printed: c_cnt under R5 = node_n, which takes weights from the current shape too.
-    fn printed<T: Scalar>(&self) -> Result<Difference<T>, Error> {
+    fn printed<T: Scalar>(&self) -> Result<Found<T>, Error> {
         let scene = self.scene().build()?;
         let reading: Reading = "R5=node_n".parse().expect("a reading");
         let sheet = door::worksheet(&scene.model, T::from_f64);
@@ -51,15 +71,12 @@ impl Search {
             }
         }
         let pairs = c_cnt(&sheet, &reading, &door::displaced_nodes(&sheet, &u))?;
-        Ok(Difference { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
+        Ok(Found { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
     }
 
-    /// The remedy: distance along the normal and weight by projection, over the edge length, from
-    /// coordinates about `origin`.
-    fn projected<T: Scalar>(&self, origin: [f64; 2]) -> Difference<T> {
-        let at = |p: [f64; 2], u: [f64; 2]| {
-            [0, 1].map(|d| T::from_f64(p[d] - origin[d]) + T::from_f64(u[d]))
-        };
+    /// The remedy: distance along the normal and weight by projection, over the edge length.
+    fn projected<T: Scalar>(&self) -> Found<T> {
+        let at = |p: [f64; 2], u: [f64; 2]| [0, 1].map(|d| T::from_f64(p[d]) + T::from_f64(u[d]));
         let [ua, ub, un] = self.moved;
         let (a, b, n) = (at(self.a, ua), at(self.b, ub), at(self.n, un));
         let ([ex, ey], [rx, ry]) = (minus(b, a), minus(n, a));
@@ -68,7 +85,7 @@ impl Search {
         // lengths.
         let gap = (ry * ex - rx * ey) / square;
         let weight = T::one() - (rx * ex + ry * ey) / square;
-        Difference { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
+        Found { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
     }
 
     /// A triangle below the edge, and one above the contact node. Nodes 1, 2, 4 are a, b, n.
@@ -96,6 +113,7 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
     [ax - bx, ay - by]
 }
 
+/// What is compared of a search.
 #[derive(Clone, Copy)]
 pub enum Quantity {
     Gap,
@@ -105,52 +123,39 @@ pub enum Quantity {
     Status,
 }
 
-pub type SearchOf = fn(f64) -> Search;
-
-/// A search by the printed formulas in f32, f64 and f64x2.
-pub fn printed(name: &str, of: Quantity, search: SearchOf) -> Vec<Method> {
-    vec![
-        method::<f32>(name, ScalarName::F32, of, search, None),
-        method::<f64>(name, ScalarName::F64, of, search, None),
-        method::<F64x2>(name, ScalarName::F64x2, of, search, None),
-    ]
+/// How a search is made.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Formulas {
+    /// Those of `c_cnt`.
+    Printed,
+    /// Projection on the edge.
+    Projected,
 }
 
-/// The same by the remedy, projection on the edge about an origin, in f32 and f64.
-pub fn projected(name: &str, of: Quantity, search: SearchOf, origin: Origin) -> Vec<Method> {
-    vec![
-        method::<f32>(name, ScalarName::F32, of, search, Some(origin)),
-        method::<f64>(name, ScalarName::F64, of, search, Some(origin)),
-    ]
+/// The formulas that find a quantity, each with what they call it; the remedy has no status of its own.
+pub fn formulas(of: Quantity) -> Vec<(Formulas, &'static str)> {
+    match of {
+        Quantity::Gap => vec![(Formulas::Printed, "yt"), (Formulas::Projected, "normal gap")],
+        Quantity::Weight => {
+            vec![(Formulas::Printed, "weight"), (Formulas::Projected, "projected weight")]
+        }
+        Quantity::Status => vec![(Formulas::Printed, "status")],
+    }
 }
 
-/// The origin of the coordinates of a search, length.
-type Origin = fn(&Search) -> [f64; 2];
-
-/// The printed formulas in `T`, or the projected ones about an origin, against exact ones.
-fn method<T: Scalar>(
-    name: &str,
-    scalar: ScalarName,
-    of: Quantity,
-    search: SearchOf,
-    origin: Option<Origin>,
-) -> Method {
-    Method::new(format!("{name} {scalar}"), scalar, move |x, _| {
-        let search = search(x);
-        scope(|| {
-            let (found, exact) = match origin {
-                Some(origin) => {
-                    (search.projected::<T>(origin(&search)), Ok(search.projected([0.0, 0.0])))
-                }
-                None => (search.printed::<T>()?, search.printed::<Exact>()),
-            };
-            Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| found.against(&exact, of)))
-        })
+/// Searches in `T`, and compares with the same formulas in exact numbers.
+pub fn judge<T: Scalar>(search: Search, by: Formulas, of: Quantity) -> Result<Verdict, Error> {
+    scope(|| {
+        let (found, exact) = match by {
+            Formulas::Printed => (search.printed::<T>()?, search.printed::<Exact>()),
+            Formulas::Projected => (search.projected::<T>(), Ok(search.projected())),
+        };
+        Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| found.against(&exact, of)))
     })
 }
 
-impl<T: Scalar> Difference<T> {
-    fn against(&self, exact: &Difference<Exact>, of: Quantity) -> Verdict {
+impl<T: Scalar> Found<T> {
+    fn against(&self, exact: &Found<Exact>, of: Quantity) -> Verdict {
         let error = |x: T, y: Exact| match (x.to_rational(), y.to_rational()) {
             (Some(x), Some(y)) => Verdict::of_error((x - y).to_f64().value().abs()),
             _ => Verdict::of_error(f64::NAN),

@@ -3,35 +3,20 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::answer::Exacts;
+use super::blocks::Blocks;
+use super::search::{self, Quantity, Search, formulas};
 use super::verdict::Verdict;
+use super::{Generator, Known, Made, Values, answer};
 use engine::error::Error;
+use numbers::scalar::F64x2;
 use numbers::solve::ScalarName;
+use problem::modelling::Variant;
 
-/// Fewer right digits than these, and an engineer is misled.
-pub const LEAST: f64 = 3.0;
+/// Fewer right digits than these, or than half of what the scalar carries, and an engineer is misled.
+const LEAST: f64 = 3.0;
 
-/// A family of scenes in which one magnitude becomes extreme.
-pub struct Generator {
-    /// Its name.
-    pub name: &'static str,
-    /// What the generator tries, in a line for people.
-    pub title: &'static str,
-    /// What is swept, with its unit.
-    pub magnitude: &'static str,
-    sweep: Sweep,
-    methods: Vec<Method>,
-}
-
-pub enum Sweep {
-    /// Powers of ten `from` .. `to` by `step`, walked from 1 outwards.
-    Decades { from: i32, to: i32, step: usize },
-    /// Named cases; the magnitude is the case's number, from 0.
-    Cases(&'static [&'static str]),
-}
-
-/// How a problem is solved: a variant or a remedy, and a scalar.
-pub struct Method {
+/// How a problem is solved: a variant or formulas, and a scalar.
+struct Method {
     name: String,
     carried: f64,
     /// Fewer digits than these count as broken.
@@ -39,34 +24,77 @@ pub struct Method {
     measure: Box<Measure>,
 }
 
-/// Solves the problem of a magnitude, and judges the answer.
-type Measure = dyn Fn(f64, &Exacts) -> Result<Verdict, Error> + Send + Sync;
+/// Solves the problem of a value, and judges the answer.
+type Measure = dyn Fn(f64) -> Result<Verdict, Error> + Send + Sync;
 
 impl Method {
-    /// A method in `scalar`; `measure` solves the problem of a magnitude and judges the answer.
-    pub fn new(
-        name: impl Into<String>,
+    fn new(
+        name: String,
         scalar: ScalarName,
-        measure: impl Fn(f64, &Exacts) -> Result<Verdict, Error> + Send + Sync + 'static,
+        measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
         // An exact answer is compared as an f64.
         let carried = f64::from(scalar.properties().digits.unwrap_or(16));
-        Method { name: name.into(), carried, least: LEAST, measure: Box::new(measure) }
+        Method { name, carried, least: LEAST.min(carried / 2.0), measure: Box::new(measure) }
     }
 
-    /// The same method, of which no more than `carried` digits are known.
-    pub fn carrying(self, carried: f64) -> Self {
-        Method { carried: self.carried.min(carried), ..self }
+    fn verdict(&self, value: f64) -> Verdict {
+        (self.measure)(value).unwrap_or_else(Verdict::from).at_most(self.carried)
     }
+}
 
-    /// The same method, which breaks down only with fewer than `least` digits.
-    pub fn down_to(self, least: f64) -> Self {
-        Method { least, ..self }
+/// Whether methods are tried in a scalar: those that keep a bound compute as those that they bound, and exact
+/// numbers are what all are compared with.
+fn is_tried(scalar: ScalarName) -> bool {
+    match scalar {
+        ScalarName::F32 | ScalarName::F64 | ScalarName::F64x2 => true,
+        ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => false,
     }
+}
 
-    fn verdict(&self, magnitude: f64, exacts: &Exacts) -> Verdict {
-        (self.measure)(magnitude, exacts).unwrap_or_else(Verdict::from).at_most(self.carried)
-    }
+/// What is tried on blocks: `tied` in each scalar, the others in f64.
+fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
+    let tied = tried().map(|scalar| (Variant::Tied, scalar));
+    let others = [Variant::Unilateral, Variant::Printed].map(|v| (v, ScalarName::F64));
+    let method = |(variant, scalar): (Variant, ScalarName)| {
+        let measure = move |x| answer::judge(&blocks(x), variant, scalar);
+        Method::new(format!("{variant} {scalar}"), scalar, measure)
+    };
+    tied.chain(others).map(method).collect()
+}
+
+/// The blocks' Poisson's ratio on an annulus, which locks long before the arithmetic breaks down.
+fn by_lame(blocks: fn(f64) -> Blocks) -> Vec<Method> {
+    let method = |radial| {
+        let name = format!("f64, {radial} x {} mesh against Lame", 2 * radial);
+        let measure = move |x| answer::judge_by_lame(blocks(x).nu, radial);
+        Method { least: 1.0, ..Method::new(name, ScalarName::F64, measure) }
+    };
+    [4, 16].map(method).into()
+}
+
+/// What is tried on a search: the formulas of each quantity in each scalar.
+fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> {
+    let of_quantity = |of: &Quantity| {
+        let of = *of;
+        formulas(of).into_iter().flat_map(move |(by, name)| {
+            tried().map(move |scalar| {
+                Method::new(format!("{name} {scalar}"), scalar, move |x| match scalar {
+                    ScalarName::F32 => search::judge::<f32>(search(x), by, of),
+                    ScalarName::F64 => search::judge::<f64>(search(x), by, of),
+                    ScalarName::F64x2 => search::judge::<F64x2>(search(x), by, of),
+                    ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => {
+                        unreachable!("it is not tried")
+                    }
+                })
+            })
+        })
+    };
+    quantities.iter().flat_map(of_quantity).collect()
+}
+
+fn tried() -> impl Iterator<Item = ScalarName> {
+    ScalarName::ALL.iter().copied().filter(|scalar| is_tried(*scalar))
 }
 
 /// What the methods made of the scenes of a generator.
@@ -113,79 +141,71 @@ pub struct Break {
 }
 
 impl Generator {
-    /// A generator that tries each of `methods` on what is swept.
-    pub fn new(
-        name: &'static str,
-        title: &'static str,
-        magnitude: &'static str,
-        sweep: Sweep,
-        methods: impl IntoIterator<Item = Vec<Method>>,
-    ) -> Self {
-        let methods = methods.into_iter().flatten().collect();
-        Generator { name, title, magnitude, sweep, methods }
+    fn methods(&self) -> Vec<Method> {
+        let of = |known: &Known| match (known, self.made) {
+            (Known::Exact, Made::Blocks(blocks)) => on_blocks(blocks),
+            (Known::Exact, Made::Search(search, of)) => on_search(search, of),
+            (Known::Lame, Made::Blocks(blocks)) => by_lame(blocks),
+            (Known::Lame, Made::Search(..)) => Vec::new(),
+        };
+        self.known.iter().flat_map(of).collect()
     }
 
-    /// Runs all methods on all magnitudes.
-    pub fn measure(&self) -> SweepTable {
-        let Generator { name, title, magnitude, ref sweep, ref methods } = *self;
-        let points = sweep.points();
-        let logarithmic = matches!(sweep, Sweep::Decades { .. });
-        let of = |p: &i32| sweep.magnitude(f64::from(*p)) + if logarithmic { 0.0 } else { 1.0 };
-        let exacts = Exacts::default();
-        // One method after the other at each point, as they share its exact answer.
-        let at = |p: &i32| {
-            let magnitude = sweep.magnitude(f64::from(*p));
-            methods.iter().map(|method| method.verdict(magnitude, &exacts)).collect()
-        };
-        let verdicts: Vec<Vec<Verdict>> = points.par_iter().map(at).collect();
-        let column = |(k, method): (usize, &Method)| {
-            sweep.column(method, verdicts.iter().map(|row| row[k].clone()).collect(), &exacts)
+    /// Runs all methods on all values.
+    pub(super) fn measure(&self) -> SweepTable {
+        let Generator { name, title, magnitude, ref values, .. } = *self;
+        let points = values.points();
+        let logarithmic = matches!(values, Values::Decades { .. });
+        let of = |p: &i32| values.value(f64::from(*p)) + if logarithmic { 0.0 } else { 1.0 };
+        let column = |method: &Method| {
+            let at = |p: &i32| method.verdict(values.value(f64::from(*p)));
+            values.column(method, points.par_iter().map(at).collect())
         };
         SweepTable {
             name,
             title,
             magnitude,
-            labels: points.iter().map(|p| sweep.label(*p)).collect(),
+            labels: points.iter().map(|p| values.label(*p)).collect(),
             magnitudes: points.iter().map(of).collect(),
             logarithmic,
-            columns: methods.par_iter().enumerate().map(column).collect(),
+            columns: self.methods().par_iter().map(column).collect(),
         }
     }
 }
 
-impl Sweep {
+impl Values {
     fn points(&self) -> Vec<i32> {
         match *self {
-            Sweep::Decades { from, to, step } => (from..=to).step_by(step).collect(),
-            Sweep::Cases(names) => (0..names.len() as i32).collect(),
+            Values::Decades { from, to, step } => (from..=to).step_by(step).collect(),
+            Values::Cases(names) => (0..names.len() as i32).collect(),
         }
     }
 
     fn label(&self, point: i32) -> String {
         match self {
-            Sweep::Decades { .. } => format!("1e{point}"),
-            Sweep::Cases(names) => names[point as usize].into(),
+            Values::Decades { .. } => format!("1e{point}"),
+            Values::Cases(names) => names[point as usize].into(),
         }
     }
 
-    fn magnitude(&self, point: f64) -> f64 {
+    fn value(&self, point: f64) -> f64 {
         match self {
             // A power of ten is read, not computed: correctly rounded on every machine.
-            Sweep::Decades { .. } if point.fract() == 0.0 => {
+            Values::Decades { .. } if point.fract() == 0.0 => {
                 format!("1e{point}").parse().expect("a number")
             }
-            Sweep::Decades { .. } => 10f64.powf(point),
-            Sweep::Cases(_) => point,
+            Values::Decades { .. } => 10f64.powf(point),
+            Values::Cases(_) => point,
         }
     }
 
     /// Finds where a method breaks down that was judged at each point.
-    fn column(&self, method: &Method, verdicts: Vec<Verdict>, exacts: &Exacts) -> Column {
+    fn column(&self, method: &Method, verdicts: Vec<Verdict>) -> Column {
         let points = self.points();
-        let at = |point: f64| method.verdict(self.magnitude(point), exacts);
+        let at = |point: f64| method.verdict(self.value(point));
         let (below, above) = match self {
-            Sweep::Cases(_) => (None, None),
-            Sweep::Decades { .. } => {
+            Values::Cases(_) => (None, None),
+            Values::Decades { .. } => {
                 let known: Vec<(i32, &Verdict)> = points.iter().copied().zip(&verdicts).collect();
                 let start = points.partition_point(|p| *p < 0);
                 let downwards = known[..=start].iter().rev();

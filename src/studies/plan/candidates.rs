@@ -11,7 +11,6 @@
 
 use serde::Serialize;
 
-use engine::contact::search::Segment;
 use problem::model::{Bounds, Model};
 
 /// How far a node may move, in lengths of the edge: one that moves further passes over half of it
@@ -28,8 +27,6 @@ pub struct Candidates {
     pub pairs: usize,
     /// Nodes that can come to an edge.
     pub near: usize,
-    /// Of those, nodes within c_tll of an edge.
-    pub touching: usize,
 }
 
 impl Candidates {
@@ -46,26 +43,22 @@ impl Candidates {
         let axis = usize::from(height > width);
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|a, b| points[*a][axis].total_cmp(&points[*b][axis]));
-        let mut found: Vec<(usize, bool)> = vec![(0, false); points.len()];
+        let mut found = vec![0; points.len()];
         for edge in model.target_edges() {
             let [a, b] = edge.nodes.map(|node| model.coordinates(node));
             let grown = tolerance + MARGIN * (b[0] - a[0]).hypot(b[1] - a[1]);
             let near = Bounds::around(&[a, b]).padded(grown);
-            let segment = Segment::new([a, b]);
             let from = order.partition_point(|k| points[*k][axis] < near.low[axis]);
             let beside = order[from..].iter().take_while(|k| points[**k][axis] <= near.high[axis]);
             for k in beside.filter(|k| near.contains(points[**k])) {
-                let (pairs, touches) = &mut found[*k];
-                *pairs += 1;
-                *touches |= segment.closest(points[*k]).distance().abs() <= tolerance;
+                found[*k] += 1;
             }
         }
         Some(Candidates {
             nodes: points.len(),
             edges: model.contact.target.len(),
-            pairs: found.iter().map(|(pairs, _)| pairs).sum(),
-            near: found.iter().filter(|(pairs, _)| *pairs > 0).count(),
-            touching: found.iter().filter(|(_, touches)| *touches).count(),
+            pairs: found.iter().sum(),
+            near: found.iter().filter(|pairs| **pairs > 0).count(),
         })
     }
 

@@ -1,15 +1,12 @@
-//! What a run will build and what it leaves out, and what that costs, before any of it is done.
+//! What a run will build and what it leaves out, before any of it is done.
 //!
 //! ```text
 //!  scene --+--> bodies, equations, contact candidates      counted
 //!          +--> symmetry, what nothing moves               recognised
-//!          +--> factors, by their pattern (solve::FactorSize)
-//!                  +--> bytes, operations
 //! ```
 
 mod bodies;
 mod candidates;
-mod cost;
 
 use serde::Serialize;
 
@@ -17,20 +14,14 @@ pub use bodies::{BodyPlan, Idle};
 pub use candidates::MARGIN;
 
 use candidates::Candidates;
-use cost::{Cost, Work};
 
 use base::choices;
 use base::error::Result;
-use base::memory;
-use engine::{Request, dense_matrices};
-use numbers::solve::{FactorSize, Pattern, ScalarName, Solver};
-use problem::model::{Dof, Model};
+use engine::{Request, is_dense};
+use numbers::solve::{ScalarName, Solver};
+use problem::model::Model;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use problem::scene::symmetry::half;
-
-/// The bytes that a free equation takes while a plan is made: the pattern of the matrix and of its
-/// factors; measured on grids of 0.4 and 1.6 million equations.
-const BYTES_OF_AN_EQUATION: f64 = 600.0;
 
 choices! {
     /// How the matrices of a run are kept.
@@ -70,10 +61,6 @@ pub struct Plan {
     pub solver: Solver,
     /// How the matrix would be stored.
     pub storage: Storage,
-    /// The size of the factors.
-    pub factors: FactorSize,
-    /// The operations, the memory and the time.
-    pub cost: Cost,
     /// Nodes of the mesh file that belong to no triangle and were dropped.
     pub orphans: usize,
     /// Half of the scene, where it is its own mirror image about a vertical line.
@@ -127,24 +114,12 @@ impl Plan {
         let Request { ref scene, variant, arithmetic, .. } = *request;
         arithmetic.check()?;
         let model = &*request.model()?;
-        let whose = format!("the plan's {} equations", model.free_dofs());
-        let needed = BYTES_OF_AN_EQUATION * model.free_dofs() as f64;
-        memory::check_bytes(needed, "the mesh", &whose, memory::FIX)?;
         let bodies = bodies::plan(model, variant);
         let solver = request.solver();
         let equations = equations(model, variant, &bodies);
         let ContactModel { coupling, friction, status, .. } = request.contact;
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
         let contact = Candidates::find(model).map(plan);
-        let dense = dense_matrices(variant, arithmetic);
-        let sparse = FactorSize::sparse_cholesky(&pattern(model));
-        let factors = match solver {
-            Solver::DenseLu => FactorSize::dense_lu(equations.solved),
-            Solver::SparseLu => sparse.as_lu(),
-            Solver::SparseCholesky => sparse,
-        };
-        let candidates = contact.as_ref().map(|contact| &contact.candidates);
-        let cost = Work { request, model, dense, factors, sparse, candidates }.cost();
         Ok(Plan {
             scene: scene.name.clone(),
             variant,
@@ -152,14 +127,12 @@ impl Plan {
             triangles: model.triangles.len(),
             load: model.total_load(),
             nominal_strain: bodies::nominal_strain(model),
-            cost,
             bodies,
             equations,
             contact,
             scalar: arithmetic.scalar,
             solver,
-            storage: if dense > 0 { Storage::Dense } else { Storage::Sparse },
-            factors,
+            storage: if is_dense(variant, arithmetic) { Storage::Dense } else { Storage::Sparse },
             orphans: model.dropped.len(),
             half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
         })
@@ -171,14 +144,6 @@ impl Plan {
     pub fn half_would_do(&self) -> bool {
         self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
     }
-
-    /// Checks that the dense matrices of the run fit in `free` bytes: what `solve` asks first.
-    ///
-    /// # Errors
-    /// The run needs more memory than is free.
-    pub fn check_memory(&self, free: Option<u128>) -> Result<()> {
-        memory::check(self.nodes, self.cost.dense_matrices, free)
-    }
 }
 
 fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations {
@@ -186,21 +151,4 @@ fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations 
     let idle = bodies.iter().filter(|body| body.idle.is_some()).map(|body| body.free).sum();
     let solved = if variant == Variant::Printed { all } else { free };
     Equations { all, restrained: all - free, free, solved, idle }
-}
-
-/// The groups of free equations that triangles join, and the number of equations of each: single equations,
-/// of many those of a node together, which are ordered in a third of the time and fill about as little.
-/// Contact is left out: it changes a few entries.
-fn pattern(model: &Model) -> Pattern {
-    let free: Vec<usize> =
-        model.all_dofs().filter(|dof| !model.is_restrained(*dof)).map(Dof::index).collect();
-    let mut equation = vec![None; model.dofs()];
-    free.iter().enumerate().for_each(|(e, dof)| equation[*dof] = Some(e));
-    Pattern::new(free.len(), |visit| {
-        for triangle in &model.triangles {
-            let dofs = triangle.nodes.into_iter().flat_map(|node| node.dofs());
-            let all = dofs.filter_map(|dof| equation[dof.index()]);
-            all.clone().for_each(|i| all.clone().for_each(|j| visit(i, j)));
-        }
-    })
 }

@@ -95,23 +95,31 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Er
 /// The precisions, the cheapest first. `unilateral` runs in f64 only, mortar in those that have its
 /// digits and its roots.
 fn precisions(request: &Request) -> Vec<Arithmetic> {
-    use ScalarName::{Bounded, BoundedDouble, Exact, F32};
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
     const DENSE: usize = 600;
-    let is_small = request.scene.model.dofs() <= DENSE;
-    let all = |by: fn(ScalarName) -> Arithmetic| {
-        vec![by(F32), by(Bounded), by(BoundedDouble), sparse(Exact)]
+    if request.variant == Variant::Unilateral {
+        return vec![sparse(ScalarName::F64)];
+    }
+    let is_printed = request.variant == Variant::Printed;
+    let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
+    let is_mortar = request.contact.coupling == Coupling::Mortar && !is_printed;
+    let runs = |scalar: &ScalarName| !is_mortar || scalar.properties().no_mortar.is_none();
+    let arithmetic = |scalar: ScalarName| match by_lu && scalar != ScalarName::Exact {
+        true => by(scalar, Solver::DenseLu),
+        false => sparse(scalar),
     };
-    match (request.variant, request.contact.coupling) {
-        (Variant::Unilateral, Coupling::Nts | Coupling::Mortar) => vec![sparse(ScalarName::F64)],
-        (Variant::Tied | Variant::Stepped, Coupling::Mortar) => {
-            vec![sparse(Bounded), sparse(BoundedDouble)]
+    let bounded = ScalarName::ALL.iter().copied().filter(|scalar| has_bound(*scalar));
+    bounded.filter(runs).map(arithmetic).collect()
+}
+
+/// Whether there is a bound on what rounding does in a scalar: its own, or for f32 that of
+/// `estimates::arithmetic`.
+fn has_bound(scalar: ScalarName) -> bool {
+    match scalar {
+        ScalarName::F32 | ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => {
+            true
         }
-        (Variant::Tied | Variant::Stepped, Coupling::Nts) => all(sparse),
-        (Variant::Printed, Coupling::Nts | Coupling::Mortar) if is_small => {
-            all(|scalar| by(scalar, Solver::DenseLu))
-        }
-        (Variant::Printed, Coupling::Nts | Coupling::Mortar) => all(sparse),
+        ScalarName::F64 | ScalarName::F64x2 => false,
     }
 }
 

@@ -10,7 +10,7 @@ pub use fields::has_field;
 use strict::Strict;
 
 use crate::error::{InputError, Result};
-use crate::memory;
+use crate::limits;
 use crate::plain::plain;
 use crate::suggestion::did_you_mean;
 
@@ -43,13 +43,11 @@ pub struct Kind {
 ///
 /// # Errors
 /// Names the field that is malformed or given twice, with line and column, or what follows the
-/// document; or says that it is in another encoding, or needs more memory than is free.
+/// document; or says that it is in another encoding, or has too many values.
 pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
     let whole = format!("the {}", kind.name);
     let text = utf8(text).map_err(|what| InputError::new(&whole, what, "save it as UTF-8"))?;
-    let whose = format!("its values, {} of text,", memory::readable(text.len() as f64));
-    let fix = "give a smaller file, or use a machine with more memory";
-    memory::check_bytes(bytes_of_values(text, kind), &whole, &whose, fix)?;
+    limits::VALUES.check(values(text), &whole)?;
     let mut source = serde_json::Deserializer::from_str(text);
     let place = |path: &str| if path.is_empty() { whole.clone() } else { format!("field {path}") };
     let document = deserialize(&mut source, kind, place, |error| words(error, text))?;
@@ -109,23 +107,17 @@ pub fn utf8(text: &[u8]) -> Result<&str, String> {
     }
 }
 
-/// Returns the most bytes that the values of a document take: those of each scalar, of each list or
-/// object, and of each name in an object. Lists that grow have twice the room of what they hold.
-fn bytes_of_values(text: &str, kind: &Kind) -> f64 {
-    let [scalar, container, name] =
-        if kind.has_values { [144.0, 304.0, 256.0] } else { [16.0, 304.0, 128.0] };
-    let (mut scalars, mut containers, mut names) = (1.0, 0.0, 0.0);
-    let mut bytes = text.bytes();
+/// Returns how many values a document has at most: each stands behind a comma or opens a list or an object.
+fn values(text: &str) -> usize {
+    let (mut count, mut bytes) = (0, text.bytes());
     while let Some(byte) = bytes.next() {
         match byte {
-            b',' => scalars += 1.0,
-            b'[' | b'{' => containers += 1.0,
-            b':' => names += 1.0,
+            b',' | b'[' | b'{' => count += 1,
             b'"' => skip_string(&mut bytes),
             _ => (),
         }
     }
-    text.len() as f64 + scalars * scalar + containers * container + names * name
+    count
 }
 
 /// Skips a string behind its first quote.

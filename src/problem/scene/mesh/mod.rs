@@ -19,12 +19,6 @@ use smallvec::SmallVec;
 
 use crate::element::Corners;
 
-/// The bytes that a node takes while a scene is read and built, and an element with what its share of
-/// the nodes takes once they are read; measured on grids of 0.4 and 1.6 million elements, with what
-/// those out of order take.
-pub const NODE: f64 = 130.0;
-pub const ELEMENT: f64 = 310.0;
-
 /// Nodes and elements in ascending order of number. As a document, of which the SHA-256 is taken, it
 /// is rows of numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
