@@ -12,9 +12,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
-use super::refinement::refine;
+use super::refinement::{CONTRACTION, REFINED, refine};
 use super::stiffness::Stiffness;
-use numbers::solve::{DenseCholesky, EliminatedLoad, Factors, Schur, largest_motion};
+use numbers::solve::{
+    DenseCholesky, EliminatedLoad, Factors, Schur, backward_error, largest_motion,
+};
 use problem::model::{Dof, Model, NodeId};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,
@@ -30,8 +32,9 @@ const ENOUGH: f64 = 32.0 * f64::EPSILON;
 
 /// The stiffness reduced to some nodes.
 pub struct Reduction {
-    /// The degree of freedom of each free equation of the bodies.
+    /// The degree of freedom of each free equation of the bodies, and whether each one is.
     free: Vec<Dof>,
+    is_free: Vec<bool>,
     schur: Schur,
     /// The kept nodes, ascending, and the degrees of freedom of those that are not restrained.
     nodes: Vec<NodeId>,
@@ -41,7 +44,8 @@ pub struct Reduction {
     restrained: Vec<bool>,
     /// The largest row sum of |S|, force/length.
     norm: f64,
-    dofs: usize,
+    /// That of K.
+    whole_norm: f64,
 }
 
 /// A load from which all but the kept equations are eliminated.
@@ -74,7 +78,9 @@ impl Reduction {
         }
         let kept: Vec<Dof> = last.iter().map(|e| free[*e]).collect();
         let t = Elimination::new(&model.restrained, &[]);
-        let schur = Schur::new(&stiffness.reduced(&t), last)?;
+        let matrix = stiffness.reduced(&t);
+        let whole_norm = matrix.norm();
+        let schur = Schur::new(matrix, last)?;
         let own = |dof: &Dof| {
             let node = place[dof.node().index()].expect("its node is kept");
             2 * node + dof.direction()
@@ -88,8 +94,18 @@ impl Reduction {
         let mut restrained = vec![true; size];
         own.iter().for_each(|k| restrained[*k] = false);
         let norm = reduced.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
-        let dofs = model.dofs();
-        Some(Reduction { free, schur, nodes, kept, stiffness: reduced, restrained, norm, dofs })
+        let is_free = model.all_dofs().map(|dof| !model.is_restrained(dof)).collect();
+        Some(Reduction {
+            free,
+            is_free,
+            schur,
+            nodes,
+            kept,
+            stiffness: reduced,
+            restrained,
+            norm,
+            whole_norm,
+        })
     }
 
     /// Eliminates all but the kept equations from a load by degree of freedom, force.
@@ -104,7 +120,7 @@ impl Reduction {
     fn expand(&self, load: &ReducedLoad, kept: &DVector<f64>) -> DVector<f64> {
         let last = self.kept.iter().map(|dof| kept[self.place(*dof)]);
         let last = DVector::from_iterator(self.kept.len(), last);
-        let mut u = DVector::zeros(self.dofs);
+        let mut u = DVector::zeros(self.is_free.len());
         let all = self.schur.expand(&load.all, &last);
         self.free.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
         u
@@ -117,7 +133,7 @@ impl Reduction {
 
     /// Returns the vector by degree of freedom with a part on the kept nodes, 0 elsewhere.
     fn whole(&self, part: &DVector<f64>) -> DVector<f64> {
-        let mut all = DVector::zeros(self.dofs);
+        let mut all = DVector::zeros(self.is_free.len());
         self.kept.iter().for_each(|dof| all[dof.index()] = part[self.place(*dof)]);
         all
     }
@@ -173,6 +189,36 @@ impl<'a> ReducedState<'a> {
         let (q, residual) = refine(&self.factors, times, *norm, &f);
         let u = self.reduction.expand(load, &self.t.expand(&q));
         (residual <= ENOUGH).then_some((u, residual))
+    }
+
+    /// Returns the same refined until they solve the whole equations, under a `load` by degree of freedom, 0
+    /// at restrained ones, force; and the relative residual of these. None where they do not come there.
+    pub fn refined(
+        &self,
+        stiffness: &Stiffness,
+        load: &DVector<f64>,
+        (reduced, more): (&ReducedLoad, &DVector<f64>),
+    ) -> Option<(DVector<f64>, f64)> {
+        let reduction = self.reduction;
+        let (mut u, _) = self.displacements(reduced, more)?;
+        let mut before = f64::INFINITY;
+        loop {
+            let mut rest = load - stiffness.times(&u);
+            (0..rest.len()).filter(|e| !reduction.is_free[*e]).for_each(|e| rest[e] = 0.0);
+            // The forces that keep constraints do no work.
+            let left = self.t.load(&reduction.part(&rest));
+            let mut inside = rest.clone();
+            reduction.kept.iter().for_each(|dof| inside[dof.index()] = 0.0);
+            let left = DVector::from_vec(vec![left.amax(), inside.amax()]);
+            let error = backward_error(&left, reduction.whole_norm, &u, load);
+            if error <= REFINED || error.is_nan() || error > CONTRACTION * before {
+                return (error <= ENOUGH).then_some((u, error));
+            }
+            before = error;
+            let rest = reduction.eliminated(&rest);
+            let q = self.factors.solve(&self.t.load(&rest.kept));
+            u += reduction.expand(&rest, &self.t.motion(&q));
+        }
     }
 
     /// Returns K u − f under a load by degree of freedom, force; 0 but on the kept nodes.

@@ -37,7 +37,7 @@ pub use elimination::{Field, solve_dense};
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
 pub use ldlt::Ldlt;
-pub use precision::{Outcome, Precision, Solved};
+pub use precision::{Precision, Solved};
 pub use schur::{EliminatedLoad, Schur};
 pub use sparse::{SparseCholesky, largest_motion};
 pub use sparse_lu::SparseLu;
