@@ -14,18 +14,12 @@ use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
 use super::refinement::{CONTRACTION, REFINED, refine};
 use super::stiffness::Stiffness;
-use numbers::solve::{
-    DenseCholesky, EliminatedLoad, Factors, Schur, backward_error, largest_motion,
-};
+use numbers::solve::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
 use problem::model::{Dof, Model, NodeId};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,
 /// which is what a line across the mesh has.
-const MOST: (usize, f64) = (300, 1.5);
-
-/// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
-/// factors of its whole matrix, which tell a singular one.
-const LOOSE: f64 = 1e10;
+const MOST: (usize, f64) = (400, 1.7);
 
 /// The relative residual of a state that is enough.
 const ENOUGH: f64 = 32.0 * f64::EPSILON;
@@ -168,10 +162,8 @@ impl<'a> ReducedState<'a> {
     pub fn new(reduction: &'a Reduction, constraints: &[Constraint]) -> Option<Self> {
         let own = constraints.iter().map(|constraint| reduction.renumbered(constraint));
         let t = Elimination::closing(&reduction.restrained, &own.collect::<Option<Vec<_>>>()?);
-        let matrix = t.matrix(&reduction.stiffness);
-        let factors = DenseCholesky::new(&matrix)?;
-        let is_held = largest_motion(&factors, &matrix.diagonal()) < LOOSE;
-        is_held.then_some(ReducedState { reduction, t, factors })
+        let factors = DenseCholesky::new(&t.matrix(&reduction.stiffness))?;
+        Some(ReducedState { reduction, t, factors })
     }
 
     /// Returns the displacements by degree of freedom, length, under a load and `more` on kept nodes, by
@@ -230,12 +222,13 @@ impl<'a> ReducedState<'a> {
     /// Returns for each of some loads on kept nodes, by degree of freedom, K u − f of the displacements under
     /// it without the shift of the constraints, force; 0 but on the kept nodes.
     pub fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
-        let response = |load: &DVector<f64>| {
-            let f = self.reduction.part(load);
-            let u = self.t.motion(&self.factors.solve(&self.t.load(&f)));
-            self.reduction.whole(&(&self.reduction.stiffness * u - f))
-        };
-        loads.iter().map(response).collect()
+        let own: Vec<DVector<f64>> = loads.iter().map(|load| self.reduction.part(load)).collect();
+        let f: Vec<DVector<f64>> = own.iter().map(|f| self.t.load(f)).collect();
+        let q = self.factors.solve_all(&DMatrix::from_columns(&f));
+        let u: Vec<_> = q.column_iter().map(|q| self.t.motion(&q.into_owned())).collect();
+        let force = &self.reduction.stiffness * DMatrix::from_columns(&u);
+        let response = |(force, f): (_, &DVector<f64>)| self.reduction.whole(&(force - f));
+        force.column_iter().zip(&own).map(response).collect()
     }
 }
 

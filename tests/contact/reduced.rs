@@ -112,7 +112,7 @@ fn states_on_the_surfaces_are_those_of_the_whole() {
     }
 }
 
-/// Of 700 nodes of both surfaces the 300 about the least gaps are kept: a state that binds others is left
+/// Of 700 nodes of both surfaces the 400 about the least gaps are kept: a state that binds others is left
 /// to the whole equations, as is one in which nothing holds a body.
 #[test]
 fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {

@@ -39,7 +39,7 @@ pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
 pub use ldlt::Ldlt;
 pub use precision::{Precision, Solved};
 pub use schur::{EliminatedLoad, Schur};
-pub use sparse::{SparseCholesky, largest_motion};
+pub use sparse::SparseCholesky;
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;
 pub use symbolic::FactorSize;
