@@ -26,8 +26,8 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 213\n\
-    mortar 0.3 OtherPath 3\n\
+    mortar 0.3 Same 214\n\
+    mortar 0.3 OtherPath 2\n\
     mortar stick Same 192\n\
     mortar stick NoAnswer 15\n\
     mortar stick Several 9\n\

@@ -238,8 +238,8 @@ impl<'a> Run<'a> {
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let mut last = self.taken.pop().expect("a path has a step");
-        let setting =
-            Setting { load: load.clone(), reduced: None, before: &last.before, statuses: None };
+        let setting = self.problem.setting(load.clone(), &last.before, None);
+        let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
         })?;

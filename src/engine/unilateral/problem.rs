@@ -60,8 +60,10 @@ pub(super) struct Problem<'a> {
 pub(super) struct Setting<'a> {
     /// The load by degree of freedom, restrained ones included, force.
     pub(super) load: DVector<f64>,
-    /// The same on the contact surfaces; None where equations of the whole bodies are to be solved.
+    /// The same on the contact surfaces; None where states are not looked for on these.
     pub(super) reduced: Option<ReducedLoad>,
+    /// Whether solutions are refined until they solve the equations of the whole bodies.
+    pub(super) whole: bool,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
@@ -207,7 +209,7 @@ impl<'a> Problem<'a> {
         statuses: Option<&'s [Status]>,
     ) -> Setting<'s> {
         let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
-        Setting { load, reduced, before, statuses }
+        Setting { load, reduced, whole: false, before, statuses }
     }
 
     /// Returns whether contact is measured in the current shape.
@@ -282,8 +284,7 @@ impl<'a> Problem<'a> {
         let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
         let before = DVector::zeros(self.model.dofs());
-        let setting =
-            Setting { load: before.clone(), reduced: None, before: &before, statuses: None };
+        let setting = self.setting(before.clone(), &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 

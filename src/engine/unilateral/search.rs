@@ -118,7 +118,8 @@ impl Problem<'_> {
             }
         }
         let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
-        self.equilibrium(&Setting { load, reduced: None, statuses, ..*setting }, watch)
+        let again = self.setting(load, setting.before, statuses);
+        self.equilibrium(&Setting { whole: true, ..again }, watch)
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
