@@ -12,7 +12,6 @@ pub mod estimates;
 pub mod fast;
 mod hertz;
 mod memory;
-mod probe;
 mod published;
 pub mod quantities;
 mod range;
@@ -33,7 +32,6 @@ pub use elimination::{Constraint, Elimination, Motion};
 pub use fast::condensation::kept_equations;
 pub use hertz::Hertz;
 pub use memory::Bytes;
-pub use probe::{Probe, ProbeValue, check_points};
 pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
     summaries,
@@ -42,8 +40,9 @@ pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use session::Session;
 pub use solution::{
-    Choice, Cycle, Detail, Equilibrium, FoundPairs, OtherEquilibrium, Path, Published, Solution,
-    Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
+    Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Path,
+    Published, Solution, Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load,
+    max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::dense_matrices;

@@ -238,7 +238,7 @@ fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
     });
     let unknown = listed(unknown.map(|row| format!("{} under {}", row.label, row.variant)));
     let rounding = match unknown.is_empty() {
-        true => "Rounding decides nothing in these numbers.".into(),
+        true => "Rounding decides nothing in the runs of the paper's variants.".into(),
         false => format!("Rounding may decide who is in contact at {unknown}."),
     };
     let captions: Vec<String> =

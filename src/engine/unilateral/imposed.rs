@@ -58,7 +58,7 @@ impl StateSearch<'_> {
     ) -> Result<Outcome, Error> {
         let mut reaction = bodies.reaction(&u);
         let mut forces = self.problem.forces(self.config, statuses, &reaction);
-        let (mut friction, mut feedback) = (Vec::new(), 0.0);
+        let mut friction = Vec::new();
         if let Some(slide) = self.slide(statuses, &forces, bodies)? {
             let [more, force] = bodies.unshifted(&slide.friction).map_err(|_| jammed())?;
             u += more;
@@ -67,7 +67,6 @@ impl StateSearch<'_> {
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
-            feedback = slide.feedback;
         }
         let (u, interior) = bodies.all(u);
         let whole = interior.is_none();
@@ -76,7 +75,6 @@ impl StateSearch<'_> {
             interior,
             forces,
             friction,
-            feedback,
             reaction,
             residual,
             whole,
@@ -130,14 +128,12 @@ impl StateSearch<'_> {
         let matrix = matrix.lu();
         let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
         let sizes = sizes.ok_or_else(jammed)?;
-        let rows = matrix.try_inverse().ok_or_else(jammed)?;
-        let feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
         let mut friction = DVector::zeros(dofs);
         for ((load, _), size) in responses.iter().zip(&sizes) {
             friction.axpy(*size, load, 1.0);
         }
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
-        Ok(Some(Slide { friction, sizes, feedback }))
+        Ok(Some(Slide { friction, sizes }))
     }
 }
 
@@ -171,8 +167,6 @@ struct Slide {
     friction: DVector<f64>,
     /// The entries that slide, each with its force along the tangent.
     sizes: Vec<(usize, f64)>,
-    /// See [`StateSolution::feedback`].
-    feedback: f64,
 }
 
 fn jammed() -> NoEquilibrium {

@@ -5,7 +5,6 @@
 //!    worksheet              iterations                                        end
 //! ```
 
-
 /// What is recorded before the first iteration.
 const WORKSHEET: &[&str] = &["cnt", "trg", "c_tll", "restrained", "load"];
 

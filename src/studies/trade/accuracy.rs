@@ -2,8 +2,8 @@
 //! compared with a bound on what rounding did to them. A precision that fails (a number that
 //! overflows or vanishes in it, an edge that collapses to a point) only passes on to the next one.
 //!
-//! The bound of `f32` and of `unilateral` is that of `estimates::arithmetic`, against the scene's own
-//! numbers; the others keep their own, and exact numbers have none.
+//! The bound of `f32` is that of `estimates::arithmetic`, against the scene's own numbers; the others keep
+//! their own, and exact numbers have none. `unilateral` runs in f64 only: there is nothing to choose.
 
 use base::error::InputError;
 use engine::error::Error;
@@ -69,8 +69,15 @@ pub fn solve_to(
     accuracy: f64,
 ) -> Result<AccurateSolution, Error> {
     check_accuracy(accuracy)?;
+    let precisions = precisions(request);
+    if precisions.is_empty() {
+        let what = "unilateral runs in f64 only, whatever the accuracy";
+        let fix =
+            "ask for another variant, or for --check-rounding, which measures what rounding does";
+        return Err(InputError::new("accuracy", what, fix).into());
+    }
     let (mut attempts, mut failure) = (Vec::new(), None);
-    for arithmetic in precisions(request) {
+    for arithmetic in precisions {
         let outcome = match not_run(request, arithmetic.scalar, accuracy) {
             Some(why) => Outcome::NotRun(why),
             None => match session.solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
@@ -96,8 +103,7 @@ pub fn solve_to(
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
 }
 
-/// The precisions, the cheapest first. `unilateral` runs in f64 only, mortar in those that have its
-/// digits and its roots.
+/// The precisions, the cheapest first: none of `unilateral`, of mortar those that have its digits and its roots.
 fn precisions(request: &Request) -> Vec<Arithmetic> {
     use ScalarName::{Bounded, BoundedDouble, Exact, F32};
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
@@ -107,7 +113,7 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
         vec![by(F32), by(Bounded), by(BoundedDouble), sparse(Exact)]
     };
     match (request.variant, request.contact.coupling) {
-        (Variant::Unilateral, Coupling::Nts | Coupling::Mortar) => vec![sparse(ScalarName::F64)],
+        (Variant::Unilateral, Coupling::Nts | Coupling::Mortar) => Vec::new(),
         (Variant::Tied | Variant::Stepped, Coupling::Mortar) => {
             vec![sparse(Bounded), sparse(BoundedDouble)]
         }
@@ -137,7 +143,9 @@ fn relative_bound(solution: &Solution, session: &Session) -> f64 {
     let bound = match (solution.error_bound, solution.request.arithmetic.scalar) {
         (Some(bound), _) => bound,
         (None, ScalarName::Exact) => 0.0,
-        (None, _) => rounding(solution, session).displacement.unwrap_or(f64::INFINITY),
+        (None, _) => rounding(solution, session)
+            .and_then(|known| known.displacement)
+            .unwrap_or(f64::INFINITY),
     };
     if bound == 0.0 {
         return 0.0;
@@ -158,9 +166,5 @@ fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
     });
     let tried: Vec<String> = tried.collect();
     let what = format!("no precision meets an accuracy of {accuracy:e} ({})", tried.join("; "));
-    let fix = match attempts {
-        [_] => "ask for less: unilateral runs in f64 only",
-        _ => "ask for less",
-    };
-    InputError::new("accuracy", what, fix)
+    InputError::new("accuracy", what, "ask for less")
 }
