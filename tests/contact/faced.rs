@@ -1,10 +1,7 @@
 //! What contact nodes face at the limits of the rules, worked out by hand: which edges count, how
 //! little of an edge, the nearest of two, a surface's end, its bends and its tips.
 
-use std::f64::consts::FRAC_PI_8;
-
 use plane_contact::engine::contact::{Pairing, Surfaces};
-use plane_contact::numbers::scalar::{Bounded, F64x2, Scalar};
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
@@ -68,21 +65,6 @@ fn edges_face_each_other_down_to_a_cosine_of_a_tenth() {
     }
 }
 
-/// Of edges that are not beside a contact edge not even their direction is compared.
-#[test]
-fn rounding_decides_nothing_about_edges_that_are_not_beside() {
-    let steep = |x: f64| [[x + 1.0, -(99.0_f64.sqrt())], [x, 0.0]];
-    let flat = [[3.0, 5.0], [0.5, 3.0], [-0.4, 0.5]].map(|[a, b]| [[b, -0.5], [a, -0.5]]);
-    let unsure = |from: [f64; 3]| {
-        let steep = from.map(steep);
-        let target: Vec<Chain> = flat.iter().chain(&steep).map(|edge| &edge[..]).collect();
-        unsure(&model(&target, UNIT))
-    };
-    assert_eq!(unsure([5.0, 7.0, 9.0]), 0);
-    assert!(unsure([0.0, 2.0, 4.0]) > 0, "beside the contact edge it is");
-    assert!(unsure([-5.0, -3.0, -1.0]) > 0, "where it ends may be beside too");
-}
-
 /// A number near `guess` for which `is_wanted` holds to the last bit.
 fn near(guess: f64, is_wanted: impl Fn(f64) -> bool) -> f64 {
     let mut around = (0..4096).map(|k| f64::from_bits(guess.to_bits() - 2048 + k));
@@ -93,26 +75,6 @@ fn near(guess: f64, is_wanted: impl Fn(f64) -> bool) -> f64 {
 fn rounding() -> (f64, f64) {
     let part = 2.0_f64.powi(-40);
     (part, near(part / 1e-12, |length| part / length == 1e-12))
-}
-
-/// How many comparisons rounding may decide.
-fn unsure(model: &Model) -> usize {
-    let shape: Vec<[Bounded; 2]> =
-        model.nodes.iter().map(|p| p.map(Bounded::from_decimal)).collect();
-    Surfaces::new(model).expect("edges of the outline").mortar(&shape).unsure.len()
-}
-
-/// Which of two target edges is nearer is asked where both cover more than such a part.
-#[test]
-fn the_order_of_edges_that_overlap_by_rounding_is_not_asked() {
-    let (part, length) = rounding();
-    let unsure = |overlap: f64, depth: f64| {
-        let left = [[part + overlap, -0.25], [-1.0, -0.25]];
-        let right = [[2.0, -depth], [part, -depth]];
-        unsure(&model(&[&left, &right], &[[0.0, 0.0], [length, 0.0]]))
-    };
-    assert_eq!(unsure(part, 0.25), unsure(part, 0.5));
-    assert!(unsure(2.0 * part, 0.25) > unsure(2.0 * part, 0.5));
 }
 
 /// A part of a contact edge of a millionth of a millionth, which rounding may leave, covers
@@ -158,41 +120,12 @@ fn of_two_target_edges_the_nearer_one_counts() {
     }
 }
 
-/// Where the distances agree in all digits of `f64`, those that wider numbers have decide.
-#[test]
-fn the_nearer_of_two_target_edges_is_found_in_all_digits() {
-    let edge = [[1.0, -0.5], [0.0, -0.5]];
-    let model = model(&[&edge, &edge], UNIT);
-    let surfaces = Surfaces::new(&model).expect("edges of the outline");
-    for nearer in [0, 1] {
-        let mut shape: Vec<[F64x2; 2]> =
-            model.nodes.iter().map(|p| p.map(F64x2::from_f64)).collect();
-        for node in [2 * nearer, 2 * nearer + 1] {
-            shape[node][1] += F64x2::from_f64(1e-25);
-        }
-        let found = surfaces.mortar(&shape).pairings;
-        let masters = found[0].as_ref().expect("it is covered").masters.clone();
-        let masters: Vec<usize> = masters.iter().map(|(node, _)| node.index()).collect();
-        assert_eq!(masters, [2 * nearer, 2 * nearer + 1]);
-    }
-}
-
 /// Two target edges as near as each other: the one that is named first counts.
 #[test]
 fn of_two_target_edges_as_near_as_each_other_the_first_counts() {
     let edge = [[1.0, -0.5], [0.0, -0.5]];
     let found = faced(&model(&[&edge, &edge], UNIT), Coupling::Mortar);
     assert_eq!(masters(found[0].as_ref()), [0, 1]);
-}
-
-/// Of target edges that a node covers equally the first is named.
-#[test]
-fn of_edges_that_a_node_covers_equally_the_first_is_named() {
-    let model = model(&[&[[2.0, -0.5], [0.5, -0.5], [-1.0, -0.5]]], UNIT);
-    for pairing in faced(&model, Coupling::Mortar) {
-        let pairing = pairing.expect("it is covered");
-        assert_eq!((pairing.edge, pairing.masters.len()), (model.contact.target[0], 3));
-    }
 }
 
 /// A nearer target edge leaves a farther one the rest of the contact edge alone: what both cover
@@ -293,53 +226,6 @@ fn edges_meet_in_a_corner_up_to_the_limit_of_a_bend() {
         let over = alone(&[&[start, end, [-cosine, -rise]]], [-rise / 4.0, (1.0 + cosine) / 4.0]);
         assert_eq!(masters(Some(&over)).len(), if turns { 2 } else { 1 }, "{cosine}");
     }
-}
-
-/// Around a node an octagon is looked at: a limit between two parts of the target nearer than the
-/// radius is found in whichever direction, one beyond the octagon in none.
-#[test]
-fn what_a_node_faces_otherwise_is_found_in_every_direction() {
-    let radius = 1e-3;
-    for degrees in (0..360).step_by(15) {
-        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
-        let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
-        // A notch, whose limit is the line through its ground; the node stands beside that line.
-        let notch = [[1.0, 1.0], [0.0, 0.0], [-1.0, 1.0]].map(turn);
-        for (away, is_found) in [(0.99, true), (1.1, false)] {
-            let p = turn([away * radius, 0.5]);
-            let mut model = model(&[&notch], &[p, [p[0] + 1.0, p[1]]]);
-            model.contact.nodes.truncate(1);
-            let surfaces = Surfaces::new(&model).expect("edges of the outline");
-            let found = surfaces.pairings_nearby(&model.nodes, radius);
-            assert_eq!(!found.is_empty(), is_found, "{degrees} degrees, {away} radii");
-        }
-    }
-}
-
-/// A change of weights or normals of a hundredth is still no other part of the target.
-#[test]
-fn a_change_of_a_hundredth_is_not_another_part() {
-    let otherwise = |target: Chain, p: [f64; 2], radius: f64| {
-        let mut model = model(&[target], &[[p[0] + 1.0, p[1]], p]);
-        model.contact.nodes.remove(0);
-        let surfaces = Surfaces::new(&model).expect("edges of the outline");
-        surfaces.pairings_nearby(&model.nodes, radius).len()
-    };
-    let (radius, outside) = (0.01, 0.01 / FRAC_PI_8.cos());
-    // Along an edge, of whose weights the second changes by a hundredth and the first by less.
-    let length = 100.0 * outside;
-    let from = near(0.3 * outside, |from| {
-        let (from, to) = (from / length, (from + outside) / length);
-        to - from == 0.01 && (1.0 - from) - (1.0 - to) < 0.01
-    });
-    let edge = [[0.0, 0.0], [length, 0.0]];
-    assert_eq!(otherwise(&edge, [from, -0.5], radius), 0);
-    assert!(otherwise(&edge, [from, -0.5], 1.01 * radius) > 0);
-    // Around a vertex, where the normal turns.
-    let away = near(outside * 9999.0_f64.sqrt(), |away| outside / outside.hypot(away) == 0.01);
-    let tip: Chain = &[[1.0, -1.0], [0.0, 0.0], [-1.0, -1.0]];
-    assert_eq!(otherwise(tip, [0.0, away], radius), 0);
-    assert!(otherwise(tip, [0.0, away], 1.01 * radius) > 0);
 }
 
 /// A node may lie as deep in the target as a hundredth of the scene's size, which is 4, or as half

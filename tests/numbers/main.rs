@@ -7,7 +7,6 @@ mod common {
     pub mod json;
     pub mod outcome;
     pub mod random;
-    pub mod recorded;
     pub mod shipped;
     pub mod tolerances;
 }
@@ -20,10 +19,8 @@ mod element;
 mod error_estimates;
 mod extremes;
 mod largest;
+mod perturbed;
 mod precisions;
-mod recorded;
 mod scalars;
-mod singular;
 mod solvers;
 mod systems;
-mod tolerances;

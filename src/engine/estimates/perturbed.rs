@@ -36,7 +36,9 @@ pub struct Perturbed {
     /// Why runs ended without a result.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<String>,
-    /// The first change of who is in contact; nothing where there is none.
+    /// The number of runs whose load took other steps, as where a step finds no equilibrium.
+    pub other_steps: u64,
+    /// The first change of who is in contact under a load; nothing where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactChange>,
     /// The largest change of a displacement component, over the largest; nothing where no run has a result.
@@ -61,6 +63,7 @@ pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
     solution.last().unilateral()?;
     let mut found = Perturbed {
         runs: RUNS,
+        other_steps: 0,
         failures: Vec::new(),
         contact: None,
         displacement: None,
@@ -76,11 +79,6 @@ pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
 }
 
 impl Perturbed {
-    /// Returns whether the changes leave every contact state.
-    pub fn is_settled(&self) -> bool {
-        self.failures.is_empty() && self.contact.is_none()
-    }
-
     fn add(&mut self, solution: &Solution, other: &Solution) {
         let stress =
             |run: &Solution| run.elements.iter().map(|state| state.von_mises_stress).collect();
@@ -91,11 +89,13 @@ impl Perturbed {
         self.stress = larger(self.stress, over(apart, most));
         let moved = over((&other.u - &solution.u).amax(), solution.u.amax());
         self.displacement = larger(self.displacement, moved);
-        for (load, statuses) in ends(solution) {
+        let (ends, others) = (ends(solution), ends(other));
+        self.other_steps += u64::from(ends.len() != others.len());
+        let others: HashMap<u64, &[Status]> =
+            others.into_iter().map(|(load, statuses)| (load.to_bits(), statuses)).collect();
+        for (load, statuses) in ends {
             // Loads between the steps, where a node closes, are other ones.
-            let Some((_, others)) = ends(other).into_iter().find(|(at, _)| *at == load) else {
-                continue;
-            };
+            let Some(others) = others.get(&load.to_bits()) else { continue };
             let differ: Vec<usize> =
                 (0..statuses.len()).filter(|i| statuses[*i] != others[*i]).collect();
             let Some(first) = differ.first() else { continue };

@@ -36,7 +36,7 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
     let is_bounded = solution.request.variant != Variant::Unilateral;
     let rounding = match is_bounded {
         true => by_rounding(solution, errors.decided_by_rounding.as_deref()).into_iter().collect(),
-        false => measured(assessment.rounding.as_ref()),
+        false => assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed),
     };
     Report::default()
         .heading("Error estimates")
@@ -121,15 +121,9 @@ fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> Option<St
     ))
 }
 
-/// Says what rounding does to a run of `unilateral`, or that it was not measured.
-fn measured(rounding: Option<&Perturbed>) -> Vec<String> {
-    rounding.map_or(vec![UNCHECKED.into()], perturbed)
-}
-
 /// Says what inputs that differ in their last digits change.
-pub fn perturbed(
-    Perturbed { runs, failures, contact, displacement, stress }: &Perturbed,
-) -> Vec<String> {
+pub fn perturbed(found: &Perturbed) -> Vec<String> {
+    let Perturbed { runs, other_steps, failures, contact, displacement, stress } = found;
     let contact = match contact {
         None => "change no contact state".into(),
         Some(ContactChange { node, load, nodes }) => format!(
@@ -142,7 +136,11 @@ pub fn perturbed(
     let ended = (failures.len() as u64) < *runs;
     let changes = ended.then(|| {
         let (u, stress) = (part(displacement), part(stress));
-        format!("{contact}, displacements by {u} of the largest, and stresses by {stress}")
+        let steps = match other_steps {
+            0 => String::new(),
+            n => format!("; {n} of the runs take OTHER STEPS of the load"),
+        };
+        format!("{contact}, displacements by {u} of the largest, and stresses by {stress}{steps}")
     });
     let inputs = format!("rounding: inputs changed in the last digit ({runs} runs)");
     let measured = changes.map(|changes| format!("{inputs} {changes}"));
