@@ -13,7 +13,7 @@ use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
 use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
-use crate::solution::{Choice, Cycle};
+use crate::solution::Cycle;
 use crate::stiffness::Stiffness;
 use crate::support::supports;
 use base::error::InputError;
@@ -95,8 +95,6 @@ pub(super) struct Iteration {
     pub(super) violation: f64,
     /// Whether it was not solved for, as its contact state was solved in the same place before.
     pub(super) returned: bool,
-    /// How its statuses were chosen.
-    pub(super) choice: Choice,
     /// The stiffness of the springs on which the nodes stood, over that of the bodies.
     pub(super) springs: f64,
 }
@@ -105,7 +103,7 @@ impl Iteration {
     /// Returns the next iteration, to which the statuses of this one return.
     pub(super) fn repeated(&self, history: &mut History) -> Self {
         let cycle = history.keep(&self.statuses);
-        Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
+        Iteration { cycle, returned: true, ..self.clone() }
     }
 }
 
@@ -118,9 +116,6 @@ pub(super) struct StateSolution {
     pub(super) forces: Vec<ContactForce>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub(super) friction: Vec<(Dof, f64)>,
-    /// The largest change of a sliding node's friction over that of μ times the normal forces which
-    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
-    pub(super) feedback: f64,
     /// K u − F on the equations that contact can bind, force: the forces of contact.
     pub(super) reaction: DVector<f64>,
     /// The relative residual of the equations that were solved.
