@@ -173,8 +173,8 @@ const FACTORIAL: &str = "fact(n) :=
 /// one are those of the next.
 const TEXTS: &[&str] = &[
     "solve fig1 --no-pictures",
-    "solve fig1 --variant printed --no-pictures --probe 0.5,-0.5",
-    "solve fig1 --variant unilateral --accuracy 1e-3",
+    "solve fig1 --variant printed --no-pictures",
+    "solve fig1 --variant unilateral --check-rounding",
     "solve fig1 --variant tied --c-cnt c_cnt.txt",
     "audit fig1",
     "audit --finding C4",
