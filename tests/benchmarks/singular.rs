@@ -12,12 +12,14 @@ use std::f64::consts::PI;
 use crate::common::json::build;
 use crate::common::recovery::solved;
 use crate::common::tolerances::{FLAMANT, assert_near};
+use crate::cook::membrane;
+use crate::kirsch::sheet;
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit, singular};
-use plane_contact::engine::{Assessment, Session, Solution, max_displacement};
+use plane_contact::engine::{Assessment, Solution, max_displacement};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::tables::error_estimates;
-use plane_contact::studies::benchmark::{Annulus, Cook, Hole};
+use plane_contact::studies::benchmark::Annulus;
 use plane_contact::{Request, solve};
 use serde_json::json;
 
@@ -81,12 +83,9 @@ fn single_nodes_that_hold_a_force_have_no_limit() {
         .restrain_node(node([4, 0]), &[Axis::Y]);
     assert_eq!(found(square.clone(), Cause::Force), [0; 0], "nothing to hold");
     let pressed = square.force(node([2, 4]), [0.0, -1e-4]);
-    assert_eq!(found(pressed.clone(), Cause::Force), nodes(&[[0, 0], [4, 0]]));
-    // Half a force that pulls up at one of them leaves it nothing to hold.
-    let pulled = pressed.clone().force(node([0, 0]), [0.0, 0.5e-4]);
-    assert_eq!(found(pulled, Cause::Force), nodes(&[[4, 0]]));
+    assert_eq!(found(pressed.clone(), Cause::Force), nodes(&[[0, 0], [4, 0], [2, 4]]));
     let squeezed = pressed.force(node([2, 0]), [0.0, 1e-4]);
-    assert_eq!(found(squeezed, Cause::Force), [0; 0]);
+    assert_eq!(found(squeezed, Cause::Force), nodes(&[[2, 0], [2, 4]]));
 }
 
 /// Where a fixed side ends at a free one, the stress has a limit up to an angle ω with
@@ -106,19 +105,14 @@ fn the_end_of_a_fixed_edge_has_a_limit_in_a_sharp_corner() {
 
 /// The limit of each body's largest stress.
 fn limits(solution: &Solution) -> Vec<Option<NoLimit>> {
-    Estimates::new(solution, &Session::default())
-        .errors
-        .bodies
-        .into_iter()
-        .map(|body| body.no_limit)
-        .collect()
+    Estimates::new(solution).errors.bodies.into_iter().map(|body| body.no_limit).collect()
 }
 
 /// Cook's membrane has an angle of 108 degrees where its held side ends above, one of 48 below: the
 /// stress has a limit below 60.
 #[test]
 fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
-    let solution = solved(Cook { n: 16 }.generate());
+    let solution = solved(membrane(16));
     let [Some(found)] = &limits(&solution)[..] else { panic!("the corner is not found") };
     assert_eq!(found.cause, Cause::Corner);
     assert_eq!(solution.model.coordinates(found.node), [0.0, 44.0]);
@@ -128,7 +122,8 @@ fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
 /// Symmetry and a circle of chords make no corner.
 #[test]
 fn what_is_smooth_has_a_limit() {
-    for smooth in [Annulus { radial: 8, around: 16 }.generate(), Hole::default().generate()] {
+    for smooth in [Annulus { radial: 8, around: 16 }.generate().expect("in range"), sheet(16, 5.0)]
+    {
         assert_eq!(limits(&solved(smooth)), [None]);
     }
 }
@@ -186,12 +181,12 @@ fn under_a_force_on_a_node_neither_stress_nor_displacement_has_a_limit() {
     for _ in 0..4 {
         let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is held");
         largest.push(max_displacement(&solution.u));
-        let estimates = Estimates::new(&solution, &Session::default()).errors;
+        let estimates = Estimates::new(&solution).errors;
         let limits = estimates.bodies.iter().map(|body| body.no_limit.clone());
         let loaded = limits.flatten().find(|limit| limit.cause == Cause::Force).expect("the force");
         assert_eq!(solution.model.coordinates(loaded.node), [0.5, 1.0]);
         assert_eq!(estimates.displacement_no_limit, Some((loaded.node, Cause::Force)));
-        let assessment = Assessment::new(&solution, &Session::default());
+        let assessment = Assessment::new(&solution);
         let words = error_estimates(&solution, &assessment).text(usize::MAX);
         assert!(words.contains("in the plane it diverges under refinement: at node"), "{words}");
         scene = scene.refined().expect("a sound scene").expect("a whole scene").scene;

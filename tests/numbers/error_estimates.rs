@@ -12,7 +12,6 @@ use plane_contact::problem::element::{B, D, State};
 use plane_contact::problem::model::Triangle;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::benchmark::Blocks;
 
 /// Exact numbers are for scenes of this many equations at most, in a test.
 const EQUATIONS: usize = 80;

@@ -33,7 +33,7 @@ use problem::model::{Dof, Force, Model, NodeId, Triangle, TriangleSide};
 /// The turn of an outline below which it is taken for a chord of a curve and not for a corner, rad.
 const CHORD: f64 = PI / 6.0;
 
-/// The force of a restraint on a single node, over the largest force on any node, below which it
+/// The force on a single restrained node, over the largest on any node, below which a restraint
 /// only keeps the body from moving as a whole.
 const IDLE: f64 = 1e-6;
 
@@ -134,8 +134,8 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     for force in model.forces.iter().filter(|force| matches!(force, Force::Node(..))) {
         force.add_to(&mut applied, model, &|x| x);
     }
-    let reaction = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
-    let idle = IDLE * reaction.amax().max(model.load.amax());
+    let force = Stiffness::new(model, |x| x).times(&solution.u);
+    let idle = IDLE * force.amax();
     let mut together = vec![false; model.dofs()];
     for triangle in &model.triangles {
         for d in 0..2 {
@@ -149,7 +149,7 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     }
     let acts_alone = |dof: Dof| match model.is_restrained(dof) {
         _ if together[dof.index()] => false,
-        true => reaction[dof.index()].abs() > idle,
+        true => force[dof.index()].abs() > idle,
         false => applied[dof.index()] != 0.0,
     };
     model.node_ids().filter(|node| node.dofs().into_iter().any(acts_alone)).collect()

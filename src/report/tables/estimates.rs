@@ -59,9 +59,7 @@ fn displacement(
             "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
             with_unit(&short(largest), &units.length)
         ),
-        None if is_bounded => {
-            uncertain(largest, &units.length, &[(errors.displacement_arithmetic, "arithmetic")])
-        }
+        None if is_bounded => uncertain(largest, &units.length, errors.displacement_arithmetic),
         None => return None,
     };
     Some(format!("largest |u|: {value}"))
@@ -71,7 +69,7 @@ fn displacement(
 fn stress(body: &BodyEstimates, units: &Units, is_bounded: bool) -> Option<String> {
     let own = with_unit(&short(body.von_mises_stress), &units.stress);
     let bounded = match is_bounded {
-        true => uncertain(body.von_mises_stress, &units.stress, &[(body.arithmetic, "arithmetic")]),
+        true => uncertain(body.von_mises_stress, &units.stress, body.arithmetic),
         false => own.clone(),
     };
     let value = match &body.no_limit {
