@@ -20,15 +20,11 @@ pub const DENSE: Limit = Limit {
 
 /// Free equations of a run: each takes 2 to 4 kB in mesh, factors and files.
 pub const EQUATIONS: Limit =
-    Limit { most: 2_000_000, of: "free equations", fix: "use a coarser mesh" };
+    Limit { most: 2_500_000, of: "free equations", fix: "use a coarser mesh" };
 
 /// Values of a JSON document, lists and objects included: a number takes up to 144 bytes, an empty list 304.
 pub const VALUES: Limit =
     Limit { most: 15_000_000, of: "values in one file", fix: "give a smaller file" };
-
-/// Nodes or elements of a mesh file: an element takes 310 bytes.
-pub const MESH: Limit =
-    Limit { most: 15_000_000, of: "nodes or elements", fix: "use a coarser mesh" };
 
 /// Edges and nodes that are loaded, each counted once for every load: 100 bytes each.
 pub const LOADED: Limit = Limit {
