@@ -19,7 +19,12 @@ use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
+<<<<<<< HEAD
 use super::sparse::is_dense;
+=======
+use super::solve::too_large;
+use super::sparse::dense_matrices;
+>>>>>>> wt-a
 use super::support::transmitted_force;
 use base::error::InputError;
 use base::limits;
@@ -195,6 +200,10 @@ impl<T: Precision> Run<'_, T> {
             }
             None => (None, self.equations.solve(&found.pairs, &found.constraints, k)?),
         };
+        // `c_cnt` would fail on what it did not bring about.
+        if !solved.u.iter().all(|u| Scalar::is_finite(*u)) {
+            return Err(too_large().into());
+        }
         self.advance(&solved);
         let step = self.step(k, &found, cycle, &solved);
         self.visited.push(Visited { k_cnt, constraints: found.constraints, k, solved });
