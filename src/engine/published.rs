@@ -19,12 +19,8 @@ use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
-<<<<<<< HEAD
-use super::sparse::is_dense;
-=======
 use super::solve::too_large;
-use super::sparse::dense_matrices;
->>>>>>> wt-a
+use super::sparse::is_dense;
 use super::support::transmitted_force;
 use base::error::InputError;
 use base::limits;

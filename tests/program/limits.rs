@@ -49,11 +49,9 @@ fn what_would_not_fit_in_memory_is_refused_by_its_counts() {
     scene["iterations"] = 1_000_000.into();
     std::fs::write(folder.join("long.json"), scene.to_string()).expect("it is written");
     let words = ["iterations", "1000000 on 13 nodes are more than 44247", "fewer"];
-    for command in [
-        "solve long.json",
-        "solve long.json --variant printed",
-        "snapshot record long.json",
-    ] {
+    for command in
+        ["solve long.json", "solve long.json --variant printed", "snapshot record long.json"]
+    {
         refused(folder, &format!("$P {command}"), &words);
     }
 }
@@ -133,51 +131,6 @@ fn a_mesh_file_that_is_too_long_or_too_short_is_refused() {
     }
 }
 
-<<<<<<< HEAD
-=======
-/// 8,000,000 bytes have room for a million nodes at most, which need 0.13 GB.
-#[test]
-fn what_a_file_is_too_short_for_is_not_foreseen() {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (sections, words) in [
-        (MANY_NODES, ["line 6", "a node's number"]),
-        (MANY_ELEMENTS, ["line 10", "an element's number"]),
-    ] {
-        scene_of_a_long_mesh(folder.path(), sections, 8_000_000);
-        refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &words);
-    }
-}
-
-#[test]
-fn less_than_a_tenth_of_a_gigabyte_is_told_in_megabytes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    scene_of_a_long_mesh(folder.path(), MANY_NODES, 5_000_000);
-    let words = ["line 5: 625000 nodes need 81 MB; ", " MB are free"];
-    refused(folder.path(), "ulimit -v 80000; $P solve s.json", &words);
-}
-
-/// It is refused by its elements or by its plan under the smaller limits, and runs under the largest.
-#[test]
-fn a_mesh_is_read_within_the_memory_or_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let cook = shell(folder.path(), "$P scene mesh cook --n 300 --out cook");
-    assert_eq!(cook.status.code(), Some(0));
-    for (limit, expected) in [80_000, 100_000, 120_000, 2_000_000].into_iter().zip([2, 2, 2, 0]) {
-        let line = format!("ulimit -v {limit}; $P scene plan cook/scene.json --json");
-        let output = shell(folder.path(), &line);
-        assert_eq!(output.status.code(), Some(expected), "{limit}: {output:?}");
-        assert!(output.stdout.ends_with(b"}\n"), "{limit}: {output:?}");
-    }
-}
-
-#[test]
-fn a_large_run_that_does_not_fit_in_memory_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    assert!(shell(folder.path(), "$P scene mesh cook --n 230 --out c").status.success());
-    let words = ["106260 free equations need 0.4 GB", "use a coarser mesh"];
-    refused(folder.path(), "ulimit -v 300000; $P solve c/scene.json", &words);
-}
-
 /// What is singular to the digits of a scalar may be so by rounding: the message says what tells.
 #[test]
 fn a_singular_matrix_is_not_blamed_on_the_print_alone() {
@@ -190,7 +143,6 @@ fn a_singular_matrix_is_not_blamed_on_the_print_alone() {
     assert!(error.contains("the matrix is singular") && error.contains(words), "{error}");
 }
 
->>>>>>> wt-a
 /// What carries a force does so in any unit: the pressure of this scene is 1e-12 of the usual.
 #[test]
 fn small_loads_leave_an_equilibrium_the_only_one() {
