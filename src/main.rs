@@ -90,10 +90,8 @@ fn shell_files(cli: &Cli, mut grammar: clap::Command) -> String {
 
 /// Names the option where what is asked for is at fault: the library names the setting.
 fn named_by_option(error: Error) -> Error {
-    const OPTIONS: [&str; 10] = [
-        "accuracy", "entry", "nodes", "probe", "reason", "scalar", "solver", "status", "tol",
-        "variant",
-    ];
+    const OPTIONS: [&str; 9] =
+        ["accuracy", "entry", "nodes", "reason", "scalar", "solver", "status", "tol", "variant"];
     match error {
         Error::Input(why) if OPTIONS.contains(&&*why.place) => {
             InputError { place: format!("--{}", why.place), ..why }.into()

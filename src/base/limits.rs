@@ -26,10 +26,6 @@ pub const EQUATIONS: Limit =
 pub const VALUES: Limit =
     Limit { most: 15_000_000, of: "values in one file", fix: "give a smaller file" };
 
-/// Numbers of a mesh file: a node or an element, which takes 310 bytes, has four at least.
-pub const MESH: Limit =
-    Limit { most: 60_000_000, of: "numbers in one mesh file", fix: "use a coarser mesh" };
-
 /// Edges and nodes that are loaded, each counted once for every load: 100 bytes each.
 pub const LOADED: Limit = Limit {
     most: 10_000_000,

@@ -118,7 +118,7 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
         asked: asked(args, &case.scene),
         audit: audit.as_ref().map(|(audit, conclusion)| (audit, conclusion)),
         repairs,
-        runs: runs(args, case),
+        runs: runs(args, case, audit.as_ref().map(|(audit, _)| audit)),
         calculix: beside.as_ref().map(|beside| beside.compared(case)),
         charts,
     };
@@ -158,8 +158,8 @@ fn repairs(args: &Args, case: &Case) -> Vec<Price> {
 }
 
 /// Returns the runs that are shown: those of the variants, then the reference solution and the
-/// equilibrium.
-fn runs<'a>(args: &Args, case: &'a Case) -> Vec<Run<'a>> {
+/// equilibrium, for which the audit measured what rounding does.
+fn runs<'a>(args: &Args, case: &'a Case, audit: Option<&Audit>) -> Vec<Run<'a>> {
     let wanted = |variant: &&Variant| args.variant.is_empty() || args.variant.contains(variant);
     let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.certain(*v).ok());
     let others = match args.no_audit {
@@ -167,7 +167,16 @@ fn runs<'a>(args: &Args, case: &'a Case) -> Vec<Run<'a>> {
         false => [case.reference(), case.equilibrium()],
     };
     let runs = ran.map(|(solution, _)| solution).chain(others.into_iter().flatten());
-    let assessed = |solution| Run { solution, assessment: Assessment::against(solution, others) };
+    let assessed = |solution: &'a Solution| {
+        let measured =
+            audit.map_or([None, None], |a| [&a.reference, &a.equilibrium].map(Option::as_ref));
+        let rounding = others.iter().zip(measured).find_map(|(other, measured)| {
+            let same = solution.request.is_same_equilibrium(&(*other)?.request);
+            measured.filter(|_| same)?.rounding.clone()
+        });
+        let assessment = Assessment::against(solution, others);
+        Run { solution, assessment: Assessment { rounding, ..assessment } }
+    };
     runs.map(assessed).collect()
 }
 

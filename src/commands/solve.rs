@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::{Cause, NoEquilibrium, Result};
+use plane_contact::engine::estimates::perturbed;
 use plane_contact::engine::{self, Assessment, Request, Solution, Step};
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -37,7 +38,7 @@ Examples:
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --accuracy 1e-3
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
-  plane-contact solve strand --probe 0,-8 --probe=-2,-9
+  plane-contact solve strand --variant unilateral --check-rounding
   plane-contact solve my/scene.json --reading R6=stress,R8=m", report::folder::help()))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -59,10 +60,10 @@ pub struct Args {
     #[arg(long, value_name = "A",
         conflicts_with_all = ["scalar", "solver", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,
-    /// Print displacement, stress and strain at a point of the undeformed mesh, with their errors;
-    /// may be given more than once.
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    probe: Vec<[f64; 2]>,
+    /// Under unilateral, repeat the run three times with coordinates, loads and moduli changed at random in
+    /// the last digit, and print what that changes. Under the paper's variants bounds are printed as it is.
+    #[arg(long)]
+    check_rounding: bool,
     /// Folder for pictures and data [default: out/<scene>-<variant>, and every option that differs
     /// from the scene's own].
     #[arg(long, value_name = "DIR")]
@@ -102,7 +103,7 @@ pub fn run(args: &Args) -> Result<u8> {
     // The plan's count of the factors takes a fifth of the time of a large run.
     let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request));
     let ((solution, accuracy), plan) = (solved?, plan?);
-    let assessment = waiting("assessing", || assess(args, &solution))?;
+    let assessment = waiting("assessing", || assess(args, &solution));
     let result = if is_written {
         report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
     } else {
@@ -115,7 +116,6 @@ pub fn run(args: &Args) -> Result<u8> {
     }
     let report = tables::solution(&solution, &assessment)
         .then(tables::error_estimates(&solution, &assessment))
-        .then(tables::probes(&solution, &assessment))
         .then(tables::distance(&solution, &assessment))
         .then(accuracy)
         .then(beside_the_print(&solution))
@@ -133,7 +133,11 @@ fn request(args: &Args) -> Result<Request> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
     let request = edited(args, args.run.request(&scene))?;
     engine::check(&request)?;
-    engine::check_points(&scene.model, &args.probe)?;
+    if args.check_rounding && request.variant != Variant::Unilateral {
+        let what = format!("{} prints bounds on rounding as it is", request.variant);
+        let fix = "leave it out, or ask for --variant unilateral";
+        return Err(InputError::new("--check-rounding", what, fix).into());
+    }
     args.accuracy.map_or(Ok(()), check_accuracy)?;
     Ok(request)
 }
@@ -147,19 +151,16 @@ fn own_folder(args: &Args, request: &Request) -> String {
 }
 
 /// Assesses a solution as far as that is asked for.
-///
-/// # Errors
-/// A point of `--probe` lies outside every body.
-fn assess<'a>(args: &Args, solution: &'a Solution) -> Result<Assessment<'a>> {
-    let mut assessment = if args.no_assessment {
+fn assess<'a>(args: &Args, solution: &'a Solution) -> Assessment<'a> {
+    let assessment = if args.no_assessment {
         Assessment::none(solution)
     } else if args.no_error_estimate {
         Assessment::without_estimates(solution)
     } else {
         Assessment::new(solution)
     };
-    assessment.probe(solution, &args.probe)?;
-    Ok(assessment)
+    let rounding = if args.check_rounding { perturbed(solution) } else { None };
+    Assessment { rounding, ..assessment }
 }
 
 /// Asks for the edited listings of `--c-cnt` and `--km`.
@@ -191,15 +192,6 @@ fn beside_the_print(solution: &Solution) -> Report {
     match engine::solve(&request, &mut |_| ()) {
         Ok(printed) => report::edited::report(&printed, solution),
         Err(why) => Report::default().line(format!("The edited listings run; as printed: {why}")),
-    }
-}
-
-/// Reads a point such as `3.5,-1`.
-fn point(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some([x, y]) if x.is_finite() && y.is_finite() => Ok([*x, *y]),
-        _ => Err("give two numbers, such as 3.5,-1".into()),
     }
 }
 

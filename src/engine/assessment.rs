@@ -7,14 +7,12 @@ use nalgebra::DVector;
 
 use super::distance::{Distance, distance};
 use super::error::Error;
-use super::estimates::Estimates;
+use super::estimates::{Estimates, Perturbed};
 use super::hertz::Hertz;
-use super::probe::{Probe, probes};
 use super::quantities::{BodySummary, summaries};
 use super::request::Request;
 use super::solution::{Solution, Start};
 use super::solve::solve;
-use base::error::InputError;
 use problem::modelling::{ContactModel, Friction, Variant};
 
 /// The values and estimates that reports print beside a solution.
@@ -23,8 +21,9 @@ pub struct Assessment<'a> {
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from rounding and from the mesh; None where they are left out.
     pub estimates: Option<Estimates>,
-    /// What the run says of the points that were asked for: [`Assessment::probe`].
-    pub probes: Vec<Probe>,
+    /// What changes of the input in the last digits do to a run of `unilateral`; None where that was not
+    /// measured.
+    pub rounding: Option<Perturbed>,
     /// The largest difference of a displacement component from a path of half as many steps of the
     /// load, length: what is left of the size of the steps. None without a path, where there is none
     /// such to compare with, and where estimates are left out.
@@ -98,26 +97,12 @@ impl<'a> Assessment<'a> {
         Assessment {
             bodies: summaries(solution),
             estimates: None,
-            probes: Vec::new(),
+            rounding: None,
             path_change: None,
             hertz: Hertz::from_solution(solution),
             reference,
             equilibrium,
         }
-    }
-
-    /// Adds what `solution`, which is assessed, says of `points` of the undeformed shape.
-    ///
-    /// # Errors
-    /// A point lies outside every body.
-    pub fn probe(&mut self, solution: &Solution, points: &[[f64; 2]]) -> Result<(), InputError> {
-        if points.is_empty() {
-            return Ok(());
-        }
-        let own = self.estimates.is_none().then(|| Estimates::new(solution));
-        let estimates = self.estimates.as_ref().or(own.as_ref()).expect("one of the two");
-        self.probes = probes(solution, estimates, points)?;
-        Ok(())
     }
 
     /// Returns the comparison with the equilibrium under the scene's own friction and geometry,

@@ -10,14 +10,12 @@ mod equations;
 pub mod error;
 pub mod estimates;
 mod hertz;
-mod probe;
 mod published;
 pub mod quantities;
 mod range;
 pub mod reduction;
 mod refinement;
 mod request;
-mod residual;
 mod solution;
 mod solve;
 mod sparse;
@@ -30,7 +28,6 @@ pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
-pub use probe::{Probe, ProbeValue, check_points};
 pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
     summaries,
@@ -38,8 +35,9 @@ pub use quantities::{
 pub use range::{beyond_range, locking};
 pub use request::Request;
 pub use solution::{
-    Choice, Cycle, Detail, Equilibrium, FoundPairs, OtherEquilibrium, Path, Published, Solution,
-    Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load, max_displacement,
+    Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Path,
+    Published, Solution, Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load,
+    max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::is_dense;

@@ -19,6 +19,7 @@ use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
+use super::solve::too_large;
 use super::sparse::is_dense;
 use super::support::transmitted_force;
 use base::error::InputError;
@@ -195,6 +196,10 @@ impl<T: Precision> Run<'_, T> {
             }
             None => (None, self.equations.solve(&found.pairs, &found.constraints, k)?),
         };
+        // `c_cnt` would fail on what it did not bring about.
+        if !solved.u.iter().all(|u| Scalar::is_finite(*u)) {
+            return Err(too_large().into());
+        }
         self.advance(&solved);
         let step = self.step(k, &found, cycle, &solved);
         self.visited.push(Visited { k_cnt, constraints: found.constraints, k, solved });

@@ -12,26 +12,23 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
-use super::refinement::refine;
+use super::refinement::{CONTRACTION, REFINED, refine};
 use super::stiffness::Stiffness;
-use numbers::solve::{DenseCholesky, EliminatedLoad, Factors, Schur, largest_motion};
+use numbers::solve::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
 use problem::model::{Dof, Model, NodeId};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,
 /// which is what a line across the mesh has.
-const MOST: (usize, f64) = (300, 1.5);
-
-/// The motion under loads of 1, both scaled to a unit diagonal, beyond which a state is left to the
-/// factors of its whole matrix, which tell a singular one.
-const LOOSE: f64 = 1e10;
+const MOST: (usize, f64) = (400, 1.7);
 
 /// The relative residual of a state that is enough.
 const ENOUGH: f64 = 32.0 * f64::EPSILON;
 
 /// The stiffness reduced to some nodes.
 pub struct Reduction {
-    /// The degree of freedom of each free equation of the bodies.
+    /// The degree of freedom of each free equation of the bodies, and whether each one is.
     free: Vec<Dof>,
+    is_free: Vec<bool>,
     schur: Schur,
     /// The kept nodes, ascending, and the degrees of freedom of those that are not restrained.
     nodes: Vec<NodeId>,
@@ -41,7 +38,8 @@ pub struct Reduction {
     restrained: Vec<bool>,
     /// The largest row sum of |S|, force/length.
     norm: f64,
-    dofs: usize,
+    /// That of K.
+    whole_norm: f64,
 }
 
 /// A load from which all but the kept equations are eliminated.
@@ -74,7 +72,9 @@ impl Reduction {
         }
         let kept: Vec<Dof> = last.iter().map(|e| free[*e]).collect();
         let t = Elimination::new(&model.restrained, &[]);
-        let schur = Schur::new(&stiffness.reduced(&t), last)?;
+        let matrix = stiffness.reduced(&t);
+        let whole_norm = matrix.norm();
+        let schur = Schur::new(matrix, last)?;
         let own = |dof: &Dof| {
             let node = place[dof.node().index()].expect("its node is kept");
             2 * node + dof.direction()
@@ -88,8 +88,18 @@ impl Reduction {
         let mut restrained = vec![true; size];
         own.iter().for_each(|k| restrained[*k] = false);
         let norm = reduced.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
-        let dofs = model.dofs();
-        Some(Reduction { free, schur, nodes, kept, stiffness: reduced, restrained, norm, dofs })
+        let is_free = model.all_dofs().map(|dof| !model.is_restrained(dof)).collect();
+        Some(Reduction {
+            free,
+            is_free,
+            schur,
+            nodes,
+            kept,
+            stiffness: reduced,
+            restrained,
+            norm,
+            whole_norm,
+        })
     }
 
     /// Eliminates all but the kept equations from a load by degree of freedom, force.
@@ -104,7 +114,7 @@ impl Reduction {
     fn expand(&self, load: &ReducedLoad, kept: &DVector<f64>) -> DVector<f64> {
         let last = self.kept.iter().map(|dof| kept[self.place(*dof)]);
         let last = DVector::from_iterator(self.kept.len(), last);
-        let mut u = DVector::zeros(self.dofs);
+        let mut u = DVector::zeros(self.is_free.len());
         let all = self.schur.expand(&load.all, &last);
         self.free.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
         u
@@ -117,7 +127,7 @@ impl Reduction {
 
     /// Returns the vector by degree of freedom with a part on the kept nodes, 0 elsewhere.
     fn whole(&self, part: &DVector<f64>) -> DVector<f64> {
-        let mut all = DVector::zeros(self.dofs);
+        let mut all = DVector::zeros(self.is_free.len());
         self.kept.iter().for_each(|dof| all[dof.index()] = part[self.place(*dof)]);
         all
     }
@@ -152,10 +162,8 @@ impl<'a> ReducedState<'a> {
     pub fn new(reduction: &'a Reduction, constraints: &[Constraint]) -> Option<Self> {
         let own = constraints.iter().map(|constraint| reduction.renumbered(constraint));
         let t = Elimination::closing(&reduction.restrained, &own.collect::<Option<Vec<_>>>()?);
-        let matrix = t.matrix(&reduction.stiffness);
-        let factors = DenseCholesky::new(&matrix)?;
-        let is_held = largest_motion(&factors, &matrix.diagonal()) < LOOSE;
-        is_held.then_some(ReducedState { reduction, t, factors })
+        let factors = DenseCholesky::new(&t.matrix(&reduction.stiffness))?;
+        Some(ReducedState { reduction, t, factors })
     }
 
     /// Returns the displacements by degree of freedom, length, under a load and `more` on kept nodes, by
@@ -175,6 +183,36 @@ impl<'a> ReducedState<'a> {
         (residual <= ENOUGH).then_some((u, residual))
     }
 
+    /// Returns the same refined until they solve the whole equations, under a `load` by degree of freedom, 0
+    /// at restrained ones, force; and the relative residual of these. None where they do not come there.
+    pub fn refined(
+        &self,
+        stiffness: &Stiffness,
+        load: &DVector<f64>,
+        (reduced, more): (&ReducedLoad, &DVector<f64>),
+    ) -> Option<(DVector<f64>, f64)> {
+        let reduction = self.reduction;
+        let (mut u, _) = self.displacements(reduced, more)?;
+        let mut before = f64::INFINITY;
+        loop {
+            let mut rest = load - stiffness.times(&u);
+            (0..rest.len()).filter(|e| !reduction.is_free[*e]).for_each(|e| rest[e] = 0.0);
+            // The forces that keep constraints do no work.
+            let left = self.t.load(&reduction.part(&rest));
+            let mut inside = rest.clone();
+            reduction.kept.iter().for_each(|dof| inside[dof.index()] = 0.0);
+            let left = DVector::from_vec(vec![left.amax(), inside.amax()]);
+            let error = backward_error(&left, reduction.whole_norm, &u, load);
+            if error <= REFINED || error.is_nan() || error > CONTRACTION * before {
+                return (error <= ENOUGH).then_some((u, error));
+            }
+            before = error;
+            let rest = reduction.eliminated(&rest);
+            let q = self.factors.solve(&self.t.load(&rest.kept));
+            u += reduction.expand(&rest, &self.t.motion(&q));
+        }
+    }
+
     /// Returns K u − f under a load by degree of freedom, force; 0 but on the kept nodes.
     pub fn reaction(&self, u: &DVector<f64>, load: &ReducedLoad) -> DVector<f64> {
         let own = self.reduction.part(u);
@@ -184,12 +222,13 @@ impl<'a> ReducedState<'a> {
     /// Returns for each of some loads on kept nodes, by degree of freedom, K u − f of the displacements under
     /// it without the shift of the constraints, force; 0 but on the kept nodes.
     pub fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
-        let response = |load: &DVector<f64>| {
-            let f = self.reduction.part(load);
-            let u = self.t.motion(&self.factors.solve(&self.t.load(&f)));
-            self.reduction.whole(&(&self.reduction.stiffness * u - f))
-        };
-        loads.iter().map(response).collect()
+        let own: Vec<DVector<f64>> = loads.iter().map(|load| self.reduction.part(load)).collect();
+        let f: Vec<DVector<f64>> = own.iter().map(|f| self.t.load(f)).collect();
+        let q = self.factors.solve_all(&DMatrix::from_columns(&f));
+        let u: Vec<_> = q.column_iter().map(|q| self.t.motion(&q.into_owned())).collect();
+        let force = &self.reduction.stiffness * DMatrix::from_columns(&u);
+        let response = |(force, f): (_, &DVector<f64>)| self.reduction.whole(&(force - f));
+        force.column_iter().zip(&own).map(response).collect()
     }
 }
 

@@ -7,10 +7,10 @@ use super::stiffness::Stiffness;
 use numbers::solve::{Factors, Normed, backward_error};
 
 /// The relative residual at which refinement ends.
-const REFINED: f64 = 4.0 * f64::EPSILON;
+pub(super) const REFINED: f64 = 4.0 * f64::EPSILON;
 
 /// The part of its residual to which a step of refinement must bring the next one.
-const CONTRACTION: f64 = 0.2;
+pub(super) const CONTRACTION: f64 = 0.2;
 
 /// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`, and refines as long as that
 /// brings more; returns q and its relative residual.

@@ -10,6 +10,7 @@ use super::contact::{ContactNode, Pairing, ROUNDING_OF_A_FORCE, Status};
 use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::request::Request;
+use base::choices;
 use mathcad::array::{Column, Table, rows};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
@@ -140,32 +141,11 @@ pub struct Unilateral {
     pub pairings: Arc<Vec<Option<Pairing>>>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub friction: Vec<(Dof, f64)>,
-    /// The largest change of a sliding node's friction over that of μ times the normal forces which
-    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
-    pub feedback: f64,
-    /// The least force of a node in contact, and the least part of its friction that one that sticks
-    /// has left, over the largest force of a node: how near its decisions are to others.
-    pub margin: f64,
-    /// Whether restraints leave the force on each entry of the contact surface undetermined.
-    pub undetermined: Vec<bool>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.
     pub violation: f64,
     /// The stiffness of the springs that held the nodes to their places in the shape before, over that of
     /// the bodies; 0 where there were none.
     pub springs: f64,
-    /// How its statuses were chosen.
-    pub choice: Choice,
-}
-
-/// How the statuses of an iteration were chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Choice {
-    /// The iteration before asked for them, or they are the first ones.
-    Asked,
-    /// A fixed point on the bounds of friction led to them.
-    Bounds,
-    /// They are in equilibrium, and were found among all that there are.
-    Enumerated,
 }
 
 impl Unilateral {
@@ -207,6 +187,31 @@ pub enum Start {
     /// Nodes overlap the target, and no equilibrium was found without load in which they do not: they close
     /// with the first step, and how long that is changes the result.
     Overlapping,
+}
+
+choices! {
+    /// What a node's status turns on.
+    Margin {
+        /// The gap of an open node, over the largest displacement component.
+        Gap = "gap",
+        /// The normal force of a node in contact, over the largest one.
+        Force = "force",
+        /// The friction that a node that sticks has left, over the largest normal force.
+        Friction = "friction left",
+        /// The slip of a node that slides, over the largest displacement component.
+        Slip = "slip",
+    }
+}
+
+/// How near the status of a node is to another one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearestDecision {
+    /// The contact node.
+    pub node: NodeId,
+    /// What its status turns on.
+    pub of: Margin,
+    /// Its size, relative.
+    pub relative: f64,
 }
 
 /// An equilibrium beside the one that was found.
@@ -372,6 +377,9 @@ pub struct Equilibrium {
     pub path: Option<Path>,
     /// What is known of other equilibria.
     pub uniqueness: Uniqueness,
+    /// The decision of its contact state that is nearest to another one; None where none is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<NearestDecision>,
     /// Under node to segment, which watches contact nodes alone, the target node that lies deepest
     /// inside the contact surface, and its depth, length; None where none lies deeper than a
     /// thousandth of the model's size.
@@ -409,13 +417,6 @@ impl Solution {
         let load = fx.hypot(fy);
         let is_loaded = self.model.target().is_some() && load > 0.0;
         is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
-    }
-
-    /// Returns whether an equilibrium may depend on the way to it: under friction, which keeps the
-    /// path of the load, and where it is not known to be the only one.
-    pub fn depends_on_path(&self) -> bool {
-        let uniqueness = self.equilibrium.as_ref().map(|found| &found.uniqueness);
-        self.request.contact.friction.coefficient() > 0.0 || uniqueness != Some(&Uniqueness::Unique)
     }
 
     /// Returns the contact nodes in contact at the end.

@@ -154,6 +154,11 @@ fn check_finite(solution: &Solution) -> Result<(), InputError> {
     {
         return Ok(());
     }
+    Err(too_large())
+}
+
+/// Says that displacements or stresses cannot be represented.
+pub(super) fn too_large() -> InputError {
     let what = "the displacements or stresses are too large to represent";
-    Err(InputError::new("loads, materials, mesh", what, "choose other units"))
+    InputError::new("loads, materials, mesh", what, "choose other units")
 }

@@ -11,7 +11,8 @@ use super::layout::{first_line, listed};
 use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
 use super::prices;
-use super::tables::certainty;
+use super::tables::{certainty, nearest_decision, perturbed};
+use engine::estimates::Certainty;
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -131,7 +132,10 @@ fn variants(audit: &Audit) -> Report {
     let notes = audit.variants.iter().filter_map(|row| {
         let why = match &row.end {
             End::Failure { failure } => in_short(failure).to_string(),
-            End::Result { .. } => certainty(row.certainty?)?,
+            // Of `unilateral` it is measured, below.
+            End::Result { .. } => {
+                certainty(row.certainty.filter(|known| *known != Certainty::Unchecked)?)?
+            }
         };
         Some(format!("{}: {why}", row.variant))
     });
@@ -144,11 +148,11 @@ fn variants(audit: &Audit) -> Report {
             "error in u: largest difference of a node's displacement over the largest displacement; in \
              energy norm: that of the difference over that of the whole",
         )
-        .note(solution_without_mistakes(
+        .then(solution_without_mistakes(
             "error: against the equilibrium under the scene's own friction",
             audit.equilibrium.as_ref(),
         ))
-        .note(solution_without_mistakes("the reference solution", audit.reference.as_ref()))
+        .then(solution_without_mistakes("the reference solution", audit.reference.as_ref()))
 }
 
 /// Returns the cells of a variant; of one that failed its name alone.
@@ -195,18 +199,22 @@ fn stresses(bodies: &[BodySummary]) -> String {
     listed(bodies.iter().map(|body| format!("{} {}", body.name, short(body.max_von_mises_stress))))
 }
 
-fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> String {
-    let Some(Compared { model, in_contact, bodies, .. }) = other else {
-        return format!("{what}: there is none");
+/// Reports a solution that others are compared with, and what rounding does to it.
+fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
+    let Some(Compared { model, in_contact, bodies, nearest, rounding }) = other else {
+        return Report::default().note(format!("{what}: there is none"));
     };
-    format!(
-        "{what} (unilateral, {}, friction {}, {} geometry): {in_contact} in contact, largest von Mises \
-         stress {}",
-        model.coupling,
-        model.friction,
-        model.geometry,
-        stresses(bodies)
-    )
+    Report::default()
+        .note(format!(
+            "{what} (unilateral, {}, friction {}, {} geometry): {in_contact} in contact, largest von Mises \
+             stress {}",
+            model.coupling,
+            model.friction,
+            model.geometry,
+            stresses(bodies)
+        ))
+        .details(rounding.iter().flat_map(perturbed))
+        .details(nearest.as_ref().map(nearest_decision))
 }
 
 /// Reports which nodes stick and slide under each coefficient of friction, with their pressure and

@@ -178,7 +178,7 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     let stresses = errors.map(|(body, error)| {
         let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
         let at = with_unit(&coordinates(body.centre, 2), &scene.units.length);
-        format!("{stress} in body {} at {at} ({})", body.name, error_of_mesh(error, scene))
+        format!("{stress} in body {} at {at}{}", body.name, error_of_mesh(error))
     });
     let limit = match is_example(scene) {
         true => " What finer meshes with true arcs lead to is in golden/tables/limit.md.",
@@ -193,16 +193,12 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     )
 }
 
-fn error_of_mesh(error: &BodyEstimates, scene: &Scene) -> String {
-    match (&error.no_limit, error.mesh) {
-        (Some(point), _) if point.is_largest => {
-            format!("it diverges under refinement, at node {}", point.node)
-        }
-        (_, Some(mesh)) => {
-            format!("error of the mesh about {}", with_unit(&short(mesh), &scene.units.stress))
-        }
-        (_, None) => "error of the mesh unknown".into(),
-    }
+/// Says where a largest stress diverges; nothing where it does not.
+fn error_of_mesh(error: &BodyEstimates) -> String {
+    let point = error.no_limit.as_ref().filter(|point| point.is_largest);
+    point.map_or(String::new(), |point| {
+        format!(" (it diverges under refinement, at node {})", point.node)
+    })
 }
 
 fn largest_stress(bodies: &[BodySummary], scene: &Scene) -> String {

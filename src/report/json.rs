@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
-use super::numbers::{NO_LIMIT, reason};
+use super::numbers::reason;
 use base::files::json::{FORMAT, VERSION};
 use paper::mirror::Pairs;
 use problem::scene::{Scene, Units};
@@ -118,15 +118,6 @@ fn depth_of(value: &Value) -> usize {
     }
 }
 
-/// Returns whether a field of an object is null because what it bounds has no limit.
-fn has_no_limit(fields: &Map<String, Value>, field: &str) -> bool {
-    match field {
-        "displacement_mesh" => fields.contains_key("displacement_no_limit"),
-        "mesh" => fields.get("no_limit").is_some_and(|point| point["is_largest"] == true),
-        _ => false,
-    }
-}
-
 /// Returns the names of the fields that are null in a value, each with its reason.
 fn reasons(value: &Value) -> BTreeMap<String, &'static str> {
     let mut nulls = BTreeMap::new();
@@ -140,11 +131,7 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
         Value::Array(values) => values.iter().for_each(|value| explain(value, field, nulls)),
         Value::Object(fields) => {
             for (field, value) in fields {
-                if value.is_null() && has_no_limit(fields, field) {
-                    nulls.insert(field.into(), NO_LIMIT);
-                } else {
-                    explain(value, field, nulls);
-                }
+                explain(value, field, nulls);
             }
         }
         Value::Bool(_) | Value::Number(_) | Value::String(_) => {}

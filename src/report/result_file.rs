@@ -6,10 +6,10 @@ use super::{json, plan};
 use base::error::{InputError, Result};
 use base::files;
 use engine::contact::ContactNode;
-use engine::estimates::ErrorEstimates;
+use engine::estimates::{ErrorEstimates, Perturbed};
 use engine::{
-    Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Probe,
-    Solution, TriangleValues,
+    Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Solution,
+    TriangleValues,
 };
 use numbers::scalar::rational;
 use numbers::solve::Arithmetic;
@@ -91,9 +91,10 @@ pub struct ResultFile {
     /// How far the numbers may be from the truth; absent where that was left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_estimates: Option<ErrorEstimates>,
-    /// What the run says of the points that `--probe` asks for.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub probes: Vec<Probe>,
+    /// What changes of the input in the last digits do to a run of `unilateral`; absent where that was not
+    /// measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<Perturbed>,
     /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are
     /// others; absent under the other variants.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,7 +185,7 @@ impl ResultFile {
                 .estimates
                 .as_ref()
                 .map(|estimates| estimates.errors.clone()),
-            probes: assessment.probes.clone(),
+            rounding: assessment.rounding.clone(),
             equilibrium: solution.equilibrium.clone(),
             path_change: assessment.path_change,
             distance: assessment.measure().map(|measured| measured.distance.clone()),

@@ -115,7 +115,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         .column("change", |row| row.change.map(displacement));
     // Where rounding in f64 may decide who is in contact, the row is of the same run in double-doubles.
     let certainty = |row: &Row| match row.certainty {
-        None | Some(Certainty::Certain) => "",
+        None | Some(Certainty::Certain | Certainty::Unchecked) => "",
         Some(Certainty::InDoubleDouble) => "in f64, not in f64x2, of which the row is",
         Some(Certainty::Unknown) => "unknown",
     };
@@ -215,7 +215,7 @@ fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
     });
     let unknown = listed(unknown.map(|row| format!("{} under {}", row.label, row.variant)));
     let rounding = match unknown.is_empty() {
-        true => "Rounding decides nothing in these numbers.".into(),
+        true => "Rounding decides nothing in the runs of the paper's variants.".into(),
         false => format!("Rounding may decide who is in contact at {unknown}."),
     };
     let captions: Vec<String> =

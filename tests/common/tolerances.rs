@@ -197,28 +197,6 @@ tolerances! {
     /// Largest effectivity.
     EFFECTIVITY_HIGH = 1.3, "the issue's own number; below 1 is measured everywhere";
 
-    /// Widest error estimate of a largest von Mises stress, against the true stress error in the
-    /// triangle that has it.
-    ESTIMATE_WIDTH = 4.0,
-        "a safety factor of 2, and as much again for the worst of a dozen neighbours standing in \
-         for one triangle";
-
-    /// Part of the estimates of largest von Mises stresses that may miss the truth on random fields
-    /// and meshes.
-    ESTIMATES_MISSED = 0.03, "1.1 % of 4,000 such cases missed, 512 cases scatter";
-
-    /// The same where the estimated relative error in the energy norm is at most 0.2.
-    ESTIMATES_MISSED_ON_FAIR_MESHES = 0.01,
-        "0.13 % of 3,168 such cases missed, by at most 9 %; some 400 cases scatter";
-
-    /// Widest mesh bound of a probed displacement or stress, against the true error.
-    MESH_BOUND_WIDTH = 4.0,
-        "a safety factor of 2 on estimates that find 0.6 of the error and more: 1.2 to 2.2 was \
-         measured";
-
-    /// Recovered stresses at the bore and at the hole, relative to the closed form.
-    RECOVERED = 1e-2, "second order where three triangles meet at most: 32 and 64 divisions";
-
     /// Errors of a field that the triangle represents, relative to the field.
     CONSTANT_FIELD = 1e-12,
         "LU of 100 equations of condition 1e3: 1e-16 times it, and a decade of room";
@@ -324,11 +302,6 @@ tolerances! {
     /// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
     NORM_ESTIMATE = 1e-10,
         "estimate and norm are both rounded: 1e-16 times a condition number of 1e4";
-
-    /// Widest bound on rounding on a well-scaled scene, against the true error.
-    ROUNDING_BOUND_WIDTH = 1e3,
-        "the issue's own number; below half a unit in the last place of the largest displacement \
-         the error itself is luck";
 
     /// Half a symmetric scene beside the whole, and a refined scene's area and load, relative to
     /// the largest.

@@ -44,15 +44,6 @@ pub struct Writing {
 }
 
 impl Writing {
-    /// Returns whether it rounds no coordinate, load or modulus.
-    pub fn is_exact(&self) -> bool {
-        let Writing { shift, degrees, scale, moduli, .. } = Writing::default();
-        self.shift == shift
-            && self.degrees == degrees
-            && self.scale == scale
-            && self.moduli == moduli
-    }
-
     /// Returns a vector as it is written, without the shift and the scale.
     pub fn vector(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let start = if self.mirror { [-x, y] } else { [x, y] };

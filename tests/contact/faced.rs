@@ -228,27 +228,6 @@ fn edges_meet_in_a_corner_up_to_the_limit_of_a_bend() {
     }
 }
 
-/// Around a node an octagon is looked at: a limit between two parts of the target nearer than the
-/// radius is found in whichever direction, one beyond the octagon in none.
-#[test]
-fn what_a_node_faces_otherwise_is_found_in_every_direction() {
-    let radius = 1e-3;
-    for degrees in (0..360).step_by(15) {
-        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
-        let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
-        // A notch, whose limit is the line through its ground; the node stands beside that line.
-        let notch = [[1.0, 1.0], [0.0, 0.0], [-1.0, 1.0]].map(turn);
-        for (away, is_found) in [(0.99, true), (1.1, false)] {
-            let p = turn([away * radius, 0.5]);
-            let mut model = model(&[&notch], &[p, [p[0] + 1.0, p[1]]]);
-            model.contact.nodes.truncate(1);
-            let surfaces = Surfaces::new(&model).expect("edges of the outline");
-            let found = surfaces.pairings_nearby(&model.nodes, radius);
-            assert_eq!(!found.is_empty(), is_found, "{degrees} degrees, {away} radii");
-        }
-    }
-}
-
 /// A node may lie as deep in the target as a hundredth of the scene's size, which is 4, or as half
 /// its contact edge.
 #[test]

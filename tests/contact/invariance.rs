@@ -1,7 +1,7 @@
 //! Displacements of random scenes do not depend on how the scene is written: its place, direction
 //! and scale, its mirror image, the numbers of nodes and triangles, the order of `cnt` and `trg`,
-//! the direction of edges, and the unit of stress. Where a writing rounds nothing, both runs' bounds on
-//! rounding hold; where it changes the answer, they have said that rounding may decide.
+//! the direction of edges, and the unit of stress. Where a writing changes the answer, so do changes of the
+//! input in the last digit.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::common::tolerances::{INVARIANCE, OTHER_PATH};
 use crate::corners::{Bodies, Writing};
 use crate::drawn::{KINDS, scenes};
 use plane_contact::engine::error::Error;
-use plane_contact::engine::estimates::arithmetic::{Rounding, rounding};
+use plane_contact::engine::estimates::perturbed;
 use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
@@ -26,8 +26,8 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 213\n\
-    mortar 0.3 OtherPath 3\n\
+    mortar 0.3 Same 214\n\
+    mortar 0.3 OtherPath 2\n\
     mortar stick Same 192\n\
     mortar stick NoAnswer 15\n\
     mortar stick Several 9\n\
@@ -144,7 +144,6 @@ fn verdict(
 fn random_scenes_have_one_answer_however_they_are_written() {
     let mut counts: BTreeMap<(String, Verdict), usize> = BTreeMap::new();
     let mut worst: BTreeMap<(String, Verdict), f64> = BTreeMap::new();
-    let mut says: BTreeMap<(String, bool), usize> = BTreeMap::new();
     let mut other_paths = Vec::new();
     let all = writings();
     let mut next = (0..all.len()).cycle();
@@ -169,29 +168,13 @@ fn random_scenes_have_one_answer_however_they_are_written() {
                     let what = format!("scene {number}, {kind:?}, {coupling}, {mu}, {writing:?}");
                     let image = answer(&drawn.bodies, writing, model);
                     let (verdict, difference) = verdict(&plain, &image, writing, &what);
-                    if mu > 0.0 || writing.is_exact() {
-                        let found = [&plain, &image].into_iter().flatten();
-                        let known: Vec<Rounding> = found.map(|s| rounding(s)).collect();
-                        let left = |known: &Rounding| known.decisions != Some(Vec::new());
-                        let said = known.iter().any(left);
-                        assert!(said || verdict != Verdict::OtherPath, "{what}: not a word of it");
-                        if mu > 0.0 {
-                            *says
-                                .entry((format!("{coupling} {}", model.friction), said))
-                                .or_default() += 1;
-                        }
-                        if let (true, Verdict::Same, Ok(plain)) =
-                            (writing.is_exact(), verdict, &plain)
-                        {
-                            let bound: f64 = known
-                                .iter()
-                                .map(|known| known.displacement.unwrap_or(f64::INFINITY))
-                                .sum();
-                            let error = difference * plain.u.amax();
-                            assert!(error <= bound, "{what}: {error:e} is beyond {bound:e}");
-                        }
-                    }
                     if verdict == Verdict::OtherPath {
+                        let known = [&plain, &image].into_iter().flatten().filter_map(perturbed);
+                        let moved = known.filter_map(|known| known.displacement).reduce(f64::max);
+                        assert!(
+                            moved > Some(INVARIANCE.limit),
+                            "{what}: not a word of it: {moved:?}"
+                        );
                         other_paths.push(what);
                     }
                     let key = (format!("{coupling} {}", model.friction), verdict);
@@ -202,12 +185,8 @@ fn random_scenes_have_one_answer_however_they_are_written() {
             }
         }
     }
-    println!("largest differences {worst:?}; whether it was said that rounding decides: {says:?}");
+    println!("largest differences {worst:?}");
     println!("on another path: {other_paths:#?}");
-    let of =
-        |said: bool| says.iter().filter(|(key, _)| key.1 == said).map(|(_, n)| n).sum::<usize>();
-    // The bounds of friction are asked in some twentieth of these scenes.
-    assert!(5 * of(true) < of(false), "it is seldom said in vain");
     let mut found = String::new();
     for ((model, verdict), count) in &counts {
         found += &format!("{model} {verdict:?} {count}\n");

@@ -31,6 +31,5 @@ mod quadratic_programme;
 mod reduced;
 mod searched;
 mod status;
-mod ties;
 mod tree;
 mod unilateral;

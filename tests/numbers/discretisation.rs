@@ -1,7 +1,6 @@
 //! The discretisation error estimate against fields that are known exactly.
 //!
-//! GOAL: effectivity (estimated / true error in the energy norm) between 0.8 and 1.3; the largest
-//! von Mises stress within its estimate. MESH: structured, three sizes, both cuts of a cell,
+//! GOAL: effectivity (estimated / true error in the energy norm) between 0.8 and 1.3. MESH: structured, three sizes, both cuts of a cell,
 //! uniform and distorted. BOUNDARY: the exact tractions of the field all around, three restraints
 //! against rigid motion, so that the field is the exact solution on the polygon that is meshed.
 
@@ -9,19 +8,14 @@ mod fields;
 mod meshes;
 
 use crate::common::outcome::solve as solve_embedded;
-use crate::common::tolerances::{
-    CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, ESTIMATE_WIDTH, ESTIMATES_MISSED,
-    ESTIMATES_MISSED_ON_FAIR_MESHES, assert_near,
-};
-use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR, polynomial};
+use crate::common::tolerances::{CONSTANT_FIELD, EFFECTIVITY_HIGH, EFFECTIVITY_LOW, assert_near};
+use fields::{CANTILEVER, CONSTANT, Field, KIRSCH, LAME, LINEAR};
 use meshes::{BODY, Cut, Grid, annulus, beam, holed_plate, mesh, rectangle};
-use nalgebra::{Matrix3, Vector2, Vector3};
-use plane_contact::engine::estimates::discretisation::{
-    Discretisation, LargestVonMises, SAFETY, compliance, root_of_squares, von_mises,
-};
+use nalgebra::Vector2;
+use plane_contact::engine::estimates::discretisation::Discretisation;
 use plane_contact::engine::{self, Request, Solution};
-use plane_contact::problem::element::{D, Plane, State};
-use plane_contact::problem::model::{Body, TriangleId};
+use plane_contact::problem::element::{Plane, State};
+use plane_contact::problem::model::TriangleId;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 
@@ -65,25 +59,15 @@ const THICKNESS: f64 = 2.5;
 struct Measured {
     label: String,
     effectivity: f64,
-    peak: LargestVonMises,
-    exact_peak: f64,
-    /// Largest von Mises value of the true stress error in the triangle with the largest stress.
-    stress_error: f64,
 }
 
 fn measure(b: &Benchmark, cells: [usize; 2], (cut, distortion): (Cut, f64)) -> Measured {
     let grid = Grid { cells, map: b.map, cut, distortion };
     let solution = solve(&grid.scene(b.field, THICKNESS));
     let estimate = estimate(&solution);
-    let peak = largest(&estimate, &solution);
-    let (points, corners) = (grid.points(), grid.triangles()[peak.at.index()]);
-    let missed = |n: usize| (b.field.stress)(points[n]) - solution.elements[peak.at.index()].sigma;
     Measured {
         label: format!("{} {cells:?} {cut:?} {distortion}", b.name),
         effectivity: estimate.total() / true_error(&grid, b.field, &solution),
-        peak,
-        exact_peak: b.field.largest_von_mises(),
-        stress_error: corners.iter().map(|&n| b.field.von_mises(&missed(n))).fold(0.0, f64::max),
     }
 }
 
@@ -97,17 +81,6 @@ fn solve(scene: &Scene) -> Solution {
 
 fn estimate(solution: &Solution) -> Discretisation {
     Discretisation::new(&solution.model, &solution.elements)
-}
-
-/// The largest von Mises stress of all triangles.
-fn largest(estimate: &Discretisation, solution: &Solution) -> LargestVonMises {
-    let all: Vec<TriangleId> = solution.model.triangle_ids().collect();
-    estimate.largest_von_mises(&solution.model, &solution.elements, &all)
-}
-
-/// That of a body.
-fn largest_of(estimate: &Discretisation, solution: &Solution, body: &Body) -> LargestVonMises {
-    estimate.largest_von_mises(&solution.model, &solution.elements, &body.triangles)
 }
 
 /// The true error in the energy norm, by quadrature over 16 parts of each triangle.
@@ -149,97 +122,6 @@ fn effectivity_on_smooth_fields() {
     }
 }
 
-/// The estimate holds the truth and is not wider than ESTIMATE_WIDTH times the true stress error in
-/// the triangle with the largest stress.
-#[test]
-fn the_largest_von_mises_stress_lies_within_its_bar() {
-    for m in BENCHMARKS.iter().flat_map(all_measured) {
-        let missed = (m.exact_peak - m.peak.value).abs();
-        println!(
-            "{}: exact {:.3}, found {:.3} +- {:.3}, recovered {:.3}; estimate / |error| {:.2}, \
-             estimate / stress error {:.2}",
-            m.label,
-            m.exact_peak,
-            m.peak.value,
-            m.peak.error,
-            m.peak.recovered,
-            m.peak.error / missed,
-            m.peak.error / m.stress_error
-        );
-        assert!(
-            missed <= m.peak.error,
-            "{}: missed by {missed}, estimate {}",
-            m.label,
-            m.peak.error
-        );
-        assert!(m.peak.error <= ESTIMATE_WIDTH.limit * m.stress_error, "{}: {:?}", m.label, m.peak);
-    }
-}
-
-/// −1 to 1, the same on every machine: Knuth's linear congruential generator.
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 33) as f64 / 2f64.powi(30) - 1.0
-}
-
-/// Linear and quadratic stresses drawn at random, on meshes from 24 triangles up: the estimate is
-/// an estimate and may miss, but seldom, and hardly ever where the mesh is fair.
-#[test]
-fn bars_of_random_fields() {
-    let mut seed = 3;
-    let cases: Vec<(f64, f64)> = (0..512).map(|case| random_field(case, &mut seed)).collect();
-    let missed = |relative: f64| {
-        let of: Vec<f64> = cases.iter().filter(|c| c.1 <= relative).map(|c| c.0).collect();
-        let missed = of.iter().filter(|part| **part > 1.0).count();
-        println!("relative error up to {relative}: {missed} of {} missed", of.len());
-        missed as f64 / of.len() as f64
-    };
-    assert!(missed(1.0) <= ESTIMATES_MISSED.limit, "{}", ESTIMATES_MISSED.reason);
-    assert!(
-        missed(0.2) <= ESTIMATES_MISSED_ON_FAIR_MESHES.limit,
-        "{}",
-        ESTIMATES_MISSED_ON_FAIR_MESHES.reason
-    );
-}
-
-/// |error| / estimate of one of them, and its estimated relative error in the energy norm.
-fn random_field(case: usize, seed: &mut u64) -> (f64, f64) {
-    let quadratic = [0.0, 0.5][case % 2];
-    let k: [f64; 8] = std::array::from_fn(|i| random(seed) * if i < 4 { 1.0 } else { quadratic });
-    let plane = [Plane::Stress, Plane::Strain][case / 2 % 2];
-    let stress = |p| polynomial(k, p);
-    let mut field = Field { plane, e: 100.0, nu: 0.3, stress: &stress, peak: [0.0, 0.0] };
-    let map = [rectangle, holed_plate, beam, annulus][case / 64 % 4];
-    let samples =
-        (0..=60).flat_map(|i| (0..=60).map(move |j| map([i as f64 / 60.0, j as f64 / 60.0])));
-    let height = |p: &[f64; 2]| field.von_mises(&stress(*p));
-    let higher = |p: [f64; 2], q: [f64; 2]| if height(&q) > height(&p) { q } else { p };
-    let peak = samples.reduce(higher).expect("a point");
-    field.peak = peak;
-    let cells = [[4, 3], [8, 4], [14, 7], [20, 10]][case / 4 % 4];
-    let (cut, distortion) = KINDS[case / 16 % 4];
-    let grid = Grid { cells, map, cut, distortion };
-    let solution = solve(&grid.scene(&field, THICKNESS));
-    let estimate = estimate(&solution);
-    let found = largest(&estimate, &solution);
-    ((field.largest_von_mises() - found.value).abs() / found.error, estimate.relative())
-}
-
-/// An estimate that does not shrink with the mesh says nothing of the mesh.
-#[test]
-fn bars_shrink_with_the_mesh() {
-    for b in &BENCHMARKS {
-        for kind in KINDS {
-            let estimates = b.cells.map(|cells| measure(b, cells, kind).peak.error);
-            assert!(
-                estimates[0] > estimates[1] && estimates[1] > estimates[2],
-                "{} {kind:?}: {estimates:?}",
-                b.name
-            );
-        }
-    }
-}
-
 /// Lame's annulus as a user gives it: a pressure on a group of edges, two planes of symmetry.
 #[test]
 fn a_pressed_annulus_with_symmetric_restraints() {
@@ -271,8 +153,6 @@ fn a_constant_field_has_no_error() {
         let solution = solve(&grid.scene(&CONSTANT, THICKNESS));
         let found = estimate(&solution);
         assert_near("eta / |u|", found.relative(), 0.0, 1.0, &CONSTANT_FIELD);
-        let peak = largest(&found, &solution);
-        assert_near("estimate", peak.error, 0.0, peak.value, &CONSTANT_FIELD);
         // |u|² = volume · sᵀ D⁻¹ s.
         let energy = 2.0 * THICKNESS * CONSTANT.energy_density(&(CONSTANT.stress)([0.0; 2]));
         assert_near("|u|", found.energy_norm, energy.sqrt(), energy.sqrt(), &CONSTANT_FIELD);
@@ -333,9 +213,6 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     assert_eq!(found.unrecovered, [TriangleId::from_number(triangles.len())]);
     assert_eq!([found.total(), found.relative()], [f64::INFINITY; 2]);
     assert!(found.error_map().iter().all(|x| x.is_finite()));
-    let estimate = |body: usize| largest_of(&found, &solution, &solution.model.bodies[body]).error;
-    assert!(estimate(0).is_finite() && estimate(0) > 0.0);
-    assert_eq!(estimate(1), f64::INFINITY);
 }
 
 /// A rectangle of 2 by 2 s, cut by its diagonals: the centres of the triangles stand 2/3 from the
@@ -365,44 +242,4 @@ fn error_map_of_the_strand() {
     let map = found.error_map();
     let mean = (map.iter().map(|x| x * x).sum::<f64>() / map.len() as f64).sqrt();
     assert_near("quadratic mean", mean, found.relative(), 1.0, &CONSTANT_FIELD);
-    for body in &solution.model.bodies {
-        let peak = largest_of(&found, &solution, body);
-        println!("{}: {peak:?}, eta {:.3}", body.name, found.relative());
-        assert!(peak.error > 0.0 && body.triangles.contains(&peak.at));
-    }
-}
-
-/// A triangle that shares no node with that of the largest stress counts with what it may have beyond
-/// that stress.
-#[test]
-fn a_far_triangle_counts_beyond_the_largest_stress() {
-    let (_, solution) = solve_embedded("fig1", Variant::Tied);
-    let mut found = estimate(&solution);
-    found.stress_errors.fill(0.0);
-    let peak = largest(&found, &solution);
-    let nodes = |id: TriangleId| solution.model.triangle(id).nodes;
-    let is_far = |id: &TriangleId| nodes(*id).iter().all(|node| !nodes(peak.at).contains(node));
-    let far = solution.model.triangle_ids().find(is_far).expect("of another body");
-    let below = peak.value - solution.elements[far.index()].von_mises_stress;
-    found.stress_errors[far.index()] = 3.0 * below;
-    let error = largest(&found, &solution).error;
-    assert_near("error", error, SAFETY * 2.0 * below, 1.0, &CONSTANT_FIELD);
-}
-
-/// Hooke's law and its inverse cancel each other.
-#[test]
-fn compliance_is_the_inverse_of_elasticity() {
-    for plane in [Plane::Strain, Plane::Stress] {
-        let product = D(plane, 7.0, 0.3) * compliance(plane, 0.3) / 7.0;
-        assert!((product - Matrix3::identity()).amax() < 1e-15, "{product}");
-    }
-}
-
-/// Squares of very large and of very small numbers stay within the range of floats.
-#[test]
-fn extremes_of_units() {
-    let uniaxial = |s: f64| von_mises(Plane::Stress, 0.3, &Vector3::new(s, 0.0, 0.0));
-    assert_eq!([1e300, 1e-300, 0.0].map(uniaxial), [1e300, 1e-300, 0.0]);
-    let norm = |x: f64| root_of_squares([3.0 * x, 4.0 * x].into_iter()) / x;
-    assert!([1e300, 1e-300].iter().all(|&x| (norm(x) - 5.0).abs() < 1e-14));
 }

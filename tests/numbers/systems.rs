@@ -104,7 +104,7 @@ fn what_little_holds_is_not_reduced() {
     let reduced = |part: f64, size: f64, last: &[usize]| {
         let springs = [(0, 0, 1.0), (1, 0, -1.0), (1, 1, 1.0 + part), (2, 1, -part), (2, 2, 1.0)];
         let springs = springs.map(|(i, j, k)| (i, j, size * k));
-        let schur = Schur::new(&SparseSymmetric::new(3, springs.into_iter()), last.to_vec());
+        let schur = Schur::new(SparseSymmetric::new(3, springs.into_iter()), last.to_vec());
         schur.map(|schur| schur.complement().clone())
     };
     for size in [1e-6, 1.0, 1e6] {
@@ -121,7 +121,7 @@ fn what_little_holds_is_not_reduced() {
 fn reduced_as_by_elimination(dense: &DMatrix<f64>, last: &[usize]) {
     let n = dense.nrows();
     let b = DVector::from_fn(n, |i, _| (i % 11) as f64 - 4.0);
-    let reduced = Schur::new(&SparseSymmetric::of_lower(dense), last.to_vec()).expect("it is held");
+    let reduced = Schur::new(SparseSymmetric::of_lower(dense), last.to_vec()).expect("it is held");
     let first: Vec<usize> = (0..n).filter(|e| !last.contains(e)).collect();
     let block = |rows: &[usize], columns: &[usize]| dense.select_rows(rows).select_columns(columns);
     let factors = block(&first, &first).cholesky().expect("it is held");

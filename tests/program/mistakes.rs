@@ -82,7 +82,6 @@ const OTHERS: &[(&str, &str, &str)] = &[
     ("a mistyped option", "", "solve fig1 --varient tied"),
     ("a reading that is not there", "", "solve fig1 --reading R9=odd"),
     ("another program in place of c_cnt", "f(n) :=\n  n\n", "solve fig1 --c-cnt FILE"),
-    ("a point outside the bodies", "", "solve fig1 --probe 9,9"),
     ("a finding that is not there", "", "audit --finding X9"),
     ("a generator that is not there", "", "scene mesh donut"),
     (

@@ -172,7 +172,7 @@ const FACTORIAL: &str = "fact(n) :=
 /// Texts for people: of commands that end well, of errors, of a listing that fails.
 const TEXTS: &[&str] = &[
     "solve fig1 --no-pictures",
-    "solve fig1 --variant unilateral --no-pictures",
+    "solve fig1 --variant unilateral --check-rounding --no-pictures",
     "audit fig1",
     "audit --finding C4",
     "scene plan fig1",

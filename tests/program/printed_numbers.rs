@@ -88,27 +88,15 @@ fn the_error_decides_the_digits() {
         (41.95, 2e-12, "41.9500000000000 +- 2.0e-12"),
         // What is not known is told in words.
         (0.0, f64::NAN, "about 0, error unknown"),
-        (f64::INFINITY, 1.0, "about inf, +- 1"),
+        (f64::INFINITY, 1.0, "about inf, error unknown"),
     ] {
-        let written = uncertain(value, "", &[(finite(error), "mesh")]);
-        assert_eq!(written, format!("{text} (mesh)"), "{value} {error}");
+        let written = uncertain(value, "", Some(error).filter(|error| error.is_finite()));
+        assert_eq!(written, format!("{text} (arithmetic)"), "{value} {error}");
     }
-}
-
-/// An error, None where it is unknown.
-fn finite(error: f64) -> Option<f64> {
-    Some(error).filter(|error| error.is_finite())
 }
 
 #[test]
-fn the_larger_error_decides() {
-    for (mesh, text) in [
-        (3.0, "42 +- 3 MPa (mesh), +- 2e-12 (arithmetic)"),
-        (0.31, "42.0 +- 0.4 MPa (mesh), +- 2e-12 (arithmetic)"),
-        (1e-12, "41.9500000000000 +- 1e-12 MPa (mesh), +- 2.0e-12 (arithmetic)"),
-        (f64::INFINITY, "about 42 MPa, error unknown (mesh), +- 2e-12 (arithmetic)"),
-    ] {
-        let errors = [(finite(mesh), "mesh"), (Some(2e-12), "arithmetic")];
-        assert_eq!(uncertain(41.95, "MPa", &errors), text);
-    }
+fn a_unit_stands_behind_the_error() {
+    assert_eq!(uncertain(41.95, "MPa", Some(3.0)), "42 +- 3 MPa (arithmetic)");
+    assert_eq!(uncertain(41.95, "MPa", None), "about 42 MPa, error unknown (arithmetic)");
 }

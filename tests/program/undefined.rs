@@ -125,19 +125,20 @@ fn every_option_that_changes_the_result_is_in_the_folder() {
     assert_eq!(folders, options.len());
 }
 
-/// A force on a single node moves it without limit: that is why the mesh has no error there.
+/// Under `unilateral` rounding has no bound: the reason says what measures it.
 #[test]
-fn a_displacement_without_limit_is_the_reason() {
+fn what_measures_rounding_is_the_reason() {
     let folder = TempDir::new().unwrap();
-    let args = ["solve", "scene.json", "--variant", "tied", "--json"];
+    let args = ["solve", "two-blocks", "--variant", "unilateral", "--check-rounding", "--json"];
     let (status, text) = output(folder.path(), &scene(-0.2, 0.0), &args);
     assert_eq!(status, Some(0), "{text}");
     let document: Value = serde_json::from_str(&text).expect("JSON");
-    let estimates = &document["error_estimates"];
-    assert!(estimates["displacement_mesh"].is_null());
-    assert_eq!(estimates["displacement_no_limit"], json!([5, "a force on a single node"]));
-    let reason = document["nulls"]["displacement_mesh"].as_str().expect("a reason");
-    assert!(reason.contains("diverges under refinement"), "{reason}");
+    assert!(document["error_estimates"]["decided_by_rounding"].is_null());
+    let reason = document["nulls"]["decided_by_rounding"].as_str().expect("a reason");
+    assert!(reason.contains("--check-rounding measures"), "{reason}");
+    let measured = &document["rounding"];
+    assert_eq!((&measured["runs"], &measured["contact"]), (&json!(3), &Value::Null));
+    assert!(measured["displacement"].as_f64().is_some_and(|part| part < 1e-9), "{measured}");
 }
 
 /// What `trade` is asked stands in the name of its folder.

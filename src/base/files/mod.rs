@@ -6,7 +6,7 @@ pub mod json;
 mod read;
 mod write;
 
-pub use read::{MOST, names, open_in, read, read_from, read_in, read_most, text};
+pub use read::{MOST, names, read, read_from, read_in, read_most, text};
 pub use write::{
     MARKDOWN, abandon, check_file, check_folder, rewrite, temporary_folder, write, write_all,
     write_new,

@@ -56,13 +56,13 @@ pub fn read_from(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Opens an ordinary file that another file names, in `folder` or below; the current one where that is
-/// empty. A pipe would wait, and a device would never end. Returns the file's length too.
+/// Reads an ordinary file of up to `most` bytes that another file names, in `folder` or below; the current
+/// one where that is empty. A pipe would wait, and a device would never end.
 ///
 /// # Errors
 /// The name leads out of the folder, be it absolute, by `..` or through a link, or to no ordinary
-/// file, or the file may not be read.
-pub fn open_in(folder: &Path, name: &Path) -> io::Result<(File, u64)> {
+/// file, or the file may not be read or is longer.
+pub fn read_in(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
     let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let folder = folder.canonicalize()?;
@@ -74,19 +74,10 @@ pub fn open_in(folder: &Path, name: &Path) -> io::Result<(File, u64)> {
         let why = "the name leads out of the folder";
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
     }
-    let there = path.metadata()?;
-    if !there.is_file() {
+    if !path.metadata()?.is_file() {
         return Err(io::Error::other("it is no ordinary file"));
     }
-    Ok((open(&path)?, there.len()))
-}
-
-/// Reads a file of up to `most` bytes that another file names.
-///
-/// # Errors
-/// Those of [`open_in`], or the file is longer.
-pub fn read_in(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
-    read_from(open_in(folder, name)?.0, most)
+    read_from(open(&path)?, most)
 }
 
 /// Returns the names in `folder` that end in `.extension`, sorted; a name that is no text is left out.

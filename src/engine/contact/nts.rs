@@ -2,7 +2,6 @@
 //! `outline.rs`; and how deep nodes of either surface lie in the other body.
 
 use std::collections::{BTreeSet, HashSet};
-use std::f64::consts::{FRAC_PI_4, FRAC_PI_8};
 
 use super::outline::{FacedPoint, Outline};
 use super::pairing::{Pairing, Vector, unit};
@@ -20,10 +19,6 @@ const DEEP_EDGE: f64 = 0.5;
 /// The initial penetration over the size of the scene up to which a scene is never refused: ten
 /// times the interference of a press fit of 0.1 %.
 const DEEP_SCENE: f64 = 0.01;
-
-/// A change of a normal or of weights that no move of a node brings about which is small beside the
-/// neighbourhood of a vertex.
-const JUMP: f64 = 0.01;
 
 /// Returns, for each entry of the contact surface, its closest point on the target.
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
@@ -46,17 +41,6 @@ impl FacedPoint {
     }
 }
 
-/// Returns whether two pairings of a node are of different parts of the target.
-fn jumps(one: Option<&Pairing>, other: Option<&Pairing>) -> bool {
-    let (Some(one), Some(other)) = (one, other) else { return one.is_some() != other.is_some() };
-    let weight = |of: &Pairing, node: NodeId| {
-        of.masters.iter().filter(|master| master.0 == node).map(|master| master.1).sum::<f64>()
-    };
-    let mut masters = one.masters.iter().chain(&other.masters);
-    masters.any(|(node, _)| (weight(one, *node) - weight(other, *node)).abs() > JUMP)
-        || (0..2).any(|d| (one.normal[d] - other.normal[d]).abs() > JUMP)
-}
-
 /// Returns what a contact node faces.
 fn contact_node(
     surfaces: &Surfaces,
@@ -68,33 +52,6 @@ fn contact_node(
 }
 
 impl Surfaces {
-    /// Returns the contact nodes that would face another part of the target, along another normal or
-    /// with other weights, if they stood up to `radius` away, each with what it would face there. Two
-    /// edges that lead to the same vertex are the same part.
-    ///
-    /// Tried are the corners of an octagon about the circle of that radius. A limit between two parts
-    /// is a straight line on this scale: one that crosses the circle cuts off a corner.
-    pub fn pairings_nearby(&self, shape: &[Vector], radius: f64) -> Vec<(NodeId, Option<Pairing>)> {
-        let outline = Outline::new(&self.target, shape);
-        let nodes: BTreeSet<NodeId> = self.nodes.iter().copied().collect();
-        let faced = |node: NodeId, at: Vector| {
-            let own = self.contact.node_normals.get(&node).copied();
-            Some(outline.closest_point(at, own)?.by(self, node, 0.0))
-        };
-        let outside = radius / FRAC_PI_8.cos();
-        let otherwise = |node: NodeId| {
-            let [x, y] = shape[node.index()];
-            let own = faced(node, [x, y]);
-            let around = (0..8).map(|k| {
-                let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
-                faced(node, [x + outside * cos, y + outside * sin])
-            });
-            let other = around.filter(|other| jumps(own.as_ref(), other.as_ref()));
-            other.map(|other| (node, other)).collect::<Vec<_>>()
-        };
-        nodes.into_iter().flat_map(otherwise).collect()
-    }
-
     /// Returns the target node that lies deepest in the contact body, and its depth, length, in a
     /// shape given as the coordinates of each node; None where none lies in it.
     ///

@@ -139,17 +139,6 @@ impl Surfaces {
         &self.nodes
     }
 
-    /// Returns the largest change of a coordinate of a node of either surface from one shape to another,
-    /// length.
-    pub fn farthest(&self, [one, other]: [&[Vector]; 2]) -> f64 {
-        let nodes = self.contact.edges.iter().chain(&self.target.edges).flat_map(|edge| edge.nodes);
-        let change = |node: NodeId| {
-            let [a, b] = [one, other].map(|shape| shape[node.index()]);
-            (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
-        };
-        nodes.chain(self.nodes.iter().copied()).map(change).fold(0.0, f64::max)
-    }
-
     /// Returns, for each entry of the contact surface, half the length of the contact edges that it
     /// bounds in a shape, length; 0 for a node's second entry.
     pub fn tributary<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<T> {

@@ -1,21 +1,16 @@
-//! The arithmetic error: the effect of rounding on displacements and stresses.
+//! The arithmetic error: the effect of rounding on displacements and stresses, under the variants that the
+//! paper describes. Under `unilateral` it is measured (`perturbed.rs`).
 //!
 //! A run is repeated in numbers with a running bound on the error, `f64` ([`Bounded`]) or where the
 //! run has more digits double-double, by the solver that is the scalar's own. The bound of that run and
 //! its distance from the assessed run bound the error of the latter, whatever its numbers and its
 //! solver, where no decision on who is in contact is left to rounding and both runs decided alike.
-//! Under `unilateral` the equilibrium of the last contact state is solved again, with its normals and
-//! weights unchanged; where the way to it counts, so is that of each iteration.
 
 use nalgebra::{DVector, SVector};
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::factors::StateFactors;
-use super::ties::{BoundedState, StateCheck};
 use crate::distance::finite;
-use crate::residual::error_of_solution;
-use crate::{Decision, Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve};
+use crate::{Decision, Detail, Request, Solution, Step, StepBounds, Stiffness, solve};
 use numbers::scalar::{Bounded, Scalar};
 use numbers::solve::{Arithmetic, ScalarName};
 use problem::element::Plane;
@@ -33,8 +28,7 @@ pub struct Rounding {
     pub displacement: Option<f64>,
     /// The decisions on who is in contact that rounding may have taken; None where that is not known.
     pub decisions: Option<Vec<Decision>>,
-    /// The bounds of each step; None where there is none, as under `unilateral`, and from the first
-    /// decision on that rounding may have taken.
+    /// The bounds of each step; None from the first decision on that rounding may have taken.
     pub steps: Vec<Option<StepBounds>>,
 }
 
@@ -49,25 +43,18 @@ pub enum Certainty {
     InDoubleDouble,
     /// It may decide, or whether it does is not known.
     Unknown,
-}
-
-/// Returns what rounding may do to a solution.
-pub fn rounding(solution: &Solution) -> Rounding {
-    published_rounding(solution).unwrap_or_else(|| {
-        let factors = StateFactors::new(solution);
-        equilibrium_rounding(solution, factors.as_ref(), &bounded(&solution.model))
-    })
+    /// Under `unilateral` it was not looked at: [`perturbed`](super::perturbed) measures it.
+    Unchecked,
 }
 
 /// Returns the solution itself where rounding decides nothing in it, else that of the same request in
-/// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral`,
-/// which has no other numbers, the solution stays as it is.
+/// double-doubles where it decides nothing there, and which of the two it is. Under `unilateral` the
+/// solution stays as it is.
 pub fn certain(solution: Solution) -> (Solution, Certainty) {
-    if rounding(&solution).displacement.is_some() {
-        return (solution, Certainty::Certain);
-    }
-    if solution.request.variant == Variant::Unilateral {
-        return (solution, Certainty::Unknown);
+    match rounding(&solution) {
+        None => return (solution, Certainty::Unchecked),
+        Some(Rounding { displacement: Some(_), .. }) => return (solution, Certainty::Certain),
+        Some(_) => (),
     }
     let arithmetic = Arithmetic {
         scalar: ScalarName::BoundedDouble,
@@ -88,8 +75,9 @@ pub fn bounded(model: &Model) -> Stiffness<Bounded> {
     Stiffness::new(model, Bounded::from_f64)
 }
 
-/// Returns what rounding may do to a run of a variant that the paper describes; None of another.
-pub(super) fn published_rounding(solution: &Solution) -> Option<Rounding> {
+/// Returns what rounding may do to a solution of a variant that the paper describes; None under
+/// `unilateral`.
+pub fn rounding(solution: &Solution) -> Option<Rounding> {
     let request = &solution.request;
     if request.variant == Variant::Unilateral {
         return None;
@@ -103,70 +91,6 @@ pub(super) fn published_rounding(solution: &Solution) -> Option<Rounding> {
         decisions: Some(Vec::new()),
         steps: solution.steps.iter().map(written).collect(),
     })
-}
-
-/// Returns the same of an equilibrium, with the bodies as they are held at the end; None where they
-/// are not.
-pub(super) fn equilibrium_rounding(
-    solution: &Solution,
-    factors: Option<&StateFactors>,
-    stiffness: &Stiffness<Bounded>,
-) -> Rounding {
-    let checked = factors.and_then(|factors| checked_states(solution, factors, stiffness));
-    let Some((u, StateCheck { decisions, only_ties, .. })) = checked else {
-        return Rounding::unknown(solution);
-    };
-    // What is left of the change of shape is no rounding, but no less an error of the displacements.
-    let shape_change = solution.equilibrium.as_ref().map_or(0.0, |found| found.shape_change);
-    let displacement = only_ties.then(|| error(solution, &u).max(shape_change)).and_then(finite);
-    Rounding { displacement, decisions: Some(decisions), steps: vec![None; solution.steps.len()] }
-}
-
-/// Looks at the decisions of the last contact state, and where the way to it counts at those of each
-/// iteration; returns the last displacements within their bounds too. None where a state does not
-/// hold the bodies.
-fn checked_states<'a>(
-    solution: &'a Solution,
-    factors: &StateFactors,
-    stiffness: &'a Stiffness<Bounded>,
-) -> Option<(DVector<Bounded>, StateCheck<'a>)> {
-    let model = &*solution.model;
-    let mut check = StateCheck::new(solution, stiffness);
-    check.check_searches();
-    let (last, way) = solution.steps.split_last()?;
-    let part = |step: &Step| match &step.detail {
-        Detail::Unilateral(detail) => detail.load,
-        Detail::Published(_) => 0.0,
-    };
-    // From its displacements count the slips of the last step of the load.
-    let from = way.iter().rposition(|step| part(step) < part(last));
-    let counts = if solution.depends_on_path() { way.len() } else { 0 };
-    let groups = check.groups(&way[..counts]);
-    let far: Vec<bool> =
-        groups.into_par_iter().flat_map_iter(|steps| check.are_far(steps)).collect();
-    let near = (0..counts).filter(|i| Some(*i) == from || !far[*i]);
-    // The displacements before the step of the load, and after the last iteration.
-    let mut before = DVector::zeros(model.dofs());
-    let mut reached: Option<(f64, DVector<Bounded>)> = None;
-    let mut look = |step: &Step, factors: &StateFactors, load: DVector<Bounded>| {
-        let Detail::Unilateral(detail) = &step.detail else { return None };
-        if let Some((at, u)) = reached.take()
-            && at < detail.load
-        {
-            before = u;
-        }
-        let u = state(model, step, factors, &load, stiffness)?;
-        check.check(&BoundedState { step, load, before: &before, u: &u });
-        reached = Some((detail.load, u));
-        Some(())
-    };
-    for step in near.map(|i| &way[i]) {
-        let Detail::Unilateral(detail) = &step.detail else { return None };
-        let load = solution.model.load_after(detail.load).map(Bounded::from_f64);
-        look(step, &StateFactors::of_step(solution, step)?, load)?;
-    }
-    look(last, factors, model.load_in(Bounded::from_f64))?;
-    Some((reached?.1, check))
 }
 
 fn repeated_run_rounding(solution: &Solution) -> Rounding {
@@ -272,34 +196,6 @@ fn bounded_run(solution: &Solution) -> Option<Solution> {
     solve(&request, &mut |_| ()).ok()
 }
 
-/// Solves a contact state of `unilateral` again, under its friction, with a bound on each
-/// displacement; where nodes slide, the bound rests on an estimate of how friction feeds back.
-fn state(
-    model: &Model,
-    step: &Step,
-    factors: &StateFactors,
-    load: &DVector<Bounded>,
-    stiffness: &Stiffness<Bounded>,
-) -> Option<DVector<Bounded>> {
-    let constraints = step.constraints.iter().map(|c| c.map(Bounded::from_f64));
-    let constraints: Vec<_> = constraints.collect();
-    let t = Elimination::closing(&model.restrained, &constraints);
-    let Detail::Unilateral(detail) = &step.detail else { return None };
-    let friction = detail.friction(load.len()).map(Bounded::from_f64);
-    let load = model.free_part(&(load + friction));
-    let b = t.load(&(load - stiffness.times(t.shift())));
-    let x = factors.refined(&b.map(Scalar::to_f64));
-    let bound = error_of_solution((stiffness, &t), &factors.factors, &b, &x);
-    // Friction follows the normal forces, whose errors are taken to be those of the displacements.
-    let bound = (1.0 + detail.feedback) * bound;
-    Some(t.expand(&x.map(|x| Bounded::new(x, bound))))
-}
-
-/// Returns the displacements of a solution within a bound on their error, if one is known.
-pub fn within(solution: &Solution, displacement: Option<f64>) -> DVector<Bounded> {
-    solution.u.map(|u| Bounded::new(u, displacement.unwrap_or(f64::INFINITY)))
-}
-
 /// Returns, for each triangle, a bound on the error of its von Mises stress where displacements are
 /// known to `displacement`, stress.
 pub fn stress_bounds(
@@ -308,7 +204,7 @@ pub fn stress_bounds(
     displacement: Option<f64>,
 ) -> Vec<f64> {
     let model = &*solution.model;
-    let u = within(solution, displacement);
+    let u = solution.u.map(|u| Bounded::new(u, displacement.unwrap_or(f64::INFINITY)));
     let stresses = stiffness.stresses(&u);
     let triangles = model.triangles.iter().zip(&stresses).zip(&solution.elements);
     triangles

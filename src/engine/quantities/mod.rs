@@ -1,6 +1,6 @@
 //! The quantities of a result. Each is declared once, below; its field in `result.json` and in the
 //! schema, its column in tables, CSV and pages, its array in `fields.vtu`, its picture, its place
-//! in `compare` and in probes, and its line in `golden/quantities.md` follow.
+//! in `compare`, and its line in `golden/quantities.md` follow.
 //!
 //! ```text
 //! struct          lives on               one value of the struct for

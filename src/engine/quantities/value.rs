@@ -25,17 +25,13 @@ impl Value {
     /// Returns the numbers of a measured value or of a state; None of what is no number, or not
     /// known.
     pub fn numbers(&self) -> Option<Vec<f64>> {
-        self.components().filter(|numbers| numbers.iter().all(|x| x.is_finite()))
-    }
-
-    /// Returns the same, be some of it not known.
-    pub fn components(&self) -> Option<Vec<f64>> {
-        match self {
-            Value::Number(x) => Some(vec![*x]),
-            Value::Components(x) => Some(x.clone()),
-            Value::State(number, _) => Some(vec![f64::from(*number)]),
-            Value::Unknown | Value::Count(_) | Value::Words(_) => None,
-        }
+        let numbers = match self {
+            Value::Number(x) => vec![*x],
+            Value::Components(x) => x.clone(),
+            Value::State(number, _) => vec![f64::from(*number)],
+            Value::Unknown | Value::Count(_) | Value::Words(_) => return None,
+        };
+        Some(numbers).filter(|numbers| numbers.iter().all(|x| x.is_finite()))
     }
 }
 

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
 use super::search::StateSearch;
 use crate::contact::{Sense, Status};
-use crate::solution::{OtherEquilibrium, Uniqueness};
+use crate::solution::{NearestDecision, OtherEquilibrium, Uniqueness};
 use problem::model::NodeId;
 
 /// The force of a node in contact, over the largest of the loads and of those of contact, below which
@@ -69,6 +69,16 @@ pub(super) fn uniqueness(
     }
     let last_only = steps[0].before.amax() > 0.0;
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
+}
+
+/// Returns the decision of the contact state found that is nearest to another one.
+pub(super) fn nearest_decision(
+    problem: &Problem,
+    found: &Equilibrium,
+    taken: &[TakenStep],
+) -> Option<NearestDecision> {
+    let setting = setting(problem, taken.last()?);
+    problem.search(&found.config, &setting).nearest_decision(&found.last)
 }
 
 fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {

@@ -57,7 +57,7 @@ impl StateSearch<'_> {
         let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
         let mut reaction = bodies.reaction(&u);
         let mut forces = self.problem.forces(self.config, statuses, &reaction);
-        let (mut friction, mut feedback) = (Vec::new(), 0.0);
+        let mut friction = Vec::new();
         if let Some(slide) = self.slide(statuses, &forces, bodies)? {
             let Some(solved) = bodies.displacements(&slide.friction) else { return Ok(None) };
             (u, residual) = solved;
@@ -66,9 +66,8 @@ impl StateSearch<'_> {
             slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
-            feedback = slide.feedback;
         }
-        Ok(Some(StateSolution { u, forces, friction, feedback, reaction, residual }))
+        Ok(Some(StateSolution { u, forces, friction, reaction, residual }))
     }
 
     /// Returns the friction of sliding nodes, whose size is μ times the normal forces that it leads to,
@@ -116,14 +115,12 @@ impl StateSearch<'_> {
         let matrix = matrix.lu();
         let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
         let sizes = sizes.ok_or_else(jammed)?;
-        let rows = matrix.try_inverse().ok_or_else(jammed)?;
-        let feedback = rows.row_iter().map(|row| row.lp_norm(1)).fold(0.0, f64::max);
         let mut friction = DVector::zeros(dofs);
         for (load, size) in loads.iter().zip(&sizes) {
             friction.axpy(*size, load, 1.0);
         }
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
-        Ok(Some(Slide { friction, sizes, feedback }))
+        Ok(Some(Slide { friction, sizes }))
     }
 }
 
@@ -157,8 +154,6 @@ struct Slide {
     friction: DVector<f64>,
     /// The entries that slide, each with its force along the tangent.
     sizes: Vec<(usize, f64)>,
-    /// See [`StateSolution::feedback`].
-    feedback: f64,
 }
 
 fn jammed() -> NoEquilibrium {

@@ -64,8 +64,6 @@ mod springs;
 mod status;
 mod unrestrained;
 
-pub(super) use search::FIRST_GROWTH;
-
 use super::error::Error;
 use super::request::Request;
 use super::solution::{Solution, Step};

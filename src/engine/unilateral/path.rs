@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::equilibria::{TakenStep, uniqueness};
+use super::equilibria::{TakenStep, nearest_decision, uniqueness};
 use super::forces::load_of;
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use crate::contact::{ContactNode, Status, Traction};
@@ -238,8 +238,8 @@ impl<'a> Run<'a> {
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let mut last = self.taken.pop().expect("a path has a step");
-        let setting =
-            Setting { load: load.clone(), reduced: None, before: &last.before, statuses: None };
+        let setting = self.problem.setting(load.clone(), &last.before, None);
+        let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
         })?;
@@ -272,6 +272,7 @@ impl<'a> Run<'a> {
     fn solution(self, end: Equilibrium, path: Option<Path>) -> Solution {
         let Run { problem, steps, factored, taken, .. } = self;
         let uniqueness = uniqueness(problem, &end, &taken);
+        let nearest = nearest_decision(problem, &end, &taken);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
         let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
         Solution {
@@ -286,6 +287,7 @@ impl<'a> Run<'a> {
             equilibrium: Some(solution::Equilibrium {
                 path,
                 uniqueness,
+                nearest,
                 unseen,
                 inside,
                 shape_change,
@@ -324,12 +326,8 @@ fn step(
             statuses: statuses.clone(),
             pairings: Arc::clone(&config.pairings),
             friction: solution.friction.clone(),
-            feedback: solution.feedback,
-            margin: problem.margin(iteration),
-            undetermined: solution.forces.iter().map(|force| force.undetermined).collect(),
             violation: *violation,
             springs: iteration.springs,
-            choice: iteration.choice,
         }),
     }
 }

@@ -13,7 +13,7 @@ use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
 use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
-use crate::solution::{Choice, Cycle};
+use crate::solution::Cycle;
 use crate::stiffness::Stiffness;
 use crate::support::supports;
 use base::error::InputError;
@@ -60,8 +60,10 @@ pub(super) struct Problem<'a> {
 pub(super) struct Setting<'a> {
     /// The load by degree of freedom, restrained ones included, force.
     pub(super) load: DVector<f64>,
-    /// The same on the contact surfaces; None where equations of the whole bodies are to be solved.
+    /// The same on the contact surfaces; None where states are not looked for on these.
     pub(super) reduced: Option<ReducedLoad>,
+    /// Whether solutions are refined until they solve the equations of the whole bodies.
+    pub(super) whole: bool,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
@@ -93,8 +95,6 @@ pub(super) struct Iteration {
     pub(super) violation: f64,
     /// Whether it was not solved for, as its contact state was solved in the same place before.
     pub(super) returned: bool,
-    /// How its statuses were chosen.
-    pub(super) choice: Choice,
     /// The stiffness of the springs on which the nodes stood, over that of the bodies.
     pub(super) springs: f64,
 }
@@ -103,7 +103,7 @@ impl Iteration {
     /// Returns the next iteration, to which the statuses of this one return.
     pub(super) fn repeated(&self, history: &mut History) -> Self {
         let cycle = history.keep(&self.statuses);
-        Iteration { cycle, returned: true, choice: Choice::Asked, ..self.clone() }
+        Iteration { cycle, returned: true, ..self.clone() }
     }
 }
 
@@ -116,9 +116,6 @@ pub(super) struct StateSolution {
     pub(super) forces: Vec<ContactForce>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub(super) friction: Vec<(Dof, f64)>,
-    /// The largest change of a sliding node's friction over that of μ times the normal forces which
-    /// causes it, as friction changes these forces in turn; 0 where no node slides against friction.
-    pub(super) feedback: f64,
     /// K u − F on the equations that contact can bind, force: the forces of contact.
     pub(super) reaction: DVector<f64>,
     /// The relative residual of the equations that were solved.
@@ -207,7 +204,7 @@ impl<'a> Problem<'a> {
         statuses: Option<&'s [Status]>,
     ) -> Setting<'s> {
         let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
-        Setting { load, reduced, before, statuses }
+        Setting { load, reduced, whole: false, before, statuses }
     }
 
     /// Returns whether contact is measured in the current shape.
@@ -282,8 +279,7 @@ impl<'a> Problem<'a> {
         let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
         let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
         let before = DVector::zeros(self.model.dofs());
-        let setting =
-            Setting { load: before.clone(), reduced: None, before: &before, statuses: None };
+        let setting = self.setting(before.clone(), &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 

@@ -11,10 +11,18 @@ use numbers::solve::{Singular, SparseCholesky};
 
 /// The equations of the bodies under constraints and a load, factored.
 pub(super) enum HeldBodies<'a> {
-    /// Those of the surfaces alone.
-    Reduced { state: ReducedState<'a>, load: &'a ReducedLoad },
+    /// Those of the surfaces.
+    Reduced(ReducedBodies<'a>),
     /// The whole ones.
     Whole(WholeBodies<'a>),
+}
+
+/// The equations of the surfaces.
+pub(super) struct ReducedBodies<'a> {
+    problem: &'a Problem<'a>,
+    state: ReducedState<'a>,
+    setting: &'a Setting<'a>,
+    load: &'a ReducedLoad,
 }
 
 /// The whole equations.
@@ -36,12 +44,12 @@ impl<'a> HeldBodies<'a> {
     /// whole ones are to be factored.
     pub(super) fn reduced(
         problem: &'a Problem<'a>,
-        setting: &'a Setting,
+        setting: &'a Setting<'a>,
         constraints: &[Constraint],
     ) -> Option<Self> {
         let (reduction, load) = (problem.reduction.as_ref()?, setting.reduced.as_ref()?);
         let state = ReducedState::new(reduction, constraints)?;
-        Some(HeldBodies::Reduced { state, load })
+        Some(HeldBodies::Reduced(ReducedBodies { problem, state, setting, load }))
     }
 
     /// Factors the whole equations.
@@ -64,7 +72,13 @@ impl<'a> HeldBodies<'a> {
     /// surface; and the relative residual. None where the equations of the surfaces do not serve.
     pub(super) fn displacements(&self, more: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
         match self {
-            HeldBodies::Reduced { state, load } => state.displacements(load, more),
+            HeldBodies::Reduced(ReducedBodies { problem, state, setting, load }) => {
+                if !setting.whole {
+                    return state.displacements(load, more);
+                }
+                let all = problem.model.free_part(&(&setting.load + more));
+                state.refined(&problem.stiffness, &all, (load, more))
+            }
             HeldBodies::Whole(WholeBodies { problem, t, load, factors }) => {
                 let Problem { model, stiffness, .. } = problem;
                 let load = model.free_part(&(*load + more));
@@ -79,7 +93,10 @@ impl<'a> HeldBodies<'a> {
     /// contact.
     pub(super) fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
         match self {
-            HeldBodies::Reduced { state, load } => state.reaction(u, load),
+            HeldBodies::Reduced(ReducedBodies { problem, setting, .. }) if setting.whole => {
+                problem.stiffness.times(u) - &setting.load
+            }
+            HeldBodies::Reduced(ReducedBodies { state, load, .. }) => state.reaction(u, load),
             HeldBodies::Whole(whole) => whole.problem.stiffness.times(u) - whole.load,
         }
     }
@@ -88,7 +105,7 @@ impl<'a> HeldBodies<'a> {
     /// displacements under it without the shift of the constraints, force.
     pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let WholeBodies { problem, t, factors, .. } = match self {
-            HeldBodies::Reduced { state, .. } => return state.responses(loads),
+            HeldBodies::Reduced(reduced) => return reduced.state.responses(loads),
             HeldBodies::Whole(whole) => whole,
         };
         let Problem { model, stiffness, surface_triangles, .. } = problem;

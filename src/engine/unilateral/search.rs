@@ -14,12 +14,12 @@ use super::status::{History, first_closed, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
-use crate::solution::{Choice, Cycle};
+use crate::solution::{Cycle, Margin, NearestDecision};
 use numbers::solve::largest;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
 /// second set takes those that penetrate by more than this part of the deepest penetration.
-pub const FIRST_GROWTH: f64 = 0.9;
+const FIRST_GROWTH: f64 = 0.9;
 
 /// The number of iterations beyond one for each contact node after which the search ends.
 const PATIENCE: usize = 100;
@@ -110,15 +110,16 @@ impl Problem<'_> {
             return Ok(found);
         }
         let search = self.search(&found.config, setting);
-        let Iteration { statuses, constraints, cycle, choice, .. } = found.last.clone();
+        let Iteration { statuses, constraints, cycle, .. } = found.last.clone();
         if let Outcome::Solved(solution) = search.solve(&statuses, &constraints)? {
             let last = search.completed_iteration((statuses, constraints), cycle, solution);
             if search.wanted(&last, false) == last.statuses {
-                return Ok(Equilibrium { last: Iteration { choice, ..last }, ..found });
+                return Ok(Equilibrium { last, ..found });
             }
         }
         let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
-        self.equilibrium(&Setting { load, reduced: None, statuses, ..*setting }, watch)
+        let again = self.setting(load, setting.before, statuses);
+        self.equilibrium(&Setting { whole: true, ..again }, watch)
     }
 
     /// Returns the part of a step after which the first node closes that closed in it, from its gaps
@@ -152,21 +153,6 @@ impl Problem<'_> {
         };
         format!("; in the last, node {} {why}", self.model.contact.nodes[i])
     }
-
-    /// Returns the least force of a node in contact, and the least friction that one that sticks has
-    /// left, over the largest force; infinite where nothing is in contact.
-    pub(super) fn margin(&self, iteration: &Iteration) -> f64 {
-        let pairs = || iteration.statuses.iter().zip(&iteration.solution.forces);
-        let largest = pairs().map(|(_, force)| force.normal.abs()).fold(0.0, f64::max);
-        let left = |(status, force): (&Status, &ContactForce)| match status {
-            Status::Open => f64::INFINITY,
-            Status::Stick if self.friction.is_finite() => {
-                force.normal.abs().min((self.friction * force.normal - force.tangent.abs()).abs())
-            }
-            Status::Stick | Status::Slip(_) => force.normal.abs(),
-        };
-        pairs().map(left).fold(f64::INFINITY, f64::min) / largest
-    }
 }
 
 impl StateSearch<'_> {
@@ -181,7 +167,7 @@ impl StateSearch<'_> {
         history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
-        let start = (start.unwrap_or_else(|| self.first_statuses()), Choice::Asked);
+        let start = start.unwrap_or_else(|| self.first_statuses());
         let found = self.active_set(start, history, watch);
         let Err(Error::Equilibrium(why)) = found else { return found };
         let problem = self.problem;
@@ -191,9 +177,9 @@ impl StateSearch<'_> {
         {
             return Err(problem.escapes(dof).into());
         }
-        let bounds = self.by_bounds().map(|statuses| (statuses, Choice::Bounds));
-        let all = || self.enumerated().map(|statuses| (statuses, Choice::Enumerated));
-        let Some(start) = bounds.or_else(all) else { return Err(why.into()) };
+        let Some(start) = self.by_bounds().or_else(|| self.enumerated()) else {
+            return Err(why.into());
+        };
         history.move_on();
         self.active_set(start, history, watch)
     }
@@ -201,7 +187,7 @@ impl StateSearch<'_> {
     /// Goes from statuses to those that they ask for, until they ask for themselves.
     fn active_set(
         &self,
-        (mut statuses, choice): (Vec<Status>, Choice),
+        mut statuses: Vec<Status>,
         history: &mut History,
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
@@ -209,13 +195,10 @@ impl StateSearch<'_> {
         let mut against = String::new();
         let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
-            let mut iteration = match recent.iter().find(|known| known.statuses == statuses) {
+            let iteration = match recent.iter().find(|known| known.statuses == statuses) {
                 Some(known) => known.repeated(history),
                 None => self.iteration(statuses, history)?,
             };
-            if k == 1 {
-                iteration.choice = choice;
-            }
             let wanted = self.wanted(&iteration, history.iterations == 1);
             watch(self.config, &iteration);
             if wanted == iteration.statuses {
@@ -287,6 +270,39 @@ impl StateSearch<'_> {
         (0..iteration.statuses.len()).map(status).collect()
     }
 
+    /// Returns the decision of an iteration that is nearest to another one: the gap of an open node, the
+    /// force of one in contact, what one that sticks has left of its friction, and the slip of one that
+    /// slides. None where none is known.
+    pub(super) fn nearest_decision(&self, iteration: &Iteration) -> Option<NearestDecision> {
+        let moved = largest(iteration.solution.u.as_slice());
+        let force = iteration.solution.forces.iter().map(|force| force.normal.abs());
+        let force = force.fold(0.0, f64::max);
+        let margins = |i: usize| {
+            let ContactForce { normal, tangent, undetermined } = iteration.solution.forces[i];
+            let pressed = (Margin::Force, normal.abs() / force);
+            let left = self.problem.friction * normal.abs() - tangent.abs();
+            match (iteration.statuses[i], &self.config.pairings[i]) {
+                (_, None) => Vec::new(),
+                (Status::Open, Some(_)) => iteration.gaps[i]
+                    .map(|gap| (Margin::Gap, gap.abs() / moved))
+                    .into_iter()
+                    .collect(),
+                (Status::Stick | Status::Slip(_), Some(_)) if undetermined => Vec::new(),
+                (Status::Stick, Some(_)) => vec![pressed, (Margin::Friction, left.abs() / force)],
+                (Status::Slip(sense), Some(pairing)) if sense.sign() != 0.0 => {
+                    vec![pressed, (Margin::Slip, self.slip(pairing, iteration).abs() / moved)]
+                }
+                (Status::Slip(_), Some(_)) => vec![pressed],
+            }
+        };
+        let all = (0..iteration.statuses.len()).flat_map(|i| {
+            let node = self.problem.model.contact.nodes[i];
+            margins(i).into_iter().map(move |(of, relative)| NearestDecision { node, of, relative })
+        });
+        all.filter(|near| near.relative.is_finite())
+            .min_by(|a, b| a.relative.total_cmp(&b.relative))
+    }
+
     /// Returns how far a node slipped along the tangent in a step of the load, length.
     fn slip(&self, pairing: &Pairing, iteration: &Iteration) -> f64 {
         let [ux, uy] = pairing.motion(|n| n.components(&iteration.solution.u));
@@ -333,6 +349,7 @@ impl StateSearch<'_> {
     ) -> Iteration {
         let gaps = self.problem.gaps(self.config, &solution.u);
         let violation = violation(&gaps, &statuses);
+        let springs = self.problem.springs;
         Iteration {
             statuses,
             constraints,
@@ -341,8 +358,7 @@ impl StateSearch<'_> {
             gaps,
             violation,
             returned: false,
-            choice: Choice::Asked,
-            springs: self.problem.springs,
+            springs,
         }
     }
 

@@ -4,11 +4,12 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
-use faer::linalg::solvers::Llt;
+use faer::linalg::solvers::{Llt, Solve};
 use faer::perm::Perm;
 use faer::{Accum, Par, Side};
 use nalgebra::{DMatrix, DVector};
 
+use super::cholesky::is_large;
 use super::factors::{
     Factors, Lu, Singular, backward_error, column, largest, of_columns, of_columns_mut, solve,
 };
@@ -82,10 +83,22 @@ impl Lu for DenseLu {
 pub struct DenseCholesky(Llt<f64>);
 
 impl DenseCholesky {
-    /// Factors a `matrix`, of which the lower triangle is read; None where it is not positive definite.
+    /// Factors a `matrix`, of which the lower triangle is read; None where it is not positive definite, or
+    /// nearly not.
     pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
         faer::set_global_parallelism(Par::Seq);
-        Llt::new(of_columns(matrix), Side::Lower).ok().map(DenseCholesky)
+        let factors = Llt::new(of_columns(matrix), Side::Lower).ok()?;
+        let pivots = factors.L().diagonal().column_vector();
+        let is_held = |j: usize| is_large(pivots[j] * pivots[j], matrix[(j, j)]);
+        (0..matrix.nrows()).all(is_held).then_some(DenseCholesky(factors))
+    }
+}
+
+impl DenseCholesky {
+    /// Returns the solutions x of A x = b for the columns b of a matrix.
+    pub fn solve_all(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
+        let x = self.0.solve(of_columns(b));
+        DMatrix::from_fn(b.nrows(), b.ncols(), |i, j| x[(i, j)])
     }
 }
 

@@ -38,15 +38,15 @@ pub struct EliminatedLoad {
 impl Schur {
     /// Factors a matrix with some equations as the last ones; None where A_ff is singular or nearly so, or
     /// S has lost its digits against A_ll.
-    pub fn new(matrix: &SparseSymmetric, last: Vec<usize>) -> Option<Self> {
+    pub fn new(matrix: SparseSymmetric, last: Vec<usize>) -> Option<Self> {
         let mut is_last = vec![false; matrix.size()];
         last.iter().for_each(|e| is_last[*e] = true);
-        let raised = matrix.map_diagonal(|e, a| if is_last[e] { a + a } else { a });
-        let factors = Cholesky::with_last(&raised, &last)?;
-        if !factors.has_large_pivots(&raised.diagonal()) {
+        let raised = matrix.diagonal().select_rows(&last);
+        let matrix = matrix.map_diagonal(|e, a| if is_last[e] { a + a } else { a });
+        let factors = Cholesky::with_last(&matrix, &last)?;
+        if !factors.has_large_pivots(&matrix.diagonal()) {
             return None;
         }
-        let raised = matrix.diagonal().select_rows(&last);
         let mut complement = square(&factors.last_block(matrix.size() - last.len()));
         for (k, r) in raised.iter().enumerate() {
             complement[(k, k)] -= r;

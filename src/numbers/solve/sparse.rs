@@ -88,7 +88,7 @@ pub(super) fn solve(factors: &Cholesky, b: &DVector<f64>) -> DVector<f64> {
 
 /// Returns the largest motion under loads of 1, both scaled to a unit diagonal: what no single trial
 /// load is sure to find.
-pub fn largest_motion(factors: &impl Factors, diagonal: &DVector<f64>) -> f64 {
+pub(super) fn largest_motion(factors: &impl Factors, diagonal: &DVector<f64>) -> f64 {
     let scale = diagonal.map(|d| d.sqrt());
     let ones = DVector::from_element(scale.len(), 1.0);
     inverse_norm(&Scaled { factors, scale }, &ones)

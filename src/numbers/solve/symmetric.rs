@@ -213,19 +213,18 @@ impl<T: Scalar> SparseSymmetric<T> {
 
     /// Returns the matrix with each diagonal entry made 1 + `part` times as large.
     pub fn with_diagonal(&self, part: f64) -> Self {
-        self.map_diagonal(|_, a| a * T::from_f64(1.0 + part))
+        self.clone().map_diagonal(|_, a| a * T::from_f64(1.0 + part))
     }
 
     /// Returns the matrix with `f` of each row's diagonal entry.
-    pub(super) fn map_diagonal(&self, f: impl Fn(usize, T) -> T) -> Self {
-        let mut matrix = self.clone();
+    pub(super) fn map_diagonal(mut self, f: impl Fn(usize, T) -> T) -> Self {
         for j in 0..self.size() {
             let at = self.pattern.starts[j];
             if at < self.pattern.starts[j + 1] && self.pattern.rows[at] == j {
-                matrix.values[at] = f(j, matrix.values[at]);
+                self.values[at] = f(j, self.values[at]);
             }
         }
-        matrix
+        self
     }
 
     /// Returns the largest row sum of |A|.

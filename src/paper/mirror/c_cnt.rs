@@ -62,7 +62,7 @@ pub fn c_cnt<T: Scalar>(
 ///
 /// # Errors
 /// Those of [`c_cnt`] from line 8 on.
-pub fn on_edges<T: Scalar>(
+fn on_edges<T: Scalar>(
     sheet: &Worksheet<T>,
     reading: &Reading,
     node_n: &Table<T>,
@@ -123,7 +123,7 @@ pub fn edge_box<T: Scalar>(
 ///
 /// # Errors
 /// Those of [`edge_box`].
-pub fn edge<T: Scalar>(
+fn edge<T: Scalar>(
     sheet: &Worksheet<T>,
     node_n: &Table<T>,
     i1: usize,

@@ -23,9 +23,7 @@ mod reading;
 mod worksheet;
 
 pub use ambiguity::{Ambiguity, Change, DefaultFrom, Trial, Value};
-pub use c_cnt::{
-    Pairs, c_cnt, distances, edge, edge_box, on_edges, own_weights, status, weights, weights_from,
-};
+pub use c_cnt::{Pairs, c_cnt, distances, edge_box, own_weights, status, weights, weights_from};
 pub use conditions::{
     Comparison, Operand, and, is_in_box, is_jumped_after, is_jumped_before, is_near,
 };

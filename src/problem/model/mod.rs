@@ -123,15 +123,6 @@ pub struct Model {
 }
 
 impl Model {
-    /// Returns whether the bodies have the stiffness and the restraints of those of another model.
-    pub fn has_bodies_of(&self, other: &Model) -> bool {
-        self.plane == other.plane
-            && self.thickness == other.thickness
-            && self.restrained == other.restrained
-            && self.nodes == other.nodes
-            && self.triangles == other.triangles
-    }
-
     /// Returns the number of degrees of freedom, restrained ones included.
     pub fn dofs(&self) -> usize {
         2 * self.nodes.len()

@@ -9,7 +9,7 @@ mod undefined;
 pub use decimal::Decimal;
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use uncertain::uncertain;
-pub use undefined::{NO_LIMIT, reason};
+pub use undefined::reason;
 
 pub use base::plain::six_digits;
 

@@ -1,8 +1,8 @@
 //! Numbers written with no more digits than their errors leave them.
 //!
-//! The largest error decides: it is rounded up, to two digits where the first is 1 or 2 and else to
-//! one, and the value is rounded to the place of the error's last digit: 41.94 with an error of 2.6
-//! is `41.9 +- 2.6`, with one of 3.1 `42 +- 4`. The other errors are rounded up to one digit.
+//! The error is rounded up, to two digits where the first is 1 or 2 and else to one, and the value is
+//! rounded to the place of the error's last digit: 41.94 with an error of 2.6 is `41.9 +- 2.6`, with one of
+//! 3.1 `42 +- 4`.
 
 use std::ops::Range;
 
@@ -18,33 +18,23 @@ const HANDY_ERRORS: Range<i32> = -3..6;
 /// Exponents of the values that are written without a power of ten.
 const HANDY_VALUES: Range<i32> = -4..7;
 
-/// Writes `value` with its errors: `42 +- 3 MPa (mesh), +- 2e-12 (arithmetic)`.
-///
-/// Given are the value; its unit, which may be empty; and each error, in that unit, with its
-/// source, at least one. An error of None is unknown, which is said in words and leaves the value two
-/// digits: `about 42 MPa, error unknown (mesh)`.
-pub fn uncertain(value: f64, unit: &str, errors: &[(Option<f64>, &str)]) -> String {
-    let known = value.is_finite() && errors.iter().all(|(error, _)| error.is_some());
-    let largest =
-        errors.iter().filter_map(|(error, _)| *error).fold(0.0, |m: f64, e| m.max(e.abs()));
-    let error_in_words = |(k, (error, source)): (usize, &(Option<f64>, &str))| {
-        let Some(error) = error else { return format!("error unknown ({source})") };
-        let rounded = Decimal::at_least(error.abs(), known && error.abs() == largest);
-        let rounded =
-            rounded.map_or("0".into(), |r| to_place(r.value(), r.last_place(), HANDY_ERRORS));
-        let unit = if known && k == 0 { unit } else { "" };
-        format!("+- {} ({source})", with_unit(&rounded, unit))
-    };
-    let words = errors.iter().enumerate().map(error_in_words).collect::<Vec<_>>().join(", ");
-    if !known {
+/// Writes `value`, in a unit that may be empty, with what rounding may do to it: `42 +- 3 MPa
+/// (arithmetic)`. An error of None is unknown, which is said in words and leaves the value two digits:
+/// `about 42 MPa, error unknown (arithmetic)`.
+pub fn uncertain(value: f64, unit: &str, error: Option<f64>) -> String {
+    let Some(error) = error.filter(|_| value.is_finite()) else {
         let place = if value == 0.0 { 0 } else { exponent(value) - 1 };
-        return format!("about {}, {words}", with_unit(&at_place(value, place), unit));
-    }
-    let shown = match Decimal::at_least(largest, true) {
-        Some(error) => at_place(value, error.last_place()),
-        None => shortest(value),
+        let about = with_unit(&at_place(value, place), unit);
+        return format!("about {about}, error unknown (arithmetic)");
     };
-    format!("{shown} {words}")
+    let (shown, error) = match Decimal::at_least(error.abs(), true) {
+        Some(error) => {
+            let place = error.last_place();
+            (at_place(value, place), to_place(error.value(), place, HANDY_ERRORS))
+        }
+        None => (shortest(value), "0".into()),
+    };
+    format!("{shown} +- {} (arithmetic)", with_unit(&error, unit))
 }
 
 /// Writes `value` rounded to a multiple of 10^place.

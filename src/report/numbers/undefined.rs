@@ -40,14 +40,16 @@ const REASONS: &[(&str, &str)] = &[
     ("force", "restraints leave the force undetermined"),
     ("friction_needed", "the node is not pressed beyond rounding, or its force is not determined"),
     ("status", "the variant knows no statuses, or the node is not in contact"),
-    ("mesh", "a body has too few triangles for an estimate"),
     ("mesh_energy_relative", "a body has too few triangles for an estimate"),
-    ("arithmetic", "no bound is known"),
+    ("arithmetic", "no bound is known; of unilateral solve --check-rounding measures it"),
     ("bound", "no bound is known"),
     ("margin", "no two finite sides were compared"),
-    ("decided_by_rounding", "it is not known who is in contact without rounding"),
-    ("displacement_arithmetic", "no bound is known"),
-    ("displacement_mesh", "the variant is printed with contact, or a body has too few triangles"),
+    ("decided_by_rounding", "it is not known; of unilateral solve --check-rounding measures it"),
+    (
+        "displacement_arithmetic",
+        "no bound is known; of unilateral solve --check-rounding measures it",
+    ),
+    ("stress", "no run with changed inputs ended"),
     ("distance", "it was left out, there is no such solution, or the scene has no contact"),
     (
         "distance_from_equilibrium",
@@ -64,10 +66,6 @@ const REASONS: &[(&str, &str)] = &[
     ("solver", "the scalar's own solver"),
     ("nominal_strain", "no load acts"),
 ];
-
-/// Why the error of a number that diverges under refinement has no value; the object in
-/// which it stands names the point.
-pub const NO_LIMIT: &str = "the number diverges under refinement";
 
 /// Returns why a field has no value.
 pub fn reason(field: &str) -> &'static str {

@@ -3,7 +3,7 @@
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{short, with_unit};
-use engine::{Equilibrium, OtherEquilibrium, Solution, Uniqueness};
+use engine::{Equilibrium, Margin, NearestDecision, OtherEquilibrium, Solution, Uniqueness};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
 
@@ -34,8 +34,20 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
         let change = length(found.shape_change);
         format!("Geometry: its last update changed no displacement component by more than {change}")
     });
-    let lines = [springs, unseen, inside, geometry].into_iter().flatten();
+    let nearest = found.nearest.as_ref().map(nearest_decision);
+    let lines = [nearest, springs, unseen, inside, geometry].into_iter().flatten();
     lines.fold(uniqueness(solution, &found.uniqueness), Report::line)
+}
+
+/// Says how near the contact state is to another one.
+pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision) -> String {
+    let scale = match of {
+        Margin::Gap | Margin::Slip => "displacement component",
+        Margin::Force | Margin::Friction => "normal force",
+    };
+    format!(
+        "Nearest to another contact state: node {node}, {of} {relative:.1e} of the largest {scale}"
+    )
 }
 
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {

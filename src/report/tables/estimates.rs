@@ -1,16 +1,18 @@
 //! How far the numbers of a run may be from the truth.
 
-use crate::layout::counted;
+use crate::layout::{counted, first_line};
 use crate::model::Report;
 use crate::numbers::{or_dash, percent, short, uncertain, with_unit};
-use engine::estimates::{BodyEstimates, Certainty, ErrorEstimates, NoLimit};
+use engine::estimates::{
+    BodyEstimates, Certainty, ContactChange, ErrorEstimates, NoLimit, Perturbed,
+};
 use engine::{Assessment, Decision, Solution, locking};
 use problem::modelling::Variant;
 use problem::scene::Units;
 
-/// The relative error of the mesh in the energy norm beyond which the estimates that rest on it
-/// missed the truth now and then (`engine::estimates::discretisation`).
-const FAIR: f64 = 0.2;
+/// What is said of a run of `unilateral` for which rounding was not measured.
+const UNCHECKED: &str = "rounding: not checked; solve --check-rounding repeats the run with inputs changed in \
+                         the last digit";
 
 /// Says in which numbers a run is done where rounding in f64 may decide who is in contact.
 pub fn certainty(certainty: Certainty) -> Option<String> {
@@ -18,69 +20,72 @@ pub fn certainty(certainty: Certainty) -> Option<String> {
         Certainty::Certain => return None,
         Certainty::InDoubleDouble => "this is the run in double-doubles, where it decides nothing",
         Certainty::Unknown => "in no other numbers is it known not to",
+        Certainty::Unchecked => return Some(UNCHECKED.into()),
     };
     Some(format!("rounding in f64 may decide who is in contact; {numbers}"))
 }
 
 /// Reports the estimated errors; nothing where they were left out.
 pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
-    let Some(estimates) = &assessment.estimates else { return Report::default() };
+    let Some(estimates) = &assessment.estimates else {
+        // It was asked for even so.
+        return Report::default().notes(assessment.rounding.iter().flat_map(perturbed));
+    };
     let errors = &estimates.errors;
     let units = &solution.request.scene.units;
-    let is_estimate = solution.model.has_contact() && errors.displacement_mesh.is_some();
-    let contact = is_estimate
-        .then_some("with contact an estimate and no bound: contact changes with the mesh");
-    contact
-        .into_iter()
-        .fold(
-            Report::default()
-                .heading("Error estimates")
-                .note(displacement(assessment, errors, units)),
-            Report::detail,
-        )
-        .notes(errors.bodies.iter().map(|body| stress(body, units)))
+    let is_bounded = solution.request.variant != Variant::Unilateral;
+    let rounding = match is_bounded {
+        true => by_rounding(solution, errors.decided_by_rounding.as_deref()).into_iter().collect(),
+        false => assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed),
+    };
+    Report::default()
+        .heading("Error estimates")
+        .notes(displacement(assessment, errors, units, is_bounded))
+        .notes(errors.bodies.iter().filter_map(|body| stress(body, units, is_bounded)))
         .note(error_of_mesh(solution, errors))
-        .notes(by_rounding(solution, errors.decided_by_rounding.as_deref()))
-        .notes(rechecked(solution))
+        .notes(rounding)
 }
 
-fn displacement(assessment: &Assessment, errors: &ErrorEstimates, units: &Units) -> String {
+/// Says what there is to say of the largest displacement: that it diverges, or what rounding does to it.
+fn displacement(
+    assessment: &Assessment,
+    errors: &ErrorEstimates,
+    units: &Units,
+    is_bounded: bool,
+) -> Option<String> {
     let largest = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
     let value = match errors.displacement_no_limit {
         Some((node, cause)) => format!(
             "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
             with_unit(&short(largest), &units.length)
         ),
-        None => uncertain(
-            largest,
-            &units.length,
-            &[(errors.displacement_mesh, "mesh"), (errors.displacement_arithmetic, "arithmetic")],
-        ),
+        None if is_bounded => uncertain(largest, &units.length, errors.displacement_arithmetic),
+        None => return None,
     };
-    format!("largest |u|: {value}")
+    Some(format!("largest |u|: {value}"))
 }
 
-fn stress(body: &BodyEstimates, units: &Units) -> String {
-    let errors = [(body.mesh, "mesh"), (body.arithmetic, "arithmetic")];
-    let bounded = uncertain(body.von_mises_stress, &units.stress, &errors);
+/// Says the same of a body's largest stress.
+fn stress(body: &BodyEstimates, units: &Units, is_bounded: bool) -> Option<String> {
+    let own = with_unit(&short(body.von_mises_stress), &units.stress);
+    let bounded = match is_bounded {
+        true => uncertain(body.von_mises_stress, &units.stress, body.arithmetic),
+        false => own.clone(),
+    };
     let value = match &body.no_limit {
-        Some(NoLimit { node, cause, is_largest: true }) => format!(
-            "{} on this mesh; it {} under refinement: at node {node}, {cause}",
-            with_unit(&short(body.von_mises_stress), &units.stress),
-            cause.diverges()
-        ),
-        Some(NoLimit { node, cause, is_largest: false }) => {
-            let diverges = cause.diverges();
-            format!(
-                "{bounded}, away from node {node}, {cause}, where it {diverges} under refinement"
-            )
+        Some(NoLimit { node, cause, is_largest: true }) => {
+            format!("{own} on this mesh; it diverges under refinement: at node {node}, {cause}")
         }
-        None => bounded,
+        Some(NoLimit { node, cause, is_largest: false }) => {
+            format!("{bounded}, away from node {node}, {cause}, where it diverges under refinement")
+        }
+        None if is_bounded => bounded,
+        None => return None,
     };
-    format!("largest von Mises stress, {}: {value}", body.name)
+    Some(format!("largest von Mises stress, {}: {value}", body.name))
 }
 
-/// Says the error of the mesh in the energy norm, and how far it is to be relied on.
+/// Says the error of the mesh in the energy norm, and what measures that of one number.
 fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
     let Some(relative) = errors.mesh_energy_relative else {
         let model = &solution.model;
@@ -88,14 +93,13 @@ fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
         let why = locks.unwrap_or("a body is too small for an estimate".into());
         return format!("error of the mesh: unknown: {why}");
     };
-    let how_far = if relative > FAIR {
-        ": too coarse for its estimates to be relied on"
-    } else if errors.bodies.iter().any(|body| body.no_limit.is_some()) {
-        ": too low where the stress diverges; trade --only mesh measures it"
-    } else {
-        ""
-    };
-    format!("error of the mesh: {} in the energy norm{how_far}", percent(relative, 1))
+    let diverges = errors.bodies.iter().any(|body| body.no_limit.is_some());
+    let how_far = if diverges { ", too low where the stress diverges" } else { "" };
+    format!(
+        "error of the mesh: {} in the energy norm{how_far}; trade --only mesh measures that of one \
+         displacement or stress",
+        percent(relative, 1)
+    )
 }
 
 /// Says what rounding may have decided: the first decision, and how many there are.
@@ -115,14 +119,31 @@ fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> Option<St
     ))
 }
 
-/// Says in which iterations of `unilateral` the decisions on contact were checked for rounding.
-fn rechecked(solution: &Solution) -> Option<&'static str> {
-    let is_unilateral = solution.request.variant == Variant::Unilateral;
-    (is_unilateral && solution.model.has_contact()).then(|| match solution.depends_on_path() {
-        true => "who is in contact: rechecked in each iteration, between the faces of a corner too",
-        false => {
-            "who is in contact: rechecked in the last state, between the faces of a corner too; the \
-             states before do not count, as there is no other equilibrium"
-        }
-    })
+/// Says what inputs that differ in their last digits change.
+pub fn perturbed(found: &Perturbed) -> Vec<String> {
+    let Perturbed { runs, other_steps, failures, contact, displacement, stress } = found;
+    let contact = match contact {
+        None => "change no contact state".into(),
+        Some(ContactChange { node, load, nodes }) => format!(
+            "CHANGE WHO IS IN CONTACT: the status of {}, first at node {node} after {} of the load",
+            counted(*nodes, "node", "nodes"),
+            short(*load)
+        ),
+    };
+    let part = |x: &Option<f64>| x.map_or("unknown".into(), |x| format!("{x:.0e}"));
+    let ended = (failures.len() as u64) < *runs;
+    let changes = ended.then(|| {
+        let (u, stress) = (part(displacement), part(stress));
+        let steps = match other_steps {
+            0 => String::new(),
+            n => format!("; {n} of the runs take OTHER STEPS of the load"),
+        };
+        format!("{contact}, displacements by {u} of the largest, and stresses by {stress}{steps}")
+    });
+    let inputs = format!("rounding: inputs changed in the last digit ({runs} runs)");
+    let measured = changes.map(|changes| format!("{inputs} {changes}"));
+    let failed = failures.first().map(|why| {
+        format!("{inputs} end {} of the runs WITHOUT A RESULT: {}", failures.len(), first_line(why))
+    });
+    measured.into_iter().chain(failed).collect()
 }

@@ -8,18 +8,17 @@ mod iterations;
 
 pub use call::pairs;
 pub use distance::distance;
-pub use estimates::{certainty, error_estimates};
+pub use equilibrium::nearest_decision;
+pub use estimates::{certainty, error_estimates, perturbed};
 
 use crate::layout::{counted, listed};
-use crate::model::{Cell, Report, Table};
-use crate::numbers::quantity;
+use crate::model::Report;
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
-use engine::{Assessment, BodySummary, Probe, Solution, beyond_range};
+use engine::{Assessment, BodySummary, Solution, beyond_range};
 use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::Variant;
-use problem::scene::Units;
 
 /// What is said of a run in which contact passes no load on.
 const NOTHING_TRANSMITTED: &str =
@@ -137,32 +136,4 @@ fn contact_surface(solution: &Solution) -> Report {
         )
     });
     Report::default().table("Contact surface", table).notes(uncoupled).notes(unordered)
-}
-
-/// Reports the values at the points that were asked for.
-pub fn probes(solution: &Solution, assessment: &Assessment) -> Report {
-    let units = &solution.request.scene.units;
-    assessment.probes.iter().fold(Report::default(), |report, of| report.then(probe(units, of)))
-}
-
-fn probe(units: &Units, probe: &Probe) -> Report {
-    let [x, y] = probe.at;
-    let title = format!("At {x}, {y}: body {}, triangle {}", probe.body, probe.triangle);
-    let table = Table::from_rows(&probe.quantities)
-        .column("quantity", |q| quantity(&q.name, q.unit.in_scene(units)))
-        .column("value", |q| q.value)
-        .column("recovered", |q| q.recovered)
-        .column("+- mesh", |q| q.mesh.map(|error| Cell::scientific(error, 1)))
-        .column("+- arithmetic", |q| q.arithmetic.map(|error| Cell::scientific(error, 1)));
-    let shared = (!probe.shared.is_empty()).then(|| {
-        let others = listed(&probe.shared);
-        format!(
-            "The point is shared with triangles {others}: recovered values are common, others are not"
-        )
-    });
-    let diverges = probe.no_limit.map(|cause| {
-        let diverges = cause.diverges();
-        format!("Beside {cause}, where the stress {diverges} under refinement: no mesh bounds it")
-    });
-    Report::default().table(title, table).notes(shared).notes(diverges)
 }

@@ -18,7 +18,8 @@ pub use case::Case;
 
 use claims::{CLAIMS, JudgedClaim, UnderReading};
 use engine::contact::ContactNode;
-use engine::{BodySummary, Solution, solve, summaries};
+use engine::estimates::{Perturbed, perturbed};
+use engine::{BodySummary, NearestDecision, Solution, solve, summaries};
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
 use problem::modelling::{ContactModel, Friction, Variant};
@@ -73,6 +74,10 @@ pub struct Compared {
     pub in_contact: usize,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
+    /// The decision of its contact state that is nearest to another one.
+    pub nearest: Option<NearestDecision>,
+    /// What changes of the input in the last digits do to it.
+    pub rounding: Option<Perturbed>,
 }
 
 /// The number of times that [`audit`] calls its `watch`.
@@ -104,6 +109,8 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
             || rayon::join(readings, || rayon::join(claims, by_reading)),
             || rayon::join(findings, || rayon::join(variants, || rayon::join(friction, prices))),
         );
+    let (equilibrium, reference) =
+        rayon::join(|| case.equilibrium().map(compared), || case.reference().map(compared));
     Audit {
         claims,
         by_reading,
@@ -112,8 +119,8 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
         findings,
         prices,
         variants,
-        equilibrium: case.equilibrium().map(compared),
-        reference: case.reference().map(compared),
+        equilibrium,
+        reference,
         friction,
     }
 }
@@ -129,6 +136,8 @@ fn compared(solution: &Solution) -> Compared {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
         bodies: summaries(solution),
+        nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
+        rounding: perturbed(solution),
     }
 }
 

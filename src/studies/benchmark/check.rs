@@ -3,8 +3,8 @@
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
-/// The most divisions of a side: a scene of Hertz has two million equations then.
-const MOST: usize = 500;
+/// The most divisions of a side: a square of so many is generated and written in 1.8 GB.
+const MOST: usize = 1000;
 
 /// Checks that a number of divisions lies in `least ..= MOST`.
 pub fn count(parameter: &str, n: usize, least: usize) -> Result<()> {

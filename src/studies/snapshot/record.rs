@@ -45,7 +45,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
     let rounding = match (&solved, bounds) {
-        (Ok(solution), Bounds::Computed) => Some(rounding(solution)),
+        (Ok(solution), Bounds::Computed) => rounding(solution),
         (Err(_), _) | (_, Bounds::LeftOut) => None,
     };
     // A solution may leave out steps that were taken back.

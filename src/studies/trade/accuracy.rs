@@ -2,8 +2,8 @@
 //! compared with a bound on what rounding did to them. A precision that fails (a number that
 //! overflows or vanishes in it, an edge that collapses to a point) only passes on to the next one.
 //!
-//! The bound of `f32` and of `unilateral` is that of `estimates::arithmetic`, against the scene's own
-//! numbers; the others keep their own, and exact numbers have none.
+//! The bound of `f32` is that of `estimates::arithmetic`, against the scene's own numbers; the others keep
+//! their own, and exact numbers have none. `unilateral` runs in f64 only: there is nothing to choose.
 
 use base::error::InputError;
 use engine::error::Error;
@@ -65,8 +65,15 @@ pub fn check_accuracy(accuracy: f64) -> Result<(), InputError> {
 /// in the last precision where none has a result.
 pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Error> {
     check_accuracy(accuracy)?;
+    let precisions = precisions(request);
+    if precisions.is_empty() {
+        let what = "unilateral runs in f64 only, whatever the accuracy";
+        let fix =
+            "ask for another variant, or for --check-rounding, which measures what rounding does";
+        return Err(InputError::new("accuracy", what, fix).into());
+    }
     let (mut attempts, mut failure) = (Vec::new(), None);
-    for arithmetic in precisions(request) {
+    for arithmetic in precisions {
         let outcome = match not_run(request, arithmetic.scalar, accuracy) {
             Some(why) => Outcome::NotRun(why),
             None => match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
@@ -92,13 +99,12 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Er
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
 }
 
-/// The precisions, the cheapest first. `unilateral` runs in f64 only, mortar in those that have its
-/// digits and its roots.
+/// The precisions, the cheapest first: none of `unilateral`, of mortar those that have its digits and its roots.
 fn precisions(request: &Request) -> Vec<Arithmetic> {
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
     const DENSE: usize = 600;
     if request.variant == Variant::Unilateral {
-        return vec![sparse(ScalarName::F64)];
+        return Vec::new();
     }
     let is_printed = request.variant == Variant::Printed;
     let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
@@ -141,7 +147,9 @@ fn relative_bound(solution: &Solution) -> f64 {
     let bound = match (solution.error_bound, solution.request.arithmetic.scalar) {
         (Some(bound), _) => bound,
         (None, ScalarName::Exact) => 0.0,
-        (None, _) => rounding(solution).displacement.unwrap_or(f64::INFINITY),
+        (None, _) => {
+            rounding(solution).and_then(|known| known.displacement).unwrap_or(f64::INFINITY)
+        }
     };
     if bound == 0.0 {
         return 0.0;
@@ -162,9 +170,5 @@ fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
     });
     let tried: Vec<String> = tried.collect();
     let what = format!("no precision meets an accuracy of {accuracy:e} ({})", tried.join("; "));
-    let fix = match attempts {
-        [_] => "ask for less: unilateral runs in f64 only",
-        _ => "ask for less",
-    };
-    InputError::new("accuracy", what, fix)
+    InputError::new("accuracy", what, "ask for less")
 }

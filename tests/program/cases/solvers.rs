@@ -57,10 +57,35 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact solve fig1 --variant tied --scalar exact --probe 900,900",
+        command: "plane-contact solve fig1 --variant tied --check-rounding",
         status: 2,
-        contains: &["the point 900,900 lies outside every body"],
-        lacks: &["panicked"],
+        contains: &["tied prints bounds on rounding as it is", "--variant unilateral"],
+        lacks: &["rounding: inputs"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve strand --variant unilateral --coupling mortar --friction 0 \
+                  --geometry initial --check-rounding",
+        status: 0,
+        contains: &[
+            "rounding: inputs changed in the last digit (3 runs) change no contact state, displacements by",
+            "Nearest to another contact state: node",
+        ],
+        lacks: &["not checked", "unknown", "+- "],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve strand --variant unilateral",
+        status: 0,
+        contains: &["rounding: not checked; solve --check-rounding", "trade --only mesh measures"],
+        lacks: &["+- "],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve strand --variant unilateral --accuracy 1e-3",
+        status: 2,
+        contains: &["unilateral runs in f64 only", "--check-rounding"],
+        lacks: &["Written to"],
     },
     Case {
         input: "",

@@ -1,0 +1,141 @@
+//! What rounding does under `unilateral`, measured: the run is repeated with coordinates, loads and moduli
+//! changed at random in their last digits. What that changes, rounding may change too, as every later rounding
+//! acts like such a change.
+//!
+//! A coordinate is changed in the last digit that a coordinate of the scene's size has: a node that lies on an
+//! axis is as uncertain as one that does not. Loads that are 0 stay 0.
+//!
+//! The measurement is of three runs with the same random numbers every time: no bound, but it does not call
+//! unknown what it can try.
+//!
+//! Source: D. S. Parker, "Monte Carlo arithmetic", UCLA CSD-970002 (1997); J. Vignes, Math. Comput. Simul. 35
+//! (1993) 233-261 (CESTAC).
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use fastrand::Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::contact::Status;
+use crate::distance::{finite, over};
+use crate::{Request, Solution, last_under_each_load, solve};
+use problem::model::{Model, NodeId};
+
+/// The number of runs.
+const RUNS: u64 = 3;
+
+/// The largest change, in units of the last digit.
+const ULPS: i32 = 2;
+
+/// What changes of the input in the last digits did to a solution under `unilateral`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Perturbed {
+    /// The number of runs.
+    pub runs: u64,
+    /// Why runs ended without a result.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub failures: Vec<String>,
+    /// The number of runs whose load took other steps, as where a step finds no equilibrium.
+    pub other_steps: u64,
+    /// The first change of who is in contact under a load; nothing where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactChange>,
+    /// The largest change of a displacement component, over the largest; nothing where no run has a result.
+    pub displacement: Option<f64>,
+    /// The largest change of a triangle's von Mises stress, over the largest; nothing as before.
+    pub stress: Option<f64>,
+}
+
+/// A change of the contact state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactChange {
+    /// The first node that has another status.
+    pub node: NodeId,
+    /// The part of the load's path after which it has.
+    pub load: f64,
+    /// The most nodes that have another status under one load, in one run.
+    pub nodes: usize,
+}
+
+/// Repeats a run of `unilateral` with changed inputs; None of another variant.
+pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
+    solution.last().unilateral()?;
+    let mut found = Perturbed {
+        runs: RUNS,
+        other_steps: 0,
+        failures: Vec::new(),
+        contact: None,
+        displacement: None,
+        stress: None,
+    };
+    for seed in 0..RUNS {
+        match solve(&changed(&solution.request, seed), &mut |_| ()) {
+            Ok(other) => found.add(solution, &other),
+            Err(why) => found.failures.push(why.to_string()),
+        }
+    }
+    Some(found)
+}
+
+impl Perturbed {
+    fn add(&mut self, solution: &Solution, other: &Solution) {
+        let stress =
+            |run: &Solution| run.elements.iter().map(|state| state.von_mises_stress).collect();
+        let (own, their): (Vec<f64>, Vec<f64>) = (stress(solution), stress(other));
+        let apart = own.iter().zip(&their).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        let most = own.iter().fold(0.0, |most: f64, x| most.max(*x));
+        let larger = |old: Option<f64>, new: f64| finite(old.unwrap_or(0.0).max(new));
+        self.stress = larger(self.stress, over(apart, most));
+        let moved = over((&other.u - &solution.u).amax(), solution.u.amax());
+        self.displacement = larger(self.displacement, moved);
+        let (ends, others) = (ends(solution), ends(other));
+        self.other_steps += u64::from(ends.len() != others.len());
+        let others: HashMap<u64, &[Status]> =
+            others.into_iter().map(|(load, statuses)| (load.to_bits(), statuses)).collect();
+        for (load, statuses) in ends {
+            // Loads between the steps, where a node closes, are other ones.
+            let Some(others) = others.get(&load.to_bits()) else { continue };
+            let differ: Vec<usize> =
+                (0..statuses.len()).filter(|i| statuses[*i] != others[*i]).collect();
+            let Some(first) = differ.first() else { continue };
+            let node = solution.model.contact.nodes[*first];
+            let change = self.contact.get_or_insert(ContactChange { node, load, nodes: 0 });
+            change.nodes = change.nodes.max(differ.len());
+        }
+    }
+}
+
+/// Returns each load on the way, and the statuses at its end.
+fn ends(solution: &Solution) -> Vec<(f64, &[Status])> {
+    let steps = last_under_each_load(&solution.steps).into_iter();
+    let own = steps.filter_map(|step| solution.steps[step].unilateral());
+    own.map(|own| (own.load, &own.statuses[..])).collect()
+}
+
+/// Returns a request whose coordinates, loads and moduli differ in their last digits.
+fn changed(request: &Request, seed: u64) -> Request {
+    let mut rng = Rng::with_seed(seed);
+    let mut request = request.clone();
+    let model: &mut Model = Arc::make_mut(&mut request.scene.model);
+    // A whole number of units in the last place, other than none.
+    let mut part = || {
+        let ulps = rng.i32(1..=ULPS);
+        f64::from(if rng.bool() { ulps } else { -ulps }) * f64::EPSILON
+    };
+    let size = model.bounds().larger_side();
+    for x in model.nodes.iter_mut().flatten() {
+        *x += part() * x.abs().max(size);
+    }
+    for load in model.stages.iter_mut().flat_map(|stage| stage.iter_mut()) {
+        *load *= 1.0 + part();
+    }
+    model.load = model.load_after(model.stages.len() as f64);
+    // A material stays one.
+    let mut moduli: HashMap<u64, f64> = HashMap::new();
+    for triangle in &mut model.triangles {
+        let e = &mut triangle.material.e;
+        *e *= *moduli.entry(e.to_bits()).or_insert_with(|| 1.0 + part());
+    }
+    request
+}
