@@ -121,7 +121,7 @@ pub static GENERATORS: [Generator; 8] = [
                 length, so that 3 digits are the paper's c_tol of 0.001",
         magnitude: "angle from the vertical, rad",
         values: Values::Decades { from: -18, to: 0, step: 1 },
-        made: Made::Search(Search::at_angle, &[Quantity::Gap, Quantity::Weight]),
+        made: Made::Search(Search::at_angle, &[Quantity::Yt, Quantity::NormalGap]),
         known: &[Known::Exact],
     },
     Generator {

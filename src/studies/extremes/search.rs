@@ -27,16 +27,6 @@ pub struct Search {
     pub c_tll: f64,
 }
 
-/// What a search found.
-struct Found<T> {
-    /// Its gap to the edge: as printed a length, projected in edge lengths.
-    gap: T,
-    /// Its weight at the edge's first node.
-    weight: T,
-    /// Its status: 1 in contact, 0 apart.
-    dy: usize,
-}
-
 impl Search {
     /// A node beside an edge of height 1 at `angle` (its tangent) from the vertical, nearer to it than the
     /// paper's c_tol. All move by a thousandth, and the edge widens by another: it keeps its angle, but not
@@ -46,7 +36,6 @@ impl Search {
         let a = [1.0 / 3.0, 1.0 / 7.0];
         let n = [a[0] + 0.4 * angle - GAP, a[1] + 0.4 + GAP * angle];
         let moved = [0.0, 0.37e-3, 0.148e-3].map(|part| [1.1e-3 + part * angle, -2.3e-3]);
-        // A tolerance of 10 edges keeps the node in contact: its status would hide its weights.
         Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
     }
 
@@ -59,10 +48,9 @@ impl Search {
         Search { a: [0.0, 0.0], b, n: [0.7, y], moved: [[0.0; 2]; 3], c_tll }
     }
 
-    /// As printed: c_cnt under R5 = node_n, which takes weights from the current shape too.
-    fn printed<T: Scalar>(&self) -> Result<Found<T>, Error> {
+    /// What `c_cnt` finds of the node: `yt`, and whether it is in contact.
+    fn printed<T: Scalar>(&self) -> Result<(T, bool), Error> {
         let scene = self.scene().build()?;
-        let reading: Reading = "R5=node_n".parse().expect("a reading");
         let sheet = door::worksheet(&scene.model, T::from_f64);
         let mut u = DVector::from_element(scene.model.dofs(), T::zero());
         for (moved, node) in self.moved.into_iter().zip([1, 2, 4]) {
@@ -70,22 +58,19 @@ impl Search {
                 u[dof.index()] = T::from_f64(moved);
             }
         }
-        let pairs = c_cnt(&sheet, &reading, &door::displaced_nodes(&sheet, &u))?;
-        Ok(Found { gap: pairs.yt[1], weight: pairs.k_cnt[(4, 2)], dy: pairs.dy[1] })
+        let pairs = c_cnt(&sheet, &Reading::default(), &door::displaced_nodes(&sheet, &u))?;
+        Ok((pairs.yt[1], pairs.dy[1] == 1))
     }
 
-    /// The remedy: distance along the normal and weight by projection, over the edge length.
-    fn projected<T: Scalar>(&self) -> Found<T> {
+    /// The remedy: the distance along the normal, over the edge length.
+    fn normal_gap<T: Scalar>(&self) -> T {
         let at = |p: [f64; 2], u: [f64; 2]| [0, 1].map(|d| T::from_f64(p[d]) + T::from_f64(u[d]));
         let [ua, ub, un] = self.moved;
         let (a, b, n) = (at(self.a, ua), at(self.b, ub), at(self.n, un));
         let ([ex, ey], [rx, ry]) = (minus(b, a), minus(n, a));
-        let square = ex * ex + ey * ey;
         // The cross product over the edge length is the gap; over it once more, the gap in edge
         // lengths.
-        let gap = (ry * ex - rx * ey) / square;
-        let weight = T::one() - (rx * ex + ry * ey) / square;
-        Found { gap, weight, dy: usize::from(Scalar::abs(gap) < T::from_f64(self.c_tll)) }
+        (ry * ex - rx * ey) / (ex * ex + ey * ey)
     }
 
     /// A triangle below the edge, and one above the contact node. Nodes 1, 2, 4 are a, b, n.
@@ -116,54 +101,47 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
 /// What is compared of a search.
 #[derive(Clone, Copy)]
 pub enum Quantity {
-    Gap,
-    /// The weight, where the status is right.
-    Weight,
-    /// The status, 1 in contact and 0 apart.
+    /// The vertical distance, as printed.
+    Yt,
+    /// The distance along the normal, which would do in its place.
+    NormalGap,
+    /// The status, as printed.
     Status,
 }
 
-/// How a search is made.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Formulas {
-    /// Those of `c_cnt`.
-    Printed,
-    /// Projection on the edge.
-    Projected,
-}
-
-/// The formulas that find a quantity, each with what they call it; the remedy has no status of its own.
-pub fn formulas(of: Quantity) -> Vec<(Formulas, &'static str)> {
-    match of {
-        Quantity::Gap => vec![(Formulas::Printed, "yt"), (Formulas::Projected, "normal gap")],
-        Quantity::Weight => {
-            vec![(Formulas::Printed, "weight"), (Formulas::Projected, "projected weight")]
+impl Quantity {
+    /// Its name in the tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Yt => "yt",
+            Quantity::NormalGap => "normal gap",
+            Quantity::Status => "status",
         }
-        Quantity::Status => vec![(Formulas::Printed, "status")],
+    }
+
+    /// Finds it in `T`, and compares with exact numbers.
+    pub fn judge<T: Scalar>(self, search: Search) -> Result<Verdict, Error> {
+        let judge = |found: (T, bool), exact: (Exact, bool)| match self {
+            Quantity::Yt | Quantity::NormalGap => error(found.0, exact.0),
+            Quantity::Status => Verdict::of_status(found.1 == exact.1),
+        };
+        scope(|| match self {
+            Quantity::NormalGap => {
+                Ok(judge((search.normal_gap(), true), (search.normal_gap(), true)))
+            }
+            Quantity::Yt | Quantity::Status => {
+                let found = search.printed()?;
+                let exact = search.printed();
+                Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| judge(found, exact)))
+            }
+        })
     }
 }
 
-/// Searches in `T`, and compares with the same formulas in exact numbers.
-pub fn judge<T: Scalar>(search: Search, by: Formulas, of: Quantity) -> Result<Verdict, Error> {
-    scope(|| {
-        let (found, exact) = match by {
-            Formulas::Printed => (search.printed::<T>()?, search.printed::<Exact>()),
-            Formulas::Projected => (search.projected::<T>(), Ok(search.projected())),
-        };
-        Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| found.against(&exact, of)))
-    })
-}
-
-impl<T: Scalar> Found<T> {
-    fn against(&self, exact: &Found<Exact>, of: Quantity) -> Verdict {
-        let error = |x: T, y: Exact| match (x.to_rational(), y.to_rational()) {
-            (Some(x), Some(y)) => Verdict::of_error((x - y).to_f64().value().abs()),
-            _ => Verdict::of_error(f64::NAN),
-        };
-        match of {
-            Quantity::Gap => error(self.gap, exact.gap),
-            Quantity::Weight if self.dy == exact.dy => error(self.weight, exact.weight),
-            Quantity::Weight | Quantity::Status => Verdict::of_status(self.dy == exact.dy),
-        }
+/// The verdict on a length, without its unit.
+fn error<T: Scalar>(found: T, exact: Exact) -> Verdict {
+    match found.to_rational().zip(exact.to_rational()) {
+        Some((found, exact)) => Verdict::of_error((found - exact).to_f64().value().abs()),
+        None => Verdict::of_error(f64::NAN),
     }
 }

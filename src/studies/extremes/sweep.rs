@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::blocks::Blocks;
-use super::search::{self, Quantity, Search, formulas};
+use super::search::{Quantity, Search};
 use super::verdict::Verdict;
 use super::{Generator, Known, Made, Values, answer};
 use engine::error::Error;
@@ -73,24 +73,20 @@ fn by_lame(blocks: fn(f64) -> Blocks) -> Vec<Method> {
     [4, 16].map(method).into()
 }
 
-/// What is tried on a search: the formulas of each quantity in each scalar.
+/// What is tried on a search: each quantity in each scalar.
 fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> {
-    let of_quantity = |of: &Quantity| {
-        let of = *of;
-        formulas(of).into_iter().flat_map(move |(by, name)| {
-            tried().map(move |scalar| {
-                Method::new(format!("{name} {scalar}"), scalar, move |x| match scalar {
-                    ScalarName::F32 => search::judge::<f32>(search(x), by, of),
-                    ScalarName::F64 => search::judge::<f64>(search(x), by, of),
-                    ScalarName::F64x2 => search::judge::<F64x2>(search(x), by, of),
-                    ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => {
-                        unreachable!("it is not tried")
-                    }
-                })
-            })
+    let method = |(of, scalar): (Quantity, ScalarName)| {
+        Method::new(format!("{} {scalar}", of.name()), scalar, move |x| match scalar {
+            ScalarName::F32 => of.judge::<f32>(search(x)),
+            ScalarName::F64 => of.judge::<f64>(search(x)),
+            ScalarName::F64x2 => of.judge::<F64x2>(search(x)),
+            ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => {
+                unreachable!("it is not tried")
+            }
         })
     };
-    quantities.iter().flat_map(of_quantity).collect()
+    let each = quantities.iter().flat_map(|of| tried().map(|scalar| (*of, scalar)));
+    each.map(method).collect()
 }
 
 fn tried() -> impl Iterator<Item = ScalarName> {
