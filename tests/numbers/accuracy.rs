@@ -289,7 +289,7 @@ fn what_no_precision_reaches_is_refused_with_every_reason() {
     // The stamp's lowest node stands on a corner of the target: both of its edges are as near.
     let projection = ContactModel { status: StatusRule::Projection, ..large.contact };
     let tie = large.clone().contact(projection).variant(Variant::Tied);
-    let cases: [(&str, Request, f64, &[&str]); 6] = [
+    let cases: [(&str, Request, f64, &[&str]); 5] = [
         (
             "exact numbers would take too long",
             large.clone().variant(Variant::Tied),
@@ -307,12 +307,6 @@ fn what_no_precision_reaches_is_refused_with_every_reason() {
             tie,
             1e-3,
             &["f64-bounded: no bound", "f64x2-bounded: no bound", "exact: it takes too long"],
-        ),
-        (
-            "unilateral runs in one precision",
-            large.clone().variant(Variant::Unilateral),
-            1e-20,
-            &["f64: its digits are too few", "unilateral runs in f64 only"],
         ),
         (
             "mortar takes square roots",
