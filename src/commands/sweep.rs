@@ -35,6 +35,10 @@ Examples:
             \"/scene/contact/c_tll\": {\"from\": 1e-4, \"to\": 1e-2, \"count\": 21, \"log\": true}}}")]
 pub enum Command {
     /// Run the jobs that have no result yet, one after another.
+    #[command(after_help = "\
+Examples:
+  plane-contact sweep run sweep.json
+  plane-contact sweep run sweep.json --only 3")]
     Run {
         #[command(flatten)]
         sweep: SweepArgs,
@@ -43,6 +47,10 @@ pub enum Command {
         only: Option<usize>,
     },
     /// Print the job file of an engine that runs the jobs side by side, or on many machines.
+    #[command(after_help = "\
+Examples:
+  plane-contact sweep export sweep.json --to make > jobs.mk
+  plane-contact sweep export sweep.json --to snakemake > Snakefile")]
     Export {
         #[command(flatten)]
         sweep: SweepArgs,
@@ -50,6 +58,10 @@ pub enum Command {
         to: Engine,
     },
     /// Print the results as CSV, a row for each job, in order.
+    #[command(after_help = "\
+Examples:
+  plane-contact sweep table sweep.json > table.csv
+  plane-contact sweep table sweep.json --json")]
     Table {
         #[command(flatten)]
         sweep: SweepArgs,

@@ -421,7 +421,7 @@ fn wider_duct(duct: f64) -> Scene {
     let (nodes, after) = rest.split_once("$EndNodes").unwrap();
     let moved: Vec<String> = nodes.lines().map(|line| moved(line, &block.nodes, duct)).collect();
     let mesh = format!("{before}$Nodes\n{}\n$EndNodes{after}", moved.join("\n"));
-    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes().into()))
+    Scene::build("wide", &scene, |_| Ok(mesh.clone().into_bytes()))
         .expect("the wider duct is sound")
 }
 

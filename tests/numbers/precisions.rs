@@ -327,7 +327,12 @@ fn what_no_precision_has_is_refused() {
     };
     let of = arithmetic;
     let tied = Variant::Tied;
-    refused("strand", tied, of(ScalarName::Exact, None), "equations in exact numbers");
+    refused(
+        "strand",
+        tied,
+        of(ScalarName::Exact, None),
+        "free equations: an exact run may have 1000",
+    );
     let by_lu = Some(Solver::SparseLu);
     for scalar in [ScalarName::Exact, ScalarName::F32] {
         let words = format!("sparse-lu does not solve in {scalar}");

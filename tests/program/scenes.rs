@@ -422,7 +422,7 @@ fn a_name_belongs_to_one_group() {
     let scene = r#"{"mesh": "m.msh", "plane": "strain", "materials": {"body": {"E": 1, "nu": 0}},
         "restraints": [{"on": "top", "fix": ["x", "y"]}]}"#;
     let read = |mesh: String| {
-        Scene::build("test", scene.as_bytes(), move |_| Ok(mesh.clone().into_bytes().into()))
+        Scene::build("test", scene.as_bytes(), move |_| Ok(mesh.clone().into_bytes()))
     };
     says(&read(mesh.into()).unwrap_err(), "physical groups", &["1 and 2 are both named \"top\""]);
     read(mesh.replacen("top", "base", 1)).expect("each name once");

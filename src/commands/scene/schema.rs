@@ -8,7 +8,7 @@ use crate::commands::print;
 /// Print the JSON Schema of a scene file, for an editor that completes and checks one.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example:
+Examples:
   plane-contact scene schema > scene.schema.json")]
 pub struct Args {}
 

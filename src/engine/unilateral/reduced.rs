@@ -14,7 +14,7 @@ pub(super) enum HeldBodies<'a> {
     /// Those of the surfaces.
     Reduced(ReducedBodies<'a>),
     /// The whole ones.
-    Whole(WholeBodies<'a>),
+    Whole(Box<WholeBodies<'a>>),
 }
 
 /// The equations of the surfaces.
@@ -63,7 +63,9 @@ impl<'a> HeldBodies<'a> {
     ) -> Result<Self, Unheld> {
         let t = Elimination::closing(&problem.model.restrained, constraints);
         match SparseCholesky::new(problem.stiffness.reduced(&t)) {
-            Ok(factors) => Ok(HeldBodies::Whole(WholeBodies { problem, t, load, factors })),
+            Ok(factors) => {
+                Ok(HeldBodies::Whole(Box::new(WholeBodies { problem, t, load, factors })))
+            }
             Err(singular) => Err(Unheld { t, singular }),
         }
     }
@@ -79,7 +81,8 @@ impl<'a> HeldBodies<'a> {
                 let all = problem.model.free_part(&(&setting.load + more));
                 state.refined(&problem.stiffness, &all, (load, more))
             }
-            HeldBodies::Whole(WholeBodies { problem, t, load, factors }) => {
+            HeldBodies::Whole(whole) => {
+                let WholeBodies { problem, t, load, factors } = &**whole;
                 let Problem { model, stiffness, .. } = problem;
                 let load = model.free_part(&(*load + more));
                 let f = t.load(&(load - stiffness.times(t.shift())));
@@ -106,7 +109,7 @@ impl<'a> HeldBodies<'a> {
     pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let WholeBodies { problem, t, factors, .. } = match self {
             HeldBodies::Reduced(reduced) => return reduced.state.responses(loads),
-            HeldBodies::Whole(whole) => whole,
+            HeldBodies::Whole(whole) => &**whole,
         };
         let Problem { model, stiffness, surface_triangles, .. } = problem;
         let f: Vec<_> = loads.iter().map(|load| t.load(&model.free_part(load))).collect();

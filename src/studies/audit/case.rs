@@ -121,7 +121,7 @@ impl Case {
             let mut request = self.request(self.published_variant());
             // R8 multiplies what is asked for.
             request.tolerance = Some(self.scene.model.contact.tolerance / 1000.0);
-            solve(&request, &mut |_| ()).map(|run| certain(run))
+            solve(&request, &mut |_| ()).map(certain)
         };
         self.finer.get_or_init(run).as_ref()
     }

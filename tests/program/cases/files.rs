@@ -108,20 +108,20 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "mkdir out; echo precious > victim; ln -s ../victim out/figure-4.svg; \
-                  plane-contact report fig1 --no-audit --format markdown --out out/r.md; status=$?; \
+                  plane-contact report fig1 --no-audit --format markdown --out out/r.txt; status=$?; \
                   cat victim; ls out; exit $status",
         status: 2,
         contains: &["figure-4.svg is in the way: it is a link", "precious"],
-        lacks: &["r.md\n"],
+        lacks: &["r.txt\n"],
     },
     Case {
         input: "",
         command: "echo mine > figure-4.svg; plane-contact report fig1 --no-audit --format markdown \
-                  --out r.md; rm figure-4.svg; \
-                  plane-contact report fig1 --no-audit --format markdown --out r.md && \
-                  plane-contact report fig1 --no-audit --format markdown --out r.md && head -1 r.md",
+                  --out r.txt; rm figure-4.svg; \
+                  plane-contact report fig1 --no-audit --format markdown --out r.txt && \
+                  plane-contact report fig1 --no-audit --format markdown --out r.txt && head -1 r.txt",
         status: 0,
-        contains: &["figure-4.svg is in the way: r.md does not tell", "<!-- plane-contact -->"],
+        contains: &["figure-4.svg is in the way: r.txt does not tell", "<!-- plane-contact -->"],
         lacks: &[],
     },
     Case {
