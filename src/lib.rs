@@ -72,6 +72,7 @@ pub mod guide {
 
     #[doc = include_str!("guide/accuracy.md")]
     #[doc = include_str!("../golden/tables/trade.md")]
+    #[doc = include_str!("../golden/tables/limit.md")]
     #[doc = include_str!("../golden/tables/statuses.md")]
     pub mod accuracy {}
 

@@ -36,6 +36,19 @@ fn rows(list: &[Json]) -> Result<Value, String> {
     Ok(Value::grid(Grid::from_rows(cols, entries)))
 }
 
+/// Returns how many numbers and strings a value has.
+pub fn count(value: &Value) -> usize {
+    let (rows, cols) = value.size();
+    match value {
+        Value::Number(_) | Value::Text(_) => 1,
+        Value::Array(_) => rows * cols,
+        Value::Nested(_) => {
+            let places = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j)));
+            places.map(|(i, j)| count(&value.entry(i, j).unwrap_or_default())).sum()
+        }
+    }
+}
+
 /// Returns a value as JSON that [`read`] reads.
 pub fn write(value: &Value) -> Json {
     let (rows, cols) = value.size();

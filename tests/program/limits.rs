@@ -129,6 +129,18 @@ fn a_mesh_file_that_is_too_long_or_too_short_is_refused() {
         scene_of_a_long_mesh(folder.path(), sections, length);
         refused(folder.path(), "ulimit -v 5000000; $P solve s.json", &["large.msh", word]);
     }
+    scene_of_a_long_mesh(folder.path(), &" ".repeat(60_000_001), 60_000_100);
+    let words = ["large.msh", "numbers in one mesh file are more than 60000000", "a coarser mesh"];
+    refused(folder.path(), "$P solve s.json", &words);
+}
+
+/// As JSON a number of an array takes 455 bytes.
+#[test]
+fn a_large_array_is_not_printed_as_json() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("f.txt"), "f(n) :=\n  A[n] <- 1\n  A\n").expect("written");
+    let words = ["30000000 numbers to print as JSON are more than 10000000", "--json"];
+    refused(folder.path(), "$P listing evaluate f.txt --call 'f(30000000)' --json", &words);
 }
 
 /// What is singular to the digits of a scalar may be so by rounding: the message says what tells.

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::limits;
 use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
 use plane_contact::report::evaluation as report;
 use plane_contact::report::model::Report;
@@ -68,6 +69,9 @@ pub fn run(args: &Args) -> Result<u8> {
         waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
+            if args.json {
+                limits::PRINTED.check(json::count(&outcome.value), "--json")?;
+            }
             let printed = print_either(args.json, || report::json(&outcome), || shown(&outcome));
             return printed.map(|()| 0);
         }

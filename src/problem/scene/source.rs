@@ -4,6 +4,7 @@ use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use base::error::{InputError, Result};
+use base::limits;
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
 /// in the scene file's folder.
@@ -32,6 +33,8 @@ pub fn mesh(
             "the path is resolved beside the scene file, in its folder or below",
         )
     })?;
+    let numbers = file.iter().filter(|byte| byte.is_ascii_whitespace()).count();
+    limits::MESH.check(numbers, &format!("mesh {name:?}"))?;
     gmsh::read(&file).map_err(|error| {
         let what = if let Fault::Unexpected { expected, .. } = &error.fault
             && expected.starts_with("$MeshFormat")
