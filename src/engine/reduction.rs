@@ -63,8 +63,8 @@ impl Reduction {
         let nodes = nodes(model, pairings);
         let mut place = vec![None; model.nodes.len()];
         nodes.iter().enumerate().for_each(|(k, node)| place[node.index()] = Some(k));
-        let is_free = |dof: &Dof| !model.is_restrained(*dof);
-        let free: Vec<Dof> = model.all_dofs().filter(is_free).collect();
+        let is_free: Vec<bool> = model.all_dofs().map(|dof| !model.is_restrained(dof)).collect();
+        let free: Vec<Dof> = model.all_dofs().filter(|dof| is_free[dof.index()]).collect();
         let is_kept = |e: &usize| place[free[*e].node().index()].is_some();
         let last: Vec<usize> = (0..free.len()).filter(is_kept).collect();
         if last.is_empty() {
@@ -88,7 +88,6 @@ impl Reduction {
         let mut restrained = vec![true; size];
         own.iter().for_each(|k| restrained[*k] = false);
         let norm = reduced.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
-        let is_free = model.all_dofs().map(|dof| !model.is_restrained(dof)).collect();
         Some(Reduction {
             free,
             is_free,

@@ -65,7 +65,8 @@ pub fn temporary_folder() -> io::Result<TempDir> {
 /// There is a link, a device, a folder or a file that this run reads, or the file cannot be written; an
 /// existing file keeps its content.
 pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
-    let written = is_there(path).and_then(|_| put(vec![staged(path, content.as_ref())?]));
+    check_file(path)?;
+    let written = staged(path, content.as_ref()).and_then(|file| put(vec![file]));
     written.map_err(|why| unwritable(path, &why))
 }
 

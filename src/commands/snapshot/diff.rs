@@ -19,7 +19,7 @@ use crate::commands::{print_either, report_written, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two
-values, one for each run. A difference is told as verify tells it.
+values, one for each run. A difference is printed as by verify.
 
 Examples:
   plane-contact snapshot diff strand --variant stepped,tied
