@@ -53,7 +53,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
     files::write(&out, &lesson(args)?)?;
-    report_written(&out, true);
+    report_written(&out);
     Ok(())
 }
 

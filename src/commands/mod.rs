@@ -316,14 +316,9 @@ pub fn within(error: Error, place: &str) -> Error {
     }
 }
 
-/// Prints to standard error that files were written to `folder`, or why not.
-pub fn report_written(folder: &Path, written: bool) {
-    print_stderr(&match written {
-        true => format!("Written to {}\n", folder.display()),
-        false => {
-            "No field is written: the two runs have no displacements of the same nodes\n".into()
-        }
-    });
+/// Prints to standard error that files were written to `folder`.
+pub fn report_written(folder: &Path) {
+    print_stderr(&format!("Written to {}\n", folder.display()));
 }
 
 /// Prints to standard error, for people; where that cannot be written, results and exit status are as

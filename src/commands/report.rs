@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
     waiting("auditing", || write(args, &case, charts, &out))?;
-    report_written(&out, true);
+    report_written(&out);
     Ok(())
 }
 

@@ -1,7 +1,5 @@
 //! `plane-contact snapshot diff`.
 
-use std::path::PathBuf;
-
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files::json;
@@ -10,10 +8,10 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, SceneFile};
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
-use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
+use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
 
 use super::verify::DIFFERS;
-use crate::commands::{print_either, report_written, waiting};
+use crate::commands::{print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
@@ -24,7 +22,7 @@ values, one for each run. A difference is printed as by verify.
 Examples:
   plane-contact snapshot diff strand --variant stepped,tied
   plane-contact snapshot diff old.json new.json
-  plane-contact snapshot diff my/snapshot.json my/scene.json --out why
+  plane-contact snapshot diff my/snapshot.json my/scene.json
   plane-contact snapshot diff fig1 --reading R5=node --reading R5=node_n")]
 pub struct Args {
     /// A snapshot or a scene, and another one.
@@ -45,9 +43,6 @@ pub struct Args {
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
-    /// Folder for the difference of the displacements: difference.vtu and difference.svg.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
 /// The value of a side: that of two, or the one of both.
@@ -71,22 +66,12 @@ pub fn run(args: &Args) -> Result<u8> {
     let sides = waiting("running", || -> Result<_> {
         Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
     })?;
-    let file = format!("{} and {}", names[0], names[1]);
     let verified = difference(&sides[0], &sides[1]);
-    let checked = [VerifiedFile { file, verified: Ok(verified.clone()) }];
+    let status = if verified.is_same() { 0 } else { DIFFERS };
+    let file = format!("{} and {}", names[0], names[1]);
+    let checked = [VerifiedFile { file, verified: Ok(verified) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;
-    if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
-        let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
-        report_written(folder, written);
-    }
-    Ok(if verified.is_same() { 0 } else { DIFFERS })
-}
-
-/// The first two runs that differ.
-fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run, &'a Run)> {
-    let mut pairs = old.runs.iter().zip(&verified.runs);
-    let ((_, old), new) = pairs.find(|(_, new)| !new.differences.is_empty())?;
-    Some((old, &new.run))
+    Ok(status)
 }
 
 /// Reads a snapshot, or runs a scene.

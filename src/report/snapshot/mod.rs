@@ -1,11 +1,8 @@
 //! Snapshots as files, and what verifying them found: for people, as JSON, Markdown and JUnit XML.
 
-mod field;
 mod words;
 
 use serde::Serialize;
-
-pub use field::difference_files;
 
 use super::failure::Failure;
 use super::json::{self, OnScene, pretty};
