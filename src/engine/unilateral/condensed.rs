@@ -142,7 +142,10 @@ impl<'a> Condensed<'a> {
             }
         }
         let matrix = &forces * &self.stiffness * apart;
-        let moved = complementary(&matrix, &(forces * &self.at_rest))?;
+        // With more than μ for either side a node opens before it slides to both.
+        let cover = |k: usize| if moves[k].1 == Status::Open { 1.0 } else { 1.0 + mu };
+        let cover = DVector::from_fn(count, |k, _| cover(k));
+        let moved = complementary(&matrix, &(forces * &self.at_rest), &cover)?;
         let mut statuses = self.held.clone();
         let changed = moves.iter().zip(moved).filter(|(_, moved)| *moved);
         changed.rev().for_each(|((i, status, _), _)| statuses[*i] = *status);
