@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::condensed::Condensed;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
 use super::search::StateSearch;
 use crate::contact::{Sense, Status};
@@ -21,6 +22,9 @@ const WORK: usize = 500_000;
 /// The number of contact states of a step up to which all of them are tried: those of six nodes under
 /// friction, or of twelve without.
 const ALL: usize = 4096;
+
+/// The same on the contact nodes alone: those of ten nodes under friction, in about a second.
+const CONDENSED: usize = 1 << 20;
 
 /// A step of the load that was taken.
 pub(super) struct TakenStep {
@@ -115,12 +119,25 @@ fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Othe
 }
 
 impl StateSearch<'_> {
-    /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
-    /// there are too many to be tried.
-    pub(super) fn enumerated(&self) -> Option<Vec<Status>> {
+    /// Looks for statuses in equilibrium on the contact nodes alone: by pivots, then among all that there are;
+    /// None where there are none, and where there are too many to be tried.
+    pub(super) fn condensed(&self) -> Option<Vec<Status>> {
+        let holds = |statuses: &Vec<Status>| self.try_statuses(statuses).is_some();
+        let condensed = Condensed::new(self);
+        let by_pivots = condensed.as_ref().and_then(Condensed::by_pivots);
+        by_pivots.filter(holds).or_else(|| self.every(condensed.as_ref())?.into_iter().find(holds))
+    }
+
+    /// Returns the contact states among which are all in equilibrium; None where they are too many.
+    fn every(&self, condensed: Option<&Condensed>) -> Option<Vec<Vec<Status>>> {
         let StateSearch { problem, config, .. } = self;
-        let all = problem.can_enumerate(config, 1).then(|| problem.every(config))?;
-        all.into_iter().find(|statuses| self.try_statuses(statuses).is_some())
+        match condensed {
+            Some(condensed) => problem
+                .number_of_states(config)
+                .is_some_and(|number| number <= CONDENSED)
+                .then(|| condensed.equilibria()),
+            None => problem.can_enumerate(config, 1).then(|| problem.every(config)),
+        }
     }
 }
 
@@ -128,7 +145,9 @@ impl Problem<'_> {
     /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
     /// tried.
     pub(super) fn can_enumerate(&self, config: &Configuration, steps: usize) -> bool {
-        self.number_of_states(config).is_some_and(|number| number * steps <= self.most_states())
+        self.number_of_states(config).is_some_and(|number| {
+            number <= ALL && number.saturating_mul(steps) <= self.most_states()
+        })
     }
 
     /// Returns the number of contact states that are tried at most: fewer of a large model.
@@ -140,7 +159,7 @@ impl Problem<'_> {
     fn number_of_states(&self, config: &Configuration) -> Option<usize> {
         let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
         let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
-        number.filter(|n| *n <= ALL)
+        number
     }
 
     /// Returns every contact state in a place.
@@ -192,7 +211,7 @@ impl Problem<'_> {
     }
 
     /// Returns the statuses that an entry can have.
-    fn choices(&self, config: &Configuration, i: usize) -> Vec<Status> {
+    pub(super) fn choices(&self, config: &Configuration, i: usize) -> Vec<Status> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
         match (&config.pairings[i], self.closing(config, i)) {
             (None, _) => vec![Status::Open],

@@ -157,7 +157,7 @@ impl Problem<'_> {
 
 impl StateSearch<'_> {
     /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
-    /// by a fixed point on the bounds of friction, or among all statuses that there are.
+    /// by pivots on the contact nodes alone, or among all statuses that there are.
     ///
     /// # Errors
     /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
@@ -177,9 +177,7 @@ impl StateSearch<'_> {
         {
             return Err(problem.escapes(dof).into());
         }
-        let Some(start) = self.by_bounds().or_else(|| self.enumerated()) else {
-            return Err(why.into());
-        };
+        let Some(start) = self.condensed() else { return Err(why.into()) };
         history.move_on();
         self.active_set(start, history, watch)
     }
