@@ -158,8 +158,7 @@ impl Problem<'_> {
     /// Returns the number of all contact states in a place; None of more than [`ALL`].
     fn number_of_states(&self, config: &Configuration) -> Option<usize> {
         let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
-        let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
-        number
+        choices.try_fold(1_usize, |n, choices| n.checked_mul(choices))
     }
 
     /// Returns every contact state in a place.
