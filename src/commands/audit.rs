@@ -102,7 +102,7 @@ fn prices(args: &Args) -> Result<()> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
     let case = Case::within_memory(&scene, reading)?;
     let places = places(args)?;
-    let compared = Compared::new(&case.request(Variant::Unilateral))?;
+    let compared = Compared::new(&case)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
     let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
     let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use plane_contact::engine::error::Result;
+use plane_contact::engine::estimates::Certainty;
 use plane_contact::engine::{Assessment, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -153,20 +154,19 @@ fn repairs(args: &Args, case: &Case) -> Vec<Price> {
     if case.model().nodes.len() > MOST_NODES && !args.repairs {
         return Vec::new();
     }
-    let compared = Compared::new(&case.request(Variant::Unilateral));
-    compared.map_or(Vec::new(), |compared| compared.repairs(&|| ()))
+    Compared::new(case).map_or(Vec::new(), |compared| compared.repairs(&|| ()))
 }
 
 /// Returns the runs that are shown: those of the variants, then the reference solution and the
 /// equilibrium, for which the audit measured what rounding does.
 fn runs<'a>(args: &Args, case: &'a Case, audit: Option<&Audit>) -> Vec<Run<'a>> {
     let wanted = |variant: &&Variant| args.variant.is_empty() || args.variant.contains(variant);
-    let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.certain(*v).ok());
+    let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.run(*v).ok());
     let others = match args.no_audit {
         true => [None, None],
         false => [case.reference(), case.equilibrium()],
     };
-    let runs = ran.map(|(solution, _)| solution).chain(others.into_iter().flatten());
+    let runs = ran.chain(others.into_iter().flatten());
     let assessed = |solution: &'a Solution| {
         let measured =
             audit.map_or([None, None], |a| [&a.reference, &a.equilibrium].map(Option::as_ref));
@@ -235,12 +235,12 @@ struct Beside {
 impl Beside {
     /// Returns what the report says of it, beside `unilateral`.
     fn compared<'a>(&'a self, case: &'a Case) -> comparison::Compared<'a> {
-        let (solution, certainty) = case.certain(Variant::Unilateral).expect("it was compared");
+        let solution = case.run(Variant::Unilateral).expect("it was compared");
         comparison::Compared {
             scene: &case.scene,
             model: &solution.model,
             variant: Variant::Unilateral,
-            certainty: *certainty,
+            certainty: Certainty::Unchecked,
             contact: &self.contact,
             decks: 1,
             version: &self.version,
@@ -251,7 +251,7 @@ impl Beside {
 
 /// Runs CalculiX's own contact beside `unilateral`.
 fn calculix(program: &str, case: &Case) -> Result<Beside> {
-    let (solution, _): &(Solution, _) = case.certain(Variant::Unilateral).map_err(|why| {
+    let solution: &Solution = case.run(Variant::Unilateral).map_err(|why| {
         let what = format!("unilateral, which stands beside CalculiX, does not run: {why}");
         InputError::new("--ccx", what, "leave --ccx out")
     })?;

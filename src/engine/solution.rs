@@ -139,6 +139,8 @@ pub struct Unilateral {
     pub statuses: Vec<Status>,
     /// The pairing of each entry in the shape in which contact was measured.
     pub pairings: Arc<Vec<Option<Pairing>>>,
+    /// The largest friction coefficient that a pressed node needs not to slide; nothing where none is pressed.
+    pub friction_needed: Option<f64>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub friction: Vec<(Dof, f64)>,
     /// The largest gap of a closed node or penetration of another one afterwards, length.

@@ -11,8 +11,7 @@ use super::layout::{first_line, listed};
 use super::model::{Cell, Report, Table};
 use super::numbers::{or_dash, short};
 use super::prices;
-use super::tables::{certainty, nearest_decision, perturbed};
-use engine::estimates::Certainty;
+use super::tables::{nearest_decision, perturbed};
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -25,7 +24,7 @@ use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
 use studies::audit::prices::Price;
 use studies::audit::readings::Effect;
 use studies::audit::variants::{End, VariantRow};
-use studies::audit::{Assumption, Audit, Compared, FrictionContact};
+use studies::audit::{Assumption, Audit, BY_ROUNDING, Compared, FrictionContact};
 
 /// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants
 /// side by side, and who sticks and slides under each coefficient of friction.
@@ -40,6 +39,10 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
 pub fn opening(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
     Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
+        .line(
+            "Judged are the two listings as printed, and this project's runs of them; figure 5 itself is not. \
+             Misprints are possible, and the authors may have run another listing. They were not asked.",
+        )
         .then(conclusion::report(&conclusion::answers(audit, conclusion, scene)))
 }
 
@@ -49,6 +52,10 @@ pub fn evidence(audit: &Audit) -> Report {
         .heading("Readings, findings and variants")
         .then(readings(&audit.readings))
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
+        .note(
+            "Present, or not triggered: on the shapes that the print itself comes to. Its price is that of the \
+             fault in the corrected algorithm, which comes to others; so the two may differ.",
+        )
         .then(variants(audit))
         .then(friction(&audit.friction))
 }
@@ -106,9 +113,14 @@ fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Find
             lines => format!("{} {}", finding.listing, listed(lines)),
         })
         .column("verdict", |(_, measured)| measured.verdict.name())
-        .column("value", |(_, measured)| measured.number)
+        .column("value", |(_, measured)| figure(measured))
         .column("what the value is", |(finding, _)| finding.number)
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
+}
+
+/// Returns the number of a finding, or that rounding decides on it.
+fn figure(measured: &Evidence) -> Cell {
+    measured.figure().map_or(BY_ROUNDING.into(), Cell::from)
 }
 
 /// Reports the variants side by side, why some failed, and the two solutions without the print's
@@ -131,11 +143,8 @@ fn variants(audit: &Audit) -> Report {
     );
     let notes = audit.variants.iter().filter_map(|row| {
         let why = match &row.end {
-            End::Failure { failure } => in_short(failure).to_string(),
-            // Of `unilateral` it is measured, below.
-            End::Result { .. } => {
-                certainty(row.certainty.filter(|known| *known != Certainty::Unchecked)?)?
-            }
+            End::Failure { failure } => in_short(failure),
+            End::Result { .. } => return None,
         };
         Some(format!("{}: {why}", row.variant))
     });
@@ -286,8 +295,10 @@ pub struct FindingRow {
     /// What the listing does that the text does not say.
     title: &'static str,
     verdict: Verdict,
-    /// What was measured.
-    number: f64,
+    /// What was measured; nothing where rounding decides on it.
+    number: Option<f64>,
+    /// Whether inputs that mean the same lead to another verdict or number.
+    by_rounding: bool,
     /// What the number is, with its unit.
     of: &'static str,
     detail: String,
@@ -303,9 +314,22 @@ impl FindingRow {
     /// Collects what a finding says of a scene.
     pub fn new(finding: &Finding, measured: &Evidence) -> Self {
         let Finding { id, listing, lines, title, number: of, why, repair, edit, .. } = *finding;
-        let Evidence { verdict, number, ref detail } = *measured;
-        let detail = detail.clone();
-        FindingRow { id, listing, lines, title, verdict, number, of, detail, why, repair, edit }
+        let Evidence { verdict, by_rounding, ref detail, .. } = *measured;
+        let (number, detail) = (measured.figure(), detail.clone());
+        FindingRow {
+            id,
+            listing,
+            lines,
+            title,
+            verdict,
+            number,
+            by_rounding,
+            of,
+            detail,
+            why,
+            repair,
+            edit,
+        }
     }
 }
 
@@ -347,7 +371,7 @@ pub fn explanation(
     scene: &Scene,
     reading: &Reading,
 ) -> Report {
-    let value = short(measured.number);
+    let value = measured.figure().map_or(format!("{BY_ROUNDING}:"), short);
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")
         .then(quotation(finding))

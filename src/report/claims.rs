@@ -1,15 +1,20 @@
 //! The register of claims.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
 use super::json;
 use super::layout::listed;
 use super::model::{Report, Table};
 use super::numbers::{or_dash, percent, short};
+use super::tables::UNDERESTIMATE;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
 use studies::audit::Assumption;
-use studies::audit::claims::{Basis, Claim, Elsewhere, JudgedClaim, UnderReading};
+use studies::audit::claims::{
+    Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, MeshError, UnderReading,
+};
 use studies::audit::range::Parameter;
 
 /// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
@@ -25,11 +30,17 @@ pub fn report(
         .column("scope", |judged| judged.scope.to_string())
         .column("certainty", |judged| judged.claim.basis.to_string())
         .column("value", |judged| judged.measured.number)
-        .column("the paper says that", |judged| judged.claim.says);
+        .column("the paper's words", |judged| judged.claim.translation)
+        .column("what is judged", |judged| judged.claim.judged);
     let assumptions = Table::from_rows(assumptions)
         .column("what the paper leaves open", |assumption| assumption.what)
         .column("set to", |assumption| assumption.set_to.clone());
-    let report = Report::default().table("Claims of the paper, and what they assume", judged);
+    let report = Report::default()
+        .table(format!("Claims of the paper: {}, and what they assume", counts()), judged)
+        .note(
+            "The paper's words are translated. What is judged is this audit's wording, and so are the \
+             thresholds.",
+        );
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
         report.note(
             "Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
@@ -39,8 +50,8 @@ pub fn report(
         report.note("Over the range of what the paper leaves open:").then(over_the_range(claims))
     };
     let entry = |report: Report, judged: &JudgedClaim| {
-        let Claim { id, says, .. } = judged.claim;
-        report.note(format!("{id}: {says}")).then(entry(judged))
+        let Claim { id, judged: what, .. } = judged.claim;
+        report.note(format!("{id}: {what}")).then(entry(judged))
     };
     let report = report.then(other_readings(claims, by_reading));
     claims
@@ -61,8 +72,8 @@ pub struct Document<'a> {
 
 /// Reports one claim on a scene.
 pub fn explanation(claim: &Document, scene: &Scene, reading: &Reading) -> Report {
-    let Claim { id, says, .. } = claim.judged.claim;
-    let report = Report::titled(format!("{id}: {says}"))
+    let Claim { id, judged, .. } = claim.judged.claim;
+    let report = Report::titled(format!("{id}: {judged}"))
         .line(format!("On scene {} ({}){}", scene.name, scene.title, under(reading)))
         .then(entry(claim.judged));
     let verdicts = claim
@@ -132,18 +143,29 @@ fn entry(judged: &JudgedClaim) -> Report {
         .detail(format!("verdict: {}, {basis}; scope: {}", judged.measured.words(), judged.scope))
         .detail(format!("value: {value} = {number}"))
         .detail(format!("beside it: {}", judged.measured.detail))
-        .details(judged.mesh_error.map(error_of_the_mesh))
+        .details(error_of_the_mesh(&judged.measured.mesh_errors))
         .details(printed_by(judged))
 }
 
-/// Says what the mesh's own error leaves of a verdict that rests on runs.
-fn error_of_the_mesh(error: f64) -> String {
-    format!(
-        "error of the mesh itself: about {} in the energy norm. The verdict holds all the same, since all \
-         runs are on this mesh and share that error; it does not say how far they are from the exact \
-         solution",
-        percent(error, 1)
-    )
+/// Says the error of the mesh in each run that was measured.
+fn error_of_the_mesh(errors: &[MeshError]) -> Option<String> {
+    let each = errors.iter().map(|MeshError { run, energy_relative, diverges }| {
+        let limit = if *diverges { " (more where the stress diverges)" } else { "" };
+        format!("{run} {}{limit}", or_dash(*energy_relative, |error| percent(error, 1)))
+    });
+    (!errors.is_empty()).then(|| {
+        format!(
+            "error of the mesh in the energy norm, {UNDERESTIMATE}: {}. The verdict is on this mesh: it does not say \
+             how far the runs are from the plane itself",
+            listed(each)
+        )
+    })
+}
+
+/// Counts the statements, and the sentences of the paper in which they stand.
+pub fn counts() -> String {
+    let sentences: BTreeSet<&str> = CLAIMS.iter().map(|claim| claim.place).collect();
+    format!("{} statements in {} sentences", CLAIMS.len(), sentences.len())
 }
 
 /// Names the command that prints the value, or the table that has it; nothing where there is no value.
@@ -163,7 +185,8 @@ pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
     Table::from_rows(claims)
         .column("claim", |judged| judged.claim.id)
         .column("where in the paper", |judged| judged.claim.place)
-        .column("the paper says that", |judged| judged.claim.says)
+        .column("the paper's words", |judged| judged.claim.translation)
+        .column("what is judged", |judged| judged.claim.judged)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
         .column("value", |judged| or_dash(judged.measured.number, rounded))
@@ -192,7 +215,7 @@ fn rounded(x: f64) -> String {
 pub fn over_the_range(claims: &[JudgedClaim]) -> Report {
     let judged = claims.iter().filter(|judged| !judged.elsewhere.is_empty());
     judged.fold(Report::default(), |report, judged| {
-        let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.says));
+        let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.judged));
         Parameter::ALL.iter().fold(report, |report, parameter| {
             report.detail(format!("{}: {}", parameter.meaning(), over(judged, *parameter)))
         })

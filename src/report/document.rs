@@ -161,7 +161,7 @@ fn unchecked(audit: &Audit) -> Report {
     let claims = audit.claims.iter().filter(|j| j.measured.verdict == ClaimVerdict::NotCheckable);
     let claims = claims.map(|judged| {
         let claim = &judged.claim;
-        format!("claim {}, {}: {}", claim.id, claim.says, judged.measured.detail)
+        format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
     });
     let variants = audit.variants.iter().filter_map(|row| match &row.end {
         End::Failure { failure } => {

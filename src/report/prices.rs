@@ -10,6 +10,7 @@ use super::numbers::percent;
 use super::picture::{Axis, Series, Style, chart};
 use paper::mirror::Reading;
 use problem::scene::Scene;
+use studies::audit::BY_ROUNDING;
 use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use studies::audit::range::ParameterValue;
 
@@ -74,7 +75,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         Outcome::Failure { failure } => {
             Some(format!("{}: {failure}", price.name.as_deref().unwrap_or("corrected")))
         }
-        Outcome::Result { .. } => None,
+        Outcome::Result { .. } | Outcome::Rounding {} => None,
     });
     let report = Report::titled(format!(
         "What the printed faults cost on {}{}",
@@ -82,12 +83,17 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         under(reading)
     ))
     .line(
-        "The corrected algorithm (listings/corrected/), and the same with one printed fault put back. \
-         Errors are against the solution without friction, node to segment, in the initial geometry, on \
-         the same mesh.",
+        "The corrected algorithm (listings/corrected/), and the same with one printed fault put back. It has \
+         no friction, and is compared with two solutions on the same mesh: the one that it has itself \
+         (without friction, node to segment, in the initial geometry), and the equilibrium under the scene's \
+         own friction.",
     )
     .table("Each fault alone", outcomes(faults, |price| &price.outcome))
-    .note("C1 and C2 bring the box of C9 with them.")
+    .note(
+        "C1 and C2 bring the box of C9 with them. C4 and C5 are lines 17 and 18 of c_cnt without line 16, which is \
+         K9 (release).",
+    )
+    .notes(no_fault(prices))
     .notes(failures)
     .line(summary(prices));
     if !range.is_empty() {
@@ -154,6 +160,7 @@ fn extremes<'a>(places: &'a [Place<'a>], k: usize) -> Option<[&'a Place<'a>; 2]>
 fn error((_, prices): &Place, k: usize) -> Cell {
     match &prices[k].outcome {
         Outcome::Failure { .. } => Cell::from("stops"),
+        Outcome::Rounding {} => Cell::from(BY_ROUNDING),
         outcome @ Outcome::Result { .. } => Cell::decimals(100.0 * outcome.error(), 2),
     }
 }
@@ -168,18 +175,31 @@ fn place(at: Option<&ParameterValue>) -> String {
 /// Adds the columns of what came of a run.
 fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) -> Table<Vec<R>> {
     let share = move |row: &R, k: usize| {
-        let shares = shares(outcome(row));
-        shares.map_or(Cell::from("-"), |shares| Cell::decimals(100.0 * rounded(shares[k]), 2))
+        let share = shares(outcome(row)).and_then(|shares| shares[k]);
+        share.map_or(Cell::from("-"), |share| Cell::decimals(100.0 * rounded(share), 2))
     };
     table
         .column("ends", move |row| ends(outcome(row)))
         .column("in contact", move |row| match outcome(row) {
             Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
-            Outcome::Failure { .. } => Cell::from("-"),
+            Outcome::Failure { .. } | Outcome::Rounding {} => Cell::from("-"),
         })
         .column("transmitted load, %", move |row| share(row, 0))
         .column("error in energy, %", move |row| share(row, 1))
         .column("error of largest von Mises stress, %", move |row| share(row, 2))
+        .column("from the equilibrium, %", move |row| share(row, 3))
+}
+
+/// Says which faults are none under the scene's own friction.
+fn no_fault(prices: &[Price]) -> Option<String> {
+    let named = of_weight(prices, Weight::NoFault);
+    (!named.is_empty()).then(|| {
+        format!(
+            "{} is no fault here: under the scene's own friction no node slides. Its row shows the distance \
+             of sticking from sliding.",
+            listed(named)
+        )
+    })
 }
 
 /// Says how many repairs the way from the print takes, and which are not needed.
@@ -223,7 +243,7 @@ pub fn picture(repairs: &[Price]) -> String {
 fn summary(prices: &[Price]) -> String {
     let free = of_weight(prices, Weight::Free);
     match unsound(prices) {
-        Some(why) => format!("{why}: no row is the cost of a fault alone."),
+        Some(why) => format!("{why}: no fault is priced."),
         None if free.is_empty() => "Every fault costs something on this scene.".into(),
         None => format!("Without effect on this scene: {}.", listed(free)),
     }
@@ -235,6 +255,7 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
     let corrected = &prices[0].outcome;
     let why = match corrected {
         Outcome::Failure { .. } => "stops on this scene".into(),
+        Outcome::Rounding {} => "is decided by rounding on this scene".into(),
         Outcome::Result { passes_nothing: true, .. } => {
             return Some(
                 "Under the corrected algorithm too no load passes between the bodies".into(),
@@ -267,16 +288,19 @@ fn ends(outcome: &Outcome) -> String {
             format!("not settled after {iterations}")
         }
         Outcome::Failure { .. } => "stops".into(),
+        Outcome::Rounding {} => BY_ROUNDING.into(),
     }
 }
 
-/// Returns the transmitted load, the error in energy and that of the von Mises stress, relative.
-fn shares(outcome: &Outcome) -> Option<[f64; 3]> {
+/// Returns the transmitted load, the error in energy, that of the von Mises stress, and the distance from the
+/// equilibrium under the scene's own friction, relative.
+fn shares(outcome: &Outcome) -> Option<[Option<f64>; 4]> {
     match outcome {
         Outcome::Result { transmitted, energy_relative, von_mises_relative, .. } => {
-            Some([*transmitted, *energy_relative, *von_mises_relative])
+            let own = [transmitted, energy_relative, von_mises_relative].map(|x| Some(*x));
+            Some([own[0], own[1], own[2], outcome.from_equilibrium()])
         }
-        Outcome::Failure { .. } => None,
+        Outcome::Failure { .. } | Outcome::Rounding {} => None,
     }
 }
 

@@ -204,8 +204,8 @@ fn over_parameter(section: &Section, parameter: range::Parameter) -> String {
     });
     let series: Vec<Series> = variants.chain(changes).collect();
     let verdicts = section.claims.iter().map(|judged| {
-        let Claim { id, says, .. } = judged.claim;
-        format!("{id}, {says}: {}.", over(judged, parameter))
+        let Claim { id, judged: what, .. } = judged.claim;
+        format!("{id}, {what}: {}.", over(judged, parameter))
     });
     let meaning = "Of a variant: error in the energy norm against the equilibrium under stick on \
                    the same mesh. Change by c_tol: largest difference of a displacement between \

@@ -6,7 +6,8 @@
 //! axis is as uncertain as one that does not. Loads that are 0 stay 0.
 //!
 //! The measurement is of three runs with the same random numbers every time: no bound, but it does not call
-//! unknown what it can try.
+//! unknown what it can try. The audit repeats all that it prints on the same inputs ([`equivalent`]), two of
+//! them with another load too: a load is not known to nine digits.
 //!
 //! Source: D. S. Parker, "Monte Carlo arithmetic", UCLA CSD-970002 (1997); J. Vignes, Math. Comput. Simul. 35
 //! (1993) 233-261 (CESTAC).
@@ -28,6 +29,15 @@ const RUNS: u64 = 3;
 
 /// The largest change, in units of the last digit.
 const ULPS: i32 = 2;
+
+/// The change of the load that means nothing, relative.
+const LOAD: f64 = 1e-9;
+
+/// The relative change of a number that shows that rounding decides on it.
+const NOTICEABLE: f64 = 1e-6;
+
+/// The part of a quantity's own scale that is as good as 0 beside [`NOTICEABLE`].
+const SMALL: f64 = 1e-3;
 
 /// What changes of the input in the last digits did to a solution under `unilateral`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,7 +89,29 @@ pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
     Some(found)
 }
 
+/// Returns requests that mean the same: coordinates, loads and moduli differ in their last digits, and in two
+/// of them the load by a billionth, less and more.
+pub fn equivalent(request: &Request) -> impl Iterator<Item = Request> {
+    (0..RUNS).map(|seed| changed(request, seed, 1.0 + LOAD * (seed as f64 - 1.0)))
+}
+
+/// Returns whether a number of an equivalent request shows that rounding decides on it: it differs by more
+/// than a millionth, of what is no smaller than a thousandth of the quantity's own `scale`.
+pub fn moves(own: Option<f64>, other: Option<f64>, scale: f64) -> bool {
+    match [own, other].map(|x| x.filter(|x| x.is_finite())) {
+        [Some(a), Some(b)] => (a - b).abs() > NOTICEABLE * a.abs().max(b.abs()).max(SMALL * scale),
+        [own, other] => own.is_some() != other.is_some(),
+    }
+}
+
 impl Perturbed {
+    /// Returns whether rounding decides on the solution.
+    pub fn decides(&self) -> bool {
+        let is_small = |change: Option<f64>| change.is_some_and(|change| change <= NOTICEABLE);
+        let same = self.failures.is_empty() && self.other_steps == 0 && self.contact.is_none();
+        !(same && is_small(self.displacement) && is_small(self.stress))
+    }
+
     fn add(&mut self, solution: &Solution, other: &Solution) {
         let stress =
             |run: &Solution| run.elements.iter().map(|state| state.von_mises_stress).collect();
@@ -116,11 +148,11 @@ fn ends(solution: &Solution) -> Vec<(f64, &[Status])> {
 
 /// Returns the requests of the runs with changed inputs.
 pub fn perturbed_requests(request: &Request) -> impl Iterator<Item = Request> {
-    (0..RUNS).map(|seed| changed(request, seed))
+    (0..RUNS).map(|seed| changed(request, seed, 1.0))
 }
 
-/// Returns a request whose coordinates, loads and moduli differ in their last digits.
-fn changed(request: &Request, seed: u64) -> Request {
+/// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.
+fn changed(request: &Request, seed: u64, factor: f64) -> Request {
     let mut rng = Rng::with_seed(seed);
     let mut request = request.clone();
     let model: &mut Model = Arc::make_mut(&mut request.scene.model);
@@ -134,7 +166,7 @@ fn changed(request: &Request, seed: u64) -> Request {
         *x += part() * x.abs().max(size);
     }
     for load in model.stages.iter_mut().flat_map(|stage| stage.iter_mut()) {
-        *load *= 1.0 + part();
+        *load *= factor * (1.0 + part());
     }
     model.load = model.load_after(model.stages.len() as f64);
     // A material stays one.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::equilibria::{TakenStep, nearest_decision, uniqueness};
-use super::forces::load_of;
+use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
-use crate::contact::{ContactNode, Status, Traction};
+use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::solution::{
     self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
@@ -325,11 +325,21 @@ fn step(
             load: to,
             statuses: statuses.clone(),
             pairings: Arc::clone(&config.pairings),
+            friction_needed: friction_needed(statuses, &solution.forces),
             friction: solution.friction.clone(),
             violation: *violation,
             springs: iteration.springs,
         }),
     }
+}
+
+/// Returns the largest shear over pressure of a node that is pressed by more than rounding.
+fn friction_needed(statuses: &[Status], forces: &[ContactForce]) -> Option<f64> {
+    let closed = statuses.iter().zip(forces).filter(|(status, _)| status.is_closed());
+    let known = closed.map(|(_, force)| force).filter(|force| !force.undetermined);
+    let least = ROUNDING_OF_A_FORCE * known.clone().fold(0.0, |most, f| f.normal.abs().max(most));
+    let pressed = known.filter(|force| force.normal > least);
+    pressed.map(|force| force.tangent.abs() / force.normal).reduce(f64::max)
 }
 
 /// Returns the contact surface at the end.

@@ -9,7 +9,7 @@ mod iterations;
 pub use call::pairs;
 pub use distance::distance;
 pub use equilibrium::nearest_decision;
-pub use estimates::{certainty, error_estimates, perturbed};
+pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
 
 use crate::layout::{counted, listed};
 use crate::model::Report;

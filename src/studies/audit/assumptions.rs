@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::range::is_example;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
@@ -26,14 +27,23 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     let [width, height] = across(model, &stamp.nodes);
     let restrained =
         |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
+    let of_example = is_example(scene);
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
     vec![
         assumed(
-            "radius of the duct (half the width of the target surface)",
+            if of_example {
+                "radius of the duct (half the width of the target surface)"
+            } else {
+                "half the width of the target surface"
+            },
             format!("{:.6} {unit}", across(model, &target)[0] / 2.0),
         ),
         assumed(
-            "radius of the strand (half the width of the contact surface)",
+            if of_example {
+                "radius of the strand (half the width of the contact surface)"
+            } else {
+                "half the width of the contact surface"
+            },
             format!("{:.6} {unit}", across(model, contact)[0] / 2.0),
         ),
         assumed(

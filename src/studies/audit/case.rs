@@ -7,8 +7,7 @@ use rayon::prelude::*;
 use base::error::InputError;
 use base::limits;
 use engine::error::Error;
-use engine::estimates::discretisation::Discretisation;
-use engine::estimates::{Certainty, certain};
+use engine::estimates::equivalent;
 use engine::{Request, Solution, solve};
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
@@ -24,10 +23,10 @@ pub struct Case {
     /// The scene's model under the reading.
     model: Arc<Model>,
     runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
-    certain: [OnceLock<(Solution, Certainty)>; Variant::ALL.len()],
-    finer: OnceLock<Result<(Solution, Certainty), Error>>,
+    finer: OnceLock<Result<Solution, Error>>,
     reference: OnceLock<Option<Solution>>,
     equilibrium: OnceLock<Option<Solution>>,
+    equivalents: OnceLock<Vec<Case>>,
 }
 
 impl Case {
@@ -59,10 +58,10 @@ impl Case {
             )?,
             base,
             runs: Default::default(),
-            certain: Default::default(),
             finer: OnceLock::new(),
             reference: OnceLock::new(),
             equilibrium: OnceLock::new(),
+            equivalents: OnceLock::new(),
         })
     }
 
@@ -105,49 +104,37 @@ impl Case {
         self.runs[variant_index(variant)].get_or_init(run).as_ref()
     }
 
-    /// The run of a variant, in double-doubles where rounding decides nothing but in those
-    /// ([`certain`]); or why there is none.
-    ///
-    /// # Errors
-    /// The run fails.
-    pub fn certain(&self, variant: Variant) -> Result<&(Solution, Certainty), &Error> {
-        let run = self.run(variant)?;
-        Ok(self.certain[variant_index(variant)].get_or_init(|| certain(run.clone())))
-    }
-
-    /// The run of the scene's variant of the paper with a thousandth of its c_tll, as
-    /// [`certain`](Case::certain) is; or why there is none.
+    /// The run of the scene's variant of the paper with a thousandth of its c_tll; or why there is none.
     ///
     /// # Errors
     /// The finer run fails.
-    pub fn finer(&self) -> Result<&(Solution, Certainty), &Error> {
+    pub fn finer(&self) -> Result<&Solution, &Error> {
         let run = || {
             let mut request = self.request(self.published_variant());
             // R8 multiplies what is asked for.
             request.tolerance = Some(self.scene.model.contact.tolerance / 1000.0);
-            solve(&request, &mut |_| ()).map(certain)
+            solve(&request, &mut |_| ())
         };
         self.finer.get_or_init(run).as_ref()
+    }
+
+    /// The cases that mean the same ([`equivalent`]): what is another number there is decided by rounding.
+    pub fn equivalents(&self) -> &[Case] {
+        let case = |request| Case::from_request(request).expect("the reading allows the model");
+        self.equivalents.get_or_init(|| equivalent(&self.base).map(case).collect())
     }
 
     /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread
     /// that waits for a parallel computation takes up other jobs; if one of these asked for the very
     /// run that it is making, neither would end. Where jobs share a case they find its runs made.
     pub fn prepare(&self) {
-        let run = |variant: &Variant| match variant {
-            Variant::Printed => drop(self.run(*variant)),
-            Variant::Tied | Variant::Stepped | Variant::Unilateral => drop(self.certain(*variant)),
-        };
-        let unilateral = || {
-            let _ = self.certain(Variant::Unilateral);
-            // It may be that very run.
-            let _ = self.equilibrium();
-        };
-        let finer = || {
-            let _ = self.model().target().map(|_| self.finer());
-        };
-        let published = || Variant::OF_THE_PAPER.par_iter().for_each(run);
-        rayon::join(|| rayon::join(unilateral, finer), published);
+        self.equivalents().par_iter().chain([self]).for_each(|case| {
+            Variant::ALL.par_iter().for_each(|variant| {
+                let _ = case.run(*variant);
+            });
+            // The equilibrium may be one of those runs.
+            case.model().target().map(|_| (case.finer(), case.equilibrium()));
+        });
     }
 
     /// The reference solution; nothing without contact, and where it does not run.
@@ -166,14 +153,6 @@ impl Case {
         }
         let run = || solve(&self.base.equilibrium(), &mut |_| ()).ok();
         self.equilibrium.get_or_init(run).as_ref()
-    }
-
-    /// The estimated error of the mesh itself in the equilibrium, in the energy norm, relative; nothing
-    /// where there is no equilibrium, and where a body has too few triangles for an estimate.
-    pub fn mesh_error(&self) -> Option<f64> {
-        let equilibrium = self.equilibrium()?;
-        let estimate = Discretisation::new(&equilibrium.model, &equilibrium.elements).relative();
-        Some(estimate).filter(|error| error.is_finite())
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

@@ -3,10 +3,11 @@
 
 use serde::Serialize;
 
-use super::claims::{JudgedClaim, Verdict as ClaimVerdict};
+use super::claims::{JudgedClaim, Verdict as ClaimVerdict, nearest as least};
 use super::findings::{Evidence, Finding, Verdict};
+use super::range::{Parameter, distinct};
 use super::variants::{End, VariantRow};
-use super::{Assumption, Audit, Case};
+use super::{Assumption, Audit, BY_ROUNDING, Case};
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, over, summaries};
 use paper::corrected::FAULTS;
@@ -20,7 +21,7 @@ pub struct Conclusion {
     pub reading: Reading,
     /// Whether the printed algorithm couples the bodies.
     pub coupled: Option<Coupled>,
-    /// The run of the paper's algorithm that comes nearest to the equilibrium; nothing where there is no
+    /// The runs of the paper's algorithm that come nearest to the equilibrium; nothing where there is no
     /// equilibrium, or no run ended.
     pub nearest: Option<Nearest>,
     /// The fields of figure 5; nothing where there is no equilibrium.
@@ -45,9 +46,24 @@ pub struct Coupled {
     pub failure: Option<String>,
 }
 
-/// A run under a reading, and its distance from the equilibrium.
+/// The runs of the paper's algorithm, and those of them that are nearest to the equilibrium.
 #[derive(Clone, Debug, Serialize)]
 pub struct Nearest {
+    /// The nearest run, and those that are equally near.
+    pub runs: Vec<NearRun>,
+    /// The runs that differ: every variant, and every other reading that has a run of its own.
+    pub tried: usize,
+    /// Of those, the ones that ended without a result.
+    pub failed: usize,
+    /// Of those, the ones on whose results rounding decides.
+    pub by_rounding: usize,
+    /// The runs of another plane problem (R6), each against that problem's own equilibrium.
+    pub apart: Vec<NearRun>,
+}
+
+/// A run under a reading, and its distance from the equilibrium.
+#[derive(Clone, Debug, Serialize)]
+pub struct NearRun {
     /// The variant that was run.
     pub variant: Variant,
     /// The value of a reading that is not the default; nothing where all are.
@@ -56,17 +72,13 @@ pub struct Nearest {
     pub at: String,
     /// The distance from the equilibrium in the energy norm, relative.
     pub energy: f64,
-    /// The runs that were tried: every variant, and every other reading that has a run of its own.
-    pub runs: usize,
-    /// Of those, the ones that ended without a result.
-    pub failed: usize,
 }
 
 /// The largest von Mises stress and strain of each body, under the nearest variant and in equilibrium.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fields {
-    /// The nearest of the paper's variants; nothing where none ran.
-    pub variant: Option<Variant>,
+    /// The nearest of the paper's variants, and those that are equally near; none where none ran.
+    pub variants: Vec<Variant>,
     /// The largest relative difference of a body's largest von Mises stress or strain between the two.
     pub difference: Option<f64>,
     /// The bodies under that variant.
@@ -80,23 +92,24 @@ pub struct Fields {
 /// The error of the paper's algorithm over the range of what the paper leaves open.
 #[derive(Clone, Debug, Serialize)]
 pub struct Spread {
-    /// The places of the range.
+    /// The places of the range that differ.
     pub places: usize,
     /// The least and the largest number of claim P12.
     pub error: [f64; 2],
     /// The claims whose verdict is another one somewhere in the range.
     pub changes: Vec<&'static str>,
+    /// The claims that are true at each clearance that was tried from one on, with the least such one, mm.
+    pub true_from: Vec<(&'static str, f64)>,
 }
 
 impl Conclusion {
     /// Draws the conclusion of what was found on a case.
     pub fn new(case: &Case, audit: &Audit) -> Self {
-        let variant = NearestVariant::find(&audit.variants);
         Conclusion {
             reading: *case.reading(),
             coupled: case.model().target().map(|_| coupled(audit)),
-            nearest: variant.as_ref().map(|variant| nearest(audit, variant)),
-            fields: fields(case, variant.as_ref()),
+            nearest: nearest(audit),
+            fields: fields(case, &audit.variants),
             unpriced: unpriced(&audit.findings),
             open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
             range: spread(&audit.claims),
@@ -116,66 +129,68 @@ fn coupled(audit: &Audit) -> Coupled {
     Coupled { joins: joins.map(|(_, measured)| measured.number as usize), share, failure }
 }
 
-/// The variant of the paper that is nearest to the equilibrium.
-struct NearestVariant<'a> {
-    variant: Variant,
-    /// The index of its row.
-    row: usize,
-    energy: f64,
-    bodies: &'a [BodySummary],
+/// Returns the rows of the paper's variants, with their places.
+fn of_the_paper(rows: &[VariantRow]) -> impl Iterator<Item = (usize, &VariantRow)> + Clone {
+    rows.iter().enumerate().filter(|(_, row)| Variant::OF_THE_PAPER.contains(&row.variant))
 }
 
-impl<'a> NearestVariant<'a> {
-    fn find(rows: &'a [VariantRow]) -> Option<Self> {
-        let of_paper =
-            |(_, row): &(usize, &VariantRow)| Variant::OF_THE_PAPER.contains(&row.variant);
-        let ended = rows.iter().enumerate().filter(of_paper).filter_map(
-            |(row, VariantRow { variant, end, .. })| match end {
-                End::Result { distance, bodies, .. } => {
-                    let energy = distance.as_ref()?.energy_relative;
-                    Some(NearestVariant { variant: *variant, row, energy, bodies })
-                }
-                End::Failure { .. } => None,
-            },
-        );
-        ended.filter(|one| one.energy.is_finite()).min_by(|a, b| a.energy.total_cmp(&b.energy))
+/// Finds the nearest of all variants and readings; a run that several of them have counts once.
+fn nearest(audit: &Audit) -> Option<Nearest> {
+    let mut failures: Vec<&str> = Vec::new();
+    let mut found: Vec<NearRun> = Vec::new();
+    for (k, VariantRow { variant, end }) in of_the_paper(&audit.variants) {
+        match end {
+            End::Failure { failure } => failures.push(failure),
+            End::Result { distance, .. } => found.push(NearRun {
+                variant: *variant,
+                reading: None,
+                at: format!("/variants/{k}/distance/energy_relative"),
+                energy: distance.as_ref()?.energy_relative,
+            }),
+        }
     }
-}
-
-/// Finds the nearest of all variants and readings.
-fn nearest(audit: &Audit, nearest: &NearestVariant) -> Nearest {
-    let variants = audit.variants.iter().filter(|r| Variant::OF_THE_PAPER.contains(&r.variant));
-    let failed_variants =
-        variants.clone().filter(|row| matches!(row.end, End::Failure { .. })).count();
-    let readings = audit.readings.iter().enumerate().filter(|(_, e)| e.variant.is_some());
-    let failed = failed_variants + readings.clone().filter(|(_, e)| e.failure.is_some()).count();
-    let runs = variants.count() + readings.clone().count();
-    let default = Nearest {
-        variant: nearest.variant,
-        reading: None,
-        at: format!("/variants/{}/distance/energy_relative", nearest.row),
-        energy: nearest.energy,
-        runs,
-        failed,
-    };
-    let others = readings.filter_map(|(k, effect)| {
-        Some(Nearest {
-            variant: effect.variant?,
+    let mut apart = Vec::new();
+    for (k, effect) in audit.readings.iter().enumerate() {
+        let Some(variant) = effect.variant else { continue };
+        failures.extend(effect.failure.as_deref());
+        let Some(energy) = effect.equilibrium_error else { continue };
+        let run = NearRun {
+            variant,
             reading: Some(effect.reading.clone()),
             at: format!("/readings/{k}/equilibrium_error"),
-            energy: effect.equilibrium_error?,
-            runs,
-            failed,
-        })
-    });
-    // Of those that are equally near the default reading.
-    others.fold(default, |best, other| if other.energy < best.energy { other } else { best })
+            energy,
+        };
+        match effect.apart {
+            true => apart.push(run),
+            false if found.iter().all(|other| other.energy != energy) => found.push(run),
+            false => (),
+        }
+    }
+    let distances: Vec<(f64, &NearRun)> = found.iter().map(|run| (run.energy, run)).collect();
+    let least = least(&distances)?;
+    let by_rounding = failures.iter().filter(|why| **why == BY_ROUNDING).count();
+    Some(Nearest {
+        tried: found.len() + apart.len() + failures.len(),
+        failed: failures.len() - by_rounding,
+        by_rounding,
+        runs: least.into_iter().map(|k| found[k].clone()).collect(),
+        apart,
+    })
 }
 
-fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
+/// Compares the fields of the nearest variants with those of the equilibrium.
+fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     let equilibrium = case.equilibrium()?;
     let own = summaries(equilibrium);
-    let theirs = nearest.map_or(&[][..], |nearest| nearest.bodies);
+    let ended = of_the_paper(rows).filter_map(|(_, VariantRow { variant, end })| match end {
+        End::Result { distance, bodies, .. } => {
+            Some((distance.as_ref()?.energy_relative, (*variant, bodies)))
+        }
+        End::Failure { .. } => None,
+    });
+    let ended: Vec<(f64, (Variant, &Vec<BodySummary>))> = ended.collect();
+    let nearest = least(&ended).unwrap_or_default();
+    let theirs = nearest.first().map_or(Vec::new(), |k| ended[*k].1.1.clone());
     let differences = theirs.iter().zip(&own).flat_map(|(theirs, own)| {
         [
             over(theirs.max_von_mises_stress - own.max_von_mises_stress, own.max_von_mises_stress),
@@ -183,10 +198,10 @@ fn fields(case: &Case, nearest: Option<&NearestVariant>) -> Option<Fields> {
         ]
     });
     Some(Fields {
-        variant: nearest.map(|nearest| nearest.variant),
+        variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
-        theirs: theirs.to_vec(),
         errors: Estimates::new(equilibrium).errors,
+        theirs,
         own,
     })
 }
@@ -208,9 +223,19 @@ fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
         let first: Option<ClaimVerdict> = verdicts.clone().next();
         verdicts.into_iter().any(|verdict| Some(verdict) != first)
     };
+    let true_from = |judged: &JudgedClaim| {
+        let clearances = judged
+            .elsewhere
+            .iter()
+            .filter(|other| other.place.parameter == Parameter::Clearance)
+            .rev()
+            .take_while(|other| other.measured.verdict == ClaimVerdict::True);
+        Some((judged.claim.id, clearances.last()?.place.value))
+    };
     Some(Spread {
-        places: p12.elsewhere.len(),
+        places: distinct(p12.elsewhere.iter().map(|other| other.place)),
         error: [numbers().reduce(f64::min)?, numbers().reduce(f64::max)?],
         changes: tried().filter(verdicts).map(|judged| judged.claim.id).collect(),
+        true_from: tried().filter(verdicts).filter_map(true_from).collect(),
     })
 }

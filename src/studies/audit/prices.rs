@@ -11,15 +11,20 @@ use serde::Serialize;
 use super::Case;
 use super::range::{ParameterValue, Range};
 use base::choices;
+use engine::contact::Status;
 use engine::error::Error;
-use engine::{Request, Solution, Stiffness, over, solve};
+use engine::estimates::{equivalent, moves};
+use engine::{Solution, Stiffness, over, solve};
 use paper::corrected::{self, Bound, Ending, FAULTS, Fault, STEPS, iterate};
 use problem::model::{Dof, Model, NodeId, TriangleId};
-use problem::modelling::{ContactModel, Coupling, Variant};
+use problem::modelling::{ContactModel, Coupling, Friction, Variant};
 
 /// The relative error that is rounding, and costs nothing: 2.5e-8 was seen on `scene mesh punch`, where the
 /// corrected algorithm and the reference have one solution.
 pub const NOTHING: f64 = 1e-6;
+
+/// The fault that ties both components of a node in contact.
+const STICKING: &str = "K9 (sliding)";
 
 choices! {
     /// What a fault does to the results on a scene.
@@ -30,6 +35,10 @@ choices! {
         Shifts = "shifts",
         /// Nothing that is not rounding.
         Free = "free",
+        /// Inputs that mean the same lead to other results.
+        Rounding = "decided by rounding",
+        /// It is what the scene's own friction does: no node slides in the equilibrium.
+        NoFault = "no fault under the scene's own friction",
     }
 }
 
@@ -67,8 +76,11 @@ pub enum Outcome {
         /// The component along the load of the force that reaches the target, over the load; in a direction
         /// in which target nodes are restrained, of what the contact nodes pass on.
         transmitted: f64,
-        /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution without friction.
+        /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution without friction, which
+        /// the corrected algorithm has.
         energy_relative: f64,
+        /// The same where u* is the equilibrium under the scene's own friction; nothing where there is none.
+        equilibrium_relative: Option<f64>,
         /// The largest von Mises stress of the body in which it differs most from that of u*: the
         /// difference over that of u*.
         von_mises_relative: f64,
@@ -78,6 +90,8 @@ pub enum Outcome {
         /// The failure, with its line.
         failure: String,
     },
+    /// It has no figures, as rounding decides on them.
+    Rounding {},
 }
 
 impl Outcome {
@@ -87,6 +101,55 @@ impl Outcome {
             Outcome::Failure { .. } | Outcome::Result { passes_nothing: true, .. } => Weight::Fatal,
             Outcome::Result { .. } if self.is_settled() && self.error() == 0.0 => Weight::Free,
             Outcome::Result { .. } => Weight::Shifts,
+            Outcome::Rounding {} => Weight::Rounding,
+        }
+    }
+
+    /// Returns whether the corrected algorithm itself ends thus where it holds: at the solution, with a load
+    /// that passes.
+    pub fn is_sound(&self) -> bool {
+        self.weight() == Weight::Free
+    }
+
+    /// Returns the distance from the equilibrium under the scene's own friction, relative.
+    pub fn from_equilibrium(&self) -> Option<f64> {
+        match self {
+            Outcome::Result { equilibrium_relative, .. } => *equilibrium_relative,
+            Outcome::Failure { .. } | Outcome::Rounding {} => None,
+        }
+    }
+
+    /// Returns whether an outcome of inputs that mean the same is another one.
+    fn moves(&self, other: &Self) -> bool {
+        match (self.figures(), other.figures()) {
+            (Some(own), Some(other)) => {
+                own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
+            }
+            (own, other) => own.is_some() != other.is_some(),
+        }
+    }
+
+    fn figures(&self) -> Option<[Option<f64>; 7]> {
+        match self {
+            Outcome::Result {
+                iterations,
+                period,
+                in_contact,
+                transmitted,
+                energy_relative,
+                equilibrium_relative,
+                von_mises_relative,
+                ..
+            } => Some([
+                Some(*iterations as f64),
+                period.map(|period| period as f64),
+                Some(*in_contact as f64),
+                Some(*transmitted),
+                Some(*energy_relative),
+                *equilibrium_relative,
+                Some(*von_mises_relative),
+            ]),
+            Outcome::Failure { .. } | Outcome::Rounding {} => None,
         }
     }
 
@@ -96,48 +159,61 @@ impl Outcome {
     }
 
     /// Returns the error in the energy norm, relative, 0 where it is rounding; infinite where the run
-    /// stopped.
+    /// stopped, and where rounding decides.
     pub fn error(&self) -> f64 {
         match self {
             Outcome::Result { energy_relative: error, .. } if *error <= NOTHING => 0.0,
             Outcome::Result { energy_relative, .. } => *energy_relative,
-            Outcome::Failure { .. } => f64::INFINITY,
+            Outcome::Failure { .. } | Outcome::Rounding {} => f64::INFINITY,
         }
     }
 }
 
-/// A scene, and the solution with which the runs are compared.
+/// A scene, and the solutions with which the runs are compared.
 pub struct Compared {
     /// The solution without friction, node to segment, in the initial geometry.
     pub exact: Solution,
+    /// The equilibrium under the scene's own friction; nothing where there is none.
+    pub equilibrium: Option<Solution>,
+    /// The models that mean the same.
+    equivalents: Vec<Arc<Model>>,
     stiffness: Stiffness,
 }
 
 impl Compared {
-    /// Solves a request's scene without friction, node to segment, in the initial geometry. Of its reading
+    /// Solves a case's scene without friction, node to segment, in the initial geometry. Of its reading
     /// only what changes the model matters (R6, R8).
     ///
     /// # Errors
     /// The scene has no contact or lists a contact node twice, or there is no such solution.
-    pub fn new(request: &Request) -> Result<Self, Error> {
+    pub fn new(case: &Case) -> Result<Self, Error> {
+        let request = case.request(Variant::Unilateral);
         corrected::check(&request.scene.model)?;
-        let reference = request.clone().reference();
+        let reference = request.reference();
         let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
         let exact = solve(&reference.contact(contact), &mut |_| ())?;
         let stiffness = Stiffness::new(&exact.model, |x| x);
-        Ok(Compared { exact, stiffness })
+        let equivalents = equivalent(&exact.request).map(|request| request.model());
+        let equivalents = equivalents.collect::<Result<_, _>>()?;
+        Ok(Compared { exact, equilibrium: case.equilibrium().cloned(), equivalents, stiffness })
     }
 
-    /// Runs the corrected algorithm along the normal, then with each fault put back, in the order of
-    /// [`FAULTS`]. `watch` is called after each of the [`runs`].
+    /// Runs the corrected algorithm along the normal, then, where it is at the solution, with each fault put
+    /// back, in the order of [`FAULTS`]. `watch` is called after each of the [`runs`].
     pub fn prices(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
-        let faults = FAULTS.par_iter().map(Some);
-        let runs = rayon::iter::once(None).chain(faults).map(|fault| {
-            let outcome = self.run(fault.into_iter());
+        let run = |fault: Option<&'static Fault>| {
+            let edits: Vec<&str> = fault.iter().map(|fault| fault.edit).collect();
+            let outcome = self.repeated(&edits, self.run(&self.exact.model, &edits));
             watch();
-            price(fault, outcome)
-        });
-        runs.collect()
+            self.price(fault, outcome)
+        };
+        let corrected = run(None);
+        if !corrected.outcome.is_sound() {
+            FAULTS.iter().for_each(|_| watch());
+            return vec![corrected];
+        }
+        let faults = FAULTS.par_iter().map(|fault| run(Some(fault)));
+        rayon::iter::once(corrected).chain(faults).collect()
     }
 
     /// Runs the corrected algorithm with all faults put back, then repairs one at a time. The order is
@@ -146,9 +222,12 @@ impl Compared {
     /// leave the same; the last one is repaired first. `watch` is called after each of the
     /// [`runs_of_repairs`].
     pub fn repairs(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
-        let run = |put_back: &[usize]| {
+        let edits = |put_back: &[usize]| -> Vec<&str> {
             let faults = (0..FAULTS.len()).filter(|k| put_back.contains(k));
-            let outcome = self.run(faults.map(|k| &FAULTS[k]));
+            faults.map(|k| FAULTS[k].edit).collect()
+        };
+        let run = |put_back: &[usize]| {
+            let outcome = self.run(&self.exact.model, &edits(put_back));
             watch();
             outcome
         };
@@ -162,13 +241,42 @@ impl Compared {
             let error = |k: &usize| (outcomes[*k].error() / NOTHING).round();
             let least = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
             let least = least.expect("a fault is left");
-            put_back.push(left[least]);
             let before = std::mem::replace(&mut outcome, outcomes.swap_remove(least));
-            repaired.push(price(Some(&FAULTS[left[least]]), before));
+            let before = self.repeated(&edits(&put_back), before);
+            repaired.push(self.price(Some(&FAULTS[left[least]]), before));
+            put_back.push(left[least]);
         }
-        repaired.push(Price { fault: "all are put back".into(), ..price(None, outcome) });
+        let outcome = self.repeated(&edits(&put_back), outcome);
+        repaired.push(Price { fault: "all are put back".into(), ..self.price(None, outcome) });
         repaired.reverse();
         repaired
+    }
+
+    fn price(&self, fault: Option<&Fault>, outcome: Outcome) -> Price {
+        let words = fault.map_or("none".into(), Fault::words);
+        let (finding, name) = (fault.map(|fault| fault.finding), fault.map(Fault::name));
+        let weight = match name.as_deref() {
+            Some(STICKING) if !self.slides() => Weight::NoFault,
+            _ => outcome.weight(),
+        };
+        Price { finding, name, fault: words, weight, outcome }
+    }
+
+    /// Returns whether a node slides on the way to the equilibrium under the scene's own friction; without
+    /// one, whether any may.
+    fn slides(&self) -> bool {
+        let Some(equilibrium) = &self.equilibrium else {
+            return self.exact.request.scene.contact.friction != Friction::STICK;
+        };
+        let slips = |status: &Status| matches!(status, Status::Slip(_));
+        let mut states = equilibrium.steps.iter().filter_map(|step| step.unilateral());
+        states.any(|state| state.statuses.iter().any(slips))
+    }
+
+    /// Leaves out the figures of an outcome where inputs that mean the same lead to others.
+    fn repeated(&self, edits: &[&str], outcome: Outcome) -> Outcome {
+        let moved = |model: &Arc<Model>| outcome.moves(&self.run(model, edits));
+        if self.equivalents.par_iter().any(moved) { Outcome::Rounding {} } else { outcome }
     }
 
     /// The largest displacement of a run that has a result: a body that nothing holds moves farther.
@@ -176,11 +284,9 @@ impl Compared {
         self.exact.model.bounds().larger_side().max(1e3 * self.exact.u.amax())
     }
 
-    /// Runs the corrected algorithm with faults put back.
-    fn run<'a>(&self, faults: impl Iterator<Item = &'a Fault>) -> Outcome {
-        let model = &*self.exact.model;
-        let edits: Vec<&str> = faults.map(|fault| fault.edit).collect();
-        match iterate(model, Bound::Normal, &edits, STEPS) {
+    /// Runs the corrected algorithm on a model with faults put back.
+    fn run(&self, model: &Model, edits: &[&str]) -> Outcome {
+        match iterate(model, Bound::Normal, edits, STEPS) {
             Ok(ending) if ending.u.iter().all(|x| x.abs() <= self.farthest()) => {
                 self.result(&ending)
             }
@@ -194,10 +300,12 @@ impl Compared {
     }
 
     fn result(&self, ending: &Ending) -> Outcome {
-        let Compared { exact, stiffness } = self;
+        let Compared { exact, equilibrium, stiffness, .. } = self;
         let model = &*exact.model;
         let u = DVector::from_column_slice(&ending.u);
-        let [error, scale] = [&(&u - &exact.u), &exact.u].map(|u| stiffness.energy_norm(u));
+        let distance = |from: &DVector<f64>| {
+            over(stiffness.energy_norm(&(&u - from)), stiffness.energy_norm(from))
+        };
         let states = stiffness.states(&u);
         let change = |triangles: &[TriangleId]| {
             let own = triangles.iter().map(|id| states[id.index()].von_mises_stress);
@@ -214,18 +322,12 @@ impl Compared {
             in_contact: ending.in_contact.len(),
             passes_nothing: pressed(model, &own) <= NOTHING * largest,
             transmitted: transmitted(model, &own),
-            energy_relative: over(error, scale),
+            energy_relative: distance(&exact.u),
+            equilibrium_relative: equilibrium.as_ref().map(|other| distance(&other.u)),
             von_mises_relative: changes
                 .fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a }),
         }
     }
-}
-
-fn price(fault: Option<&Fault>, outcome: Outcome) -> Price {
-    let words = fault.map_or("none".into(), Fault::words);
-    let weight = outcome.weight();
-    let (finding, name) = (fault.map(|fault| fault.finding), fault.map(Fault::name));
-    Price { finding, name, fault: words, weight, outcome }
 }
 
 /// Returns the prices on a case. `watch` is called after each of the [`runs`].
@@ -233,8 +335,7 @@ fn price(fault: Option<&Fault>, outcome: Outcome) -> Price {
 /// # Errors
 /// There is no solution with which they are compared: says why.
 pub fn on(case: &Case, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, String> {
-    let compared = Compared::new(&case.request(Variant::Unilateral));
-    compared.map(|compared| compared.prices(watch)).map_err(|why| why.to_string())
+    Compared::new(case).map(|compared| compared.prices(watch)).map_err(|why| why.to_string())
 }
 
 /// The prices at a place of the range of what the paper leaves open.

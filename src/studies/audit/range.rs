@@ -112,6 +112,11 @@ pub fn range(reading: Reading) -> Result<Range> {
     placed.collect()
 }
 
+/// The number of places that differ: the paper's example as we assume it is in the range of every parameter.
+pub fn distinct(places: impl Iterator<Item = ParameterValue> + Clone) -> usize {
+    places.clone().filter(|place| !place.own).count() + usize::from(places.clone().any(|p| p.own))
+}
+
 /// Whether a scene is the paper's example, whose parameters are known: the embedded `strand`.
 pub fn is_example(scene: &Scene) -> bool {
     let example = Scene::open("strand").expect("it is embedded");

@@ -3,8 +3,11 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::BY_ROUNDING;
 use super::case::Case;
+use super::findings::ROUNDING;
 use engine::error::Error;
+use engine::estimates::moves;
 use engine::{Detail, Request, Solution, distance, max_displacement, solve};
 use mathcad::array::Table;
 use mathcad::{Failure, Settings};
@@ -36,9 +39,12 @@ pub struct Effect {
     /// The variant that was run under this reading; nothing where none was.
     #[serde(skip)]
     pub variant: Option<Variant>,
+    /// Whether the reading has another plane problem, with an equilibrium of its own (R6).
+    #[serde(skip)]
+    pub apart: bool,
     /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,
-    /// Why the reading cannot be run on this scene.
+    /// Why the reading cannot be run on this scene, or that rounding decides on its figures.
     pub failure: Option<String>,
 }
 
@@ -47,10 +53,22 @@ type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
-    let own = case.published_variant();
-    let blank = executed(case, &Settings::default());
-    let effect = |(row, other)| Effect::new(row, other, case, own, &blank);
+    let equivalents: Vec<(&Case, Blank)> =
+        [case].into_iter().chain(case.equivalents()).map(|case| (case, blank(case))).collect();
+    let effect = |(row, other)| {
+        let mut effects =
+            equivalents.iter().map(|(case, blank)| Effect::new(row, other, case, blank));
+        let own = effects.next().expect("the case itself");
+        if effects.any(|other| own.moves(&other, case)) { own.without_figures() } else { own }
+    };
     others(case).into_par_iter().map(effect).collect()
+}
+
+/// The two listings, executed under a blank worksheet's settings.
+type Blank = Result<Initial, Box<Failure>>;
+
+fn blank(case: &Case) -> Blank {
+    executed(case, &Settings::default())
 }
 
 /// The values of the ambiguities that differ from what a case is read by, each with the reading that it
@@ -96,9 +114,9 @@ impl Effect {
         row: &Ambiguity,
         (value, reading): (&Value, Reading),
         case: &Case,
-        own: Variant,
-        blank: &Result<Initial, Box<Failure>>,
+        blank: &Blank,
     ) -> Self {
+        let own = case.published_variant();
         let mut effect = Effect {
             id: row.id,
             reading: row.label(value),
@@ -108,10 +126,11 @@ impl Effect {
             displacement: None,
             equilibrium_error: None,
             variant: match row.trial {
-                Trial::OwnVariant => Some(own),
+                Trial::OwnVariant | Trial::EveryShape => Some(own),
                 Trial::Printed => Some(Variant::Printed),
-                Trial::EveryShape | Trial::Worksheet | Trial::Strains => None,
+                Trial::Worksheet | Trial::Strains => None,
             },
+            apart: false,
             of: match row.trial {
                 Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
                 Trial::Printed => format!("displacement under {}", Variant::Printed),
@@ -137,6 +156,7 @@ impl Effect {
         let request = case.request(variant).reading(*reading);
         let other = solve(&request, &mut |_| ())?;
         self.equilibrium_error = equilibrium_error(case, &request, &other);
+        self.apart = other.model.plane != case.model().plane;
         let own = case.run(variant).map_err(|why| format!("as it is read: {why}"))?;
         self.displacement = Some(largest_difference(own, &other));
         Ok(())
@@ -162,16 +182,12 @@ impl Effect {
             }
         }
         (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));
+        self.equilibrium_error = equilibrium_error(case, &solution.request, solution);
         Ok(())
     }
 
     /// The listings under other settings of the worksheet, beside those under a blank one's.
-    fn worksheet<'a>(
-        &mut self,
-        case: &'a Case,
-        blank: &Result<Initial, Box<Failure>>,
-        change: Change,
-    ) -> Outcome<'a> {
+    fn worksheet<'a>(&mut self, case: &'a Case, blank: &Blank, change: Change) -> Outcome<'a> {
         let mut settings = Settings::default();
         change.set(&mut settings);
         let changed = executed(case, &settings)?;
@@ -196,12 +212,36 @@ impl Effect {
         Ok(())
     }
 
-    /// Counts the statuses and the entries in which the two differ.
+    /// Counts the statuses and the entries in which the two differ by more than rounding.
     fn compare(&mut self, a: &Initial, b: &Initial) {
         let statuses = a.pairs.dy.iter().zip(b.pairs.dy.iter());
-        let entries = a.matrix.as_matrix().iter().zip(b.matrix.as_matrix().iter());
+        let (own, other) = (a.matrix.as_matrix(), b.matrix.as_matrix());
+        let least = ROUNDING * own.amax();
+        let entries = own.iter().zip(other);
         self.statuses = Some(statuses.filter(|(a, b)| a != b).count());
-        self.entries = Some(entries.filter(|(a, b)| a != b).count());
+        self.entries = Some(entries.filter(|(a, b)| (*a - *b).abs() > least).count());
+    }
+
+    /// Whether inputs that mean the same lead to other figures.
+    fn moves(&self, other: &Self, case: &Case) -> bool {
+        let counts = |effect: &Self| [effect.statuses, effect.entries];
+        let run = self.variant.and_then(|variant| case.run(variant).ok());
+        let size = run.map_or(1.0, |run| max_displacement(&run.u));
+        self.failure.is_some() != other.failure.is_some()
+            || counts(self) != counts(other)
+            || moves(self.displacement, other.displacement, size)
+            || moves(self.equilibrium_error, other.equilibrium_error, 1.0)
+    }
+
+    fn without_figures(self) -> Self {
+        Effect {
+            statuses: None,
+            entries: None,
+            displacement: None,
+            equilibrium_error: None,
+            failure: Some(BY_ROUNDING.into()),
+            ..self
+        }
     }
 
     /// Whether anything of the result depends on the reading.

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::BY_ROUNDING;
 use super::case::Case;
 use engine::contact::pulling;
-use engine::estimates::Certainty;
+use engine::estimates::moves;
 use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -15,8 +16,6 @@ use problem::modelling::Variant;
 pub struct VariantRow {
     /// The variant.
     pub variant: Variant,
-    /// Whether rounding decides who is in contact; nothing of a failure.
-    pub certainty: Option<Certainty>,
     /// What came of it.
     #[serde(flatten)]
     pub end: End,
@@ -56,9 +55,40 @@ pub enum End {
     },
     /// It has none.
     Failure {
-        /// Why the run ended without a result.
+        /// Why the run ended without a result; or that rounding decides on it.
         failure: String,
     },
+}
+
+impl End {
+    /// Returns the figures of a result, each over the scale of its kind.
+    fn figures(&self) -> Vec<Option<f64>> {
+        let End::Result {
+            in_contact,
+            target_share,
+            cycle,
+            bodies,
+            distance,
+            friction_needed,
+            pulling,
+            penetration,
+            ..
+        } = self
+        else {
+            return Vec::new();
+        };
+        let counts = in_contact.iter().chain([&pulling.len()]).map(|n| Some(*n as f64)).collect();
+        let distance = distance.as_ref().map(|from| from.energy_relative);
+        let depth = penetration.as_ref().map(|found| found.relative);
+        let period = cycle.as_ref().map(|cycle| cycle.length as f64);
+        let largest = |k: usize| bodies.iter().map(move |body| sizes(body)[k]).fold(0.0, f64::max);
+        let of_bodies = bodies.iter().flat_map(|body| {
+            let sizes = sizes(body).into_iter().enumerate();
+            sizes.map(move |(k, size)| Some(over(size, largest(k))))
+        });
+        let others = [Some(*target_share), distance, *friction_needed, depth, period];
+        [counts, others.to_vec(), of_bodies.collect()].concat()
+    }
 }
 
 /// How deep the deepest contact node is inside the target at the end of a run.
@@ -93,20 +123,33 @@ impl Penetration {
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
-    let row = |variant: &Variant| match case.certain(*variant) {
-        Ok((solution, certainty)) => {
-            let end = end(case, solution);
-            VariantRow { variant: *variant, certainty: Some(*certainty), end }
-        }
-        Err(why) => {
-            let end = End::Failure { failure: why.to_string() };
-            VariantRow { variant: *variant, certainty: None, end }
-        }
+    let row = |variant: &Variant| {
+        let own = end(case, *variant);
+        let figures = own.figures();
+        let moved = |other: &Case| {
+            let others = end(other, *variant).figures();
+            let mut pairs = figures.iter().zip(&others);
+            figures.len() != others.len() || pairs.any(|(own, other)| moves(*own, *other, 1.0))
+        };
+        let end = match case.equivalents().iter().any(moved) {
+            true => End::Failure { failure: BY_ROUNDING.into() },
+            false => own,
+        };
+        VariantRow { variant: *variant, end }
     };
     Variant::ALL.par_iter().map(row).collect()
 }
 
-fn end(case: &Case, solution: &Solution) -> End {
+/// Returns the sizes of a body's fields at the end.
+fn sizes(body: &BodySummary) -> [f64; 3] {
+    [body.max_displacement, body.max_von_mises_stress, body.max_von_mises_strain]
+}
+
+fn end(case: &Case, variant: Variant) -> End {
+    let solution = match case.run(variant) {
+        Ok(solution) => solution,
+        Err(why) => return End::Failure { failure: why.to_string() },
+    };
     let (model, last) = (&*solution.model, solution.last());
     let [fx, fy] = model.total_load();
     let load = fx.hypot(fy);

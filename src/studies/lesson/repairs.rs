@@ -1,8 +1,8 @@
 //! The way from the print to the right answer: the corrected programs with the faults that are left.
 
 use super::iterations::{Iterations, MOST_SOLVED};
+use crate::audit::Case;
 use crate::audit::prices::{Compared, Price, needed};
-use engine::Request;
 use paper::corrected::{FAULTS, Fault};
 use problem::scene::Scene;
 
@@ -21,7 +21,7 @@ impl Repairs {
         if scene.model.nodes.len() > MOST_SOLVED {
             return None;
         }
-        let compared = Compared::new(&Request::new(scene)).ok()?;
+        let compared = Compared::new(&Case::new(scene.clone())).ok()?;
         let rows = compared.repairs(&|| ());
         let needed = needed(&rows)?;
         let iterations = Iterations { reference: Some(compared.exact.u), recorded: None };

@@ -13,6 +13,7 @@ use crate::audit::claims::{Basis, CLAIMS, Claim, judge};
 use crate::audit::range::{ParameterValue, Range, is_example, range};
 use base::error::Result;
 use engine::Request;
+use engine::estimates::certain;
 use problem::modelling::Variant;
 
 /// Returns the places that are measured on the scene of `request`: none where it is not the paper's
@@ -46,11 +47,11 @@ fn label(ParameterValue { parameter, value, .. }: ParameterValue) -> String {
 }
 
 fn row(place: ParameterValue, case: &Arc<Case>, variant: Variant) -> Row {
-    let run = case.certain(variant);
+    let run = case.run(variant).map(|run| certain(run.clone()));
     let solution = run.as_ref().ok().map(|(solution, _)| solution);
     let last = solution.map(|solution| solution.last());
     let truth = case.equilibrium();
-    let failure = match (run, truth) {
+    let failure = match (&run, truth) {
         (Err(why), _) => Some(why.to_string()),
         (Ok(_), None) => Some("there is no equilibrium to measure it against".into()),
         _ => None,
@@ -67,7 +68,7 @@ fn row(place: ParameterValue, case: &Arc<Case>, variant: Variant) -> Row {
         peak_bytes: None,
         error: solution.zip(truth).map(|(own, truth)| Errors::new(own, truth)),
         change: None,
-        certainty: run.ok().map(|(_, certainty)| *certainty),
+        certainty: run.as_ref().ok().map(|(_, certainty)| *certainty),
         own: place.own,
         pareto: false,
         failure,

@@ -4,11 +4,13 @@ use std::num::ParseFloatError;
 
 use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
+use crate::audit::findings::FINDINGS;
 use crate::audit::variants::Penetration;
 use engine::contact::pulling;
-use engine::estimates::Certainty;
-use engine::{distance, max_displacement, over};
-use problem::modelling::Variant;
+use engine::estimates::moves;
+use engine::{Solution, distance, last_under_each_load, max_displacement, over, solve};
+use paper::door::Call;
+use problem::modelling::{ContactModel, Friction, Variant};
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -36,7 +38,7 @@ fn true_if(is_true: bool) -> Verdict {
 /// largest displacement of the target.
 pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
     let variant = case.published_variant();
-    let (solution, _) = case.certain(variant)?;
+    let solution = case.run(variant)?;
     let Penetration { node, in_contact, depth, relative } =
         Penetration::of(solution).ok_or("no contact node faces the target")?;
     let pulling = pulling(&solution.contact, solution.model.load.amax());
@@ -48,22 +50,67 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
         n => format!("{n} nodes in contact pull"),
     };
     let status = if in_contact { "in contact" } else { "not in contact" };
+    let tolerance = solution.model.contact.tolerance;
+    let beside = if depth < tolerance { "below" } else { "not below" };
     let detail = match verdict {
         Verdict::TrueOnlyIf => pulls,
         Verdict::False if depth == 0.0 => format!("{variant}: nothing penetrates; {pulls}"),
-        Verdict::True | Verdict::False | Verdict::NotCheckable => {
-            format!("{variant}: node {node}, {status}, ends {depth:.1e} inside the target; {pulls}")
-        }
+        Verdict::True | Verdict::False | Verdict::NotCheckable => format!(
+            "{variant}: node {node}, {status}, ends {depth:.1e} inside the target, {beside} c_tol \
+             ({tolerance:.1e}); {pulls}"
+        ),
     };
-    Ok(Evidence { variant: Some(variant), ..Evidence::new(verdict, Some(relative), detail) })
+    let measured = Evidence::new(verdict, Some(relative), detail);
+    Ok(Evidence { variant: Some(variant), ..measured }.on([(variant.name(), solution)]))
 }
 
-/// Whether eq. (1) ties what friction would: the largest coefficient that a node in contact needs.
+/// The relative distance from the value at which two runs confirm it, one on either side.
+const BESIDE: f64 = 1e-3;
+
+/// Whether eq. (1) ties what friction would: the largest coefficient that a node in contact needs on the path
+/// of the load, where all nodes stick. Runs on either side confirm it.
 pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
-    let solution = case.run(Variant::Unilateral)?;
-    let needed = solution.contact.iter().filter_map(|node| node.friction_needed);
+    let run = |friction: f64| {
+        let request = case.request(Variant::Unilateral);
+        let friction = Friction::new(friction).expect("a coefficient that is not negative");
+        let contact = ContactModel { friction, ..request.contact };
+        solve(&request.contact(contact), &mut |_| ())
+    };
+    let sticking = run(f64::INFINITY)?;
+    let ends = last_under_each_load(&sticking.steps).into_iter();
+    let needed = ends.filter_map(|end| sticking.steps[end].unilateral()?.friction_needed);
     let needed = needed.reduce(f64::max).ok_or("no node is in contact")?;
-    measured(Verdict::TrueOnlyIf, needed, "the coefficient of friction is at least the value")
+    let sticks = |friction: f64| {
+        let moved = run(friction).map(|run| distance(&run, &sticking).displacement_relative);
+        moved.is_ok_and(|moved| !moves(Some(moved), Some(0.0), 1.0))
+    };
+    let is_least = !moves(Some(needed), Some(0.0), 1.0) || !sticks(needed * (1.0 - BESIDE));
+    if !(is_least && sticks(needed * (1.0 + BESIDE))) {
+        let detail = "runs with a little more and a little less friction do not confirm the value";
+        return Ok(Evidence::new(Verdict::NotCheckable, None, detail));
+    }
+    let detail = "the coefficient of friction is at least the value";
+    let measured = Evidence::new(Verdict::TrueOnlyIf, Some(needed), detail);
+    Ok(measured.on([("unilateral, sticking", &sticking)]))
+}
+
+/// The contact nodes of a finding's scene that find another edge where both bodies are moved far away together.
+pub(super) fn searches_current(case: &Case) -> Outcome<'_> {
+    let finding =
+        FINDINGS.iter().find(|finding| finding.id == "C6").expect("an id of the register");
+    let own = Case::new(finding.scene()).under(*case.reading())?;
+    let model = own.model();
+    // A power of two, as coordinates keep their digits best by it.
+    let far = model.bounds().larger_side().log2().ceil().exp2();
+    let moved: Vec<[f64; 2]> = model.nodes.iter().map(|[x, y]| [x + far, y + far]).collect();
+    let edges =
+        |shape: &[[f64; 2]]| Call::c_cnt(model, own.reading(), shape).map(|call| call.pairs.ct);
+    let (before, after) = (edges(&model.nodes)?, edges(&moved)?);
+    if before.iter().all(|edge| *edge == 0) {
+        return Err("no node finds an edge".into());
+    }
+    let others = before.iter().zip(after.iter()).filter(|(before, after)| before != after).count();
+    measured(true_if(others == 0), others as f64, "lines 5 to 7 take node_n")
 }
 
 /// The share of the nodes in contact that the sign rule misses where the stamp jumped to twice c_tll.
@@ -91,64 +138,59 @@ pub(super) fn fewer_operations(_: &Case) -> Outcome<'_> {
 pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     case.model().target().ok_or("the scene has no contact")?;
     let variant = case.published_variant();
-    let (own, of_own) = case.certain(variant)?;
+    let (own, least) = (case.run(variant)?, case.finer()?);
     let tolerance = own.request.scene.model.contact.tolerance;
-    let (least, of_least) = case.finer()?;
     let change = distance(least, own).displacement_relative;
-    let numbers = numbers(&[*of_own, *of_least]);
     let [own_largest, least_largest] = [own, least].map(|run| max_displacement(&run.u));
     let detail = format!(
-        "{variant}, from {tolerance:e} to {:e}{numbers}; the largest displacement itself changes by \
-         {:.1} %",
+        "{variant}, from {tolerance:e} to {:e}; the largest displacement itself changes by {:.1} %",
         tolerance / 1000.0,
         100.0 * over(least_largest - own_largest, own_largest).abs()
     );
-    measured(true_if(change < NOTICEABLE), change, detail)
-}
-
-/// Says in which numbers runs were made where rounding counts.
-fn numbers(runs: &[Certainty]) -> &'static str {
-    if runs.contains(&Certainty::Unknown) {
-        "; rounding may decide who is in contact"
-    } else if runs.contains(&Certainty::InDoubleDouble) {
-        ", in double-doubles where rounding decides in f64"
-    } else {
-        ""
-    }
+    let measured = Evidence::new(true_if(change < NOTICEABLE), Some(change), detail);
+    Ok(measured.on([(variant.name(), own), ("with a thousandth of c_tol", least)]))
 }
 
 /// The final period of the contact state of `tied`, iterations; 1 = settled, 0 = none yet.
 pub(super) fn settles(case: &Case) -> Outcome<'_> {
-    let (tied, certainty) = case.certain(Variant::Tied)?;
+    let tied = case.run(Variant::Tied)?;
     let length = tied.last().cycle.as_ref().map_or(0, |cycle| cycle.length);
-    let state = match length {
+    let detail = match length {
         0 => "the contact state is new in the last iteration",
         1 => "the contact state has settled",
         _ => "the contact state repeats in a cycle",
     };
-    let detail = format!("{state}{}", numbers(&[*certainty]));
-    measured(true_if(length == 1), length as f64, detail)
+    let measured = Evidence::new(true_if(length == 1), Some(length as f64), detail);
+    Ok(measured.on([(Variant::Tied.name(), tied)]))
 }
 
 /// The smallest distance in the energy norm of the paper's variants from the equilibrium under the
 /// scene's own friction on the same mesh.
 pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
     let equilibrium = case.equilibrium().ok_or("there is no equilibrium to compare with")?;
-    let mut nearest: Option<(f64, Variant, Certainty)> = None;
-    // `printed` passes no load on, whoever is in contact: rounding makes it no nearer.
-    let printed = case.run(Variant::Printed).map(|solution| (solution, Certainty::Certain));
-    let certain =
-        |variant| case.certain(variant).map(|(solution, certainty)| (solution, *certainty));
-    for (solution, certainty) in
-        [certain(Variant::Stepped), certain(Variant::Tied), printed].into_iter().flatten()
-    {
-        let error = distance(solution, equilibrium).energy_relative;
-        if nearest.is_none_or(|(least, ..)| error < least) {
-            nearest = Some((error, solution.request.variant, certainty));
+    let runs = Variant::OF_THE_PAPER.iter().filter_map(|variant| case.run(*variant).ok());
+    let distances: Vec<(f64, &Solution)> =
+        runs.map(|run| (distance(run, equilibrium).energy_relative, run)).collect();
+    let nearest = nearest(&distances).ok_or("no variant of the paper runs")?;
+    let least = distances[nearest[0]].0;
+    let variants: Vec<Variant> = nearest.iter().map(|k| distances[*k].1.request.variant).collect();
+    let detail = match &variants[..] {
+        [variant] => format!("{variant} is the nearest variant"),
+        _ => {
+            let names: Vec<&str> = variants.iter().map(|variant| variant.name()).collect();
+            format!("{} are equally near", names.join(" and "))
         }
-    }
-    let (least, variant, certainty) = nearest.ok_or("no variant of the paper runs")?;
-    let detail = format!("{variant} is the nearest variant{}", numbers(&[certainty]));
+    };
     let measured = Evidence::new(true_if(least < NOTICEABLE), Some(least), detail);
-    Ok(Evidence { variant: Some(variant), ..measured })
+    let measured = Evidence { variant: Some(variants[0]), ..measured };
+    let runs = variants.iter().zip(&nearest).map(|(variant, k)| (variant.name(), distances[*k].1));
+    Ok(measured.on(runs.chain([("equilibrium", equilibrium)])))
+}
+
+/// The places of the least of distances: several where they are equally near.
+pub(in crate::audit) fn nearest<T>(distances: &[(f64, T)]) -> Option<Vec<usize>> {
+    let finite = |k: &usize| distances[*k].0.is_finite();
+    let least = (0..distances.len()).filter(finite).map(|k| distances[k].0).reduce(f64::min)?;
+    let is_least = |k: &usize| !moves(Some(distances[*k].0), Some(least), 1.0);
+    Some((0..distances.len()).filter(is_least).collect())
 }

@@ -13,14 +13,19 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde::Serialize;
 
+pub(super) use measures::nearest;
 pub use register::CLAIMS;
 
+use super::BY_ROUNDING;
 use super::case::{Case, variant_index};
 use super::findings::{self, FINDINGS};
 use super::range::{ParameterValue, Range};
 use super::readings::others;
 use base::choices;
 use base::error::InputError;
+use engine::Solution;
+use engine::estimates::discretisation::Discretisation;
+use engine::estimates::{moves, singular};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
@@ -35,9 +40,9 @@ pub struct Claim {
     pub quote: &'static str,
     /// The same in English.
     pub translation: &'static str,
-    /// What they claim.
-    pub says: &'static str,
-    /// What is judged: the claim is true where this is so.
+    /// What is judged, in this audit's words.
+    pub judged: &'static str,
+    /// The claim is true where this is so.
     pub condition: &'static str,
     /// The threshold of the condition, and where that comes from.
     pub threshold: &'static str,
@@ -139,11 +144,51 @@ pub struct Evidence {
     pub variant: Option<Variant>,
     /// The condition of the verdict `true only if`; else what is to be said beside the number.
     pub detail: String,
+    /// The error of the mesh in each run that was measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mesh_errors: Vec<MeshError>,
+}
+
+/// The error of the mesh in a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshError {
+    /// Which run: a variant, or what distinguishes it.
+    pub run: String,
+    /// The estimate of the error in the energy norm, relative; nothing where there is none.
+    pub energy_relative: Option<f64>,
+    /// Whether the stress diverges somewhere as the mesh is refined.
+    pub diverges: bool,
 }
 
 impl Evidence {
     fn new(verdict: Verdict, number: Option<f64>, detail: impl Into<String>) -> Self {
-        Evidence { verdict, number, variant: None, detail: detail.into() }
+        Evidence { verdict, number, variant: None, detail: detail.into(), mesh_errors: Vec::new() }
+    }
+
+    /// Adds the errors of the mesh in the runs that were measured.
+    fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
+        let error = |(run, solution): (&str, &Solution)| MeshError {
+            run: run.into(),
+            energy_relative: Some(Discretisation::new(&solution.model, &solution.elements))
+                .map(|estimate| estimate.relative())
+                .filter(|error| error.is_finite()),
+            diverges: !singular(solution).is_empty(),
+        };
+        self.mesh_errors = runs.into_iter().map(error).collect();
+        self
+    }
+
+    /// Leaves out the figures where inputs that mean the same lead to others; without a common verdict there
+    /// is none.
+    fn repeated(self, others: impl IntoIterator<Item = Self>) -> Self {
+        let others: Vec<Self> = others.into_iter().collect();
+        let same = |other: &Self| other.verdict == self.verdict;
+        let verdict = if others.iter().all(same) { self.verdict } else { Verdict::NotCheckable };
+        let moved = |other: &Self| moves(self.number, other.number, 1.0);
+        if verdict == self.verdict && !others.iter().any(moved) {
+            return self;
+        }
+        Evidence { verdict, number: None, detail: BY_ROUNDING.into(), ..self }
     }
 
     /// Returns the verdict in words, with its condition.
@@ -170,10 +215,6 @@ pub struct JudgedClaim {
     pub at: Vec<String>,
     /// What the verdict rests on.
     pub scope: Scope,
-    /// Where the verdict rests on runs: the estimated error of the mesh itself in the equilibrium under
-    /// the scene's own friction, in the energy norm, relative. All runs are on this mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_error: Option<f64>,
     /// The verdicts over the range; empty where the scene has no part in the verdict.
     pub elsewhere: Vec<Elsewhere>,
 }
@@ -236,7 +277,7 @@ pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<JudgedClaim> 
 }
 
 impl Claim {
-    /// Measures the claim on a scene. Where a run fails, the detail says so.
+    /// Measures the claim on a scene and on the inputs that mean the same. Where a run fails, the detail says so.
     pub fn measure(&self, case: &Case) -> Evidence {
         let not_checkable = |why: &str| Evidence::new(Verdict::NotCheckable, None, why);
         match self.measure {
@@ -244,9 +285,14 @@ impl Claim {
             Measure::Finding(id, verdict, words) => {
                 by_finding(id, verdict, Some(words), *case.reading())
             }
-            Measure::Scene(measure) => measure(case).unwrap_or_else(|why| {
-                not_checkable(why.to_string().lines().next().unwrap_or_default())
-            }),
+            Measure::Scene(measure) => {
+                let on = |case| {
+                    measure(case).unwrap_or_else(|why| {
+                        not_checkable(why.to_string().lines().next().unwrap_or_default())
+                    })
+                };
+                on(case).repeated(case.equivalents().iter().map(on))
+            }
             Measure::Nothing(reason) => not_checkable(reason),
         }
     }
@@ -268,14 +314,12 @@ impl Claim {
             Basis::Runs if !elsewhere.is_empty() && same => Scope::Range,
             Basis::Runs => Scope::OneScene,
         };
-        let is_on_runs = self.basis == Basis::Runs;
         JudgedClaim {
             claim: self.clone(),
             command: self.command(case),
             at: self.pointers(&measured),
             measured,
             scope,
-            mesh_error: is_on_runs.then(|| case.mesh_error()).flatten(),
             elsewhere,
         }
     }
@@ -306,11 +350,11 @@ fn by_finding(id: &str, verdict: Verdict, words: Option<&str>, reading: Reading)
     let found = finding.measure(&case);
     match found.verdict {
         findings::Verdict::Present => {
-            Evidence::new(verdict, Some(found.number), words.unwrap_or(finding.title))
+            Evidence::new(verdict, found.figure(), words.unwrap_or(finding.title))
         }
         findings::Verdict::NotTriggered | findings::Verdict::Contradicted => {
             let detail = format!("{id} does not show on its scene: {}", found.detail);
-            Evidence::new(Verdict::NotCheckable, Some(found.number), detail)
+            Evidence::new(Verdict::NotCheckable, found.figure(), detail)
         }
     }
 }

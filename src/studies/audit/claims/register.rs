@@ -10,12 +10,12 @@ const COUNT: &str = "none: a single one decides";
 pub const CLAIMS: &[Claim] = &[
     Claim {
         id: "P1",
-        place: "statement of the problem, the sentence before eq. (1)",
+        place: "statement of the problem, the sentence of eq. (1)",
         quote: "Перемещения по нормали к поверхности контакта совпадают из условия непроникновения одного \
                 из контактирующих тел (далее домена) в другое [5,9]",
         translation: "Displacements along the normal to the contact surface coincide, by the condition that \
                       neither of the bodies in contact (below: domains) penetrates the other [5,9]",
-        says: "displacements along the normal are equal, so that nothing penetrates",
+        judged: "nothing penetrates at the end, and no node in contact pulls",
         condition: "at the end of the scene's variant of the paper no contact node is inside the target, in \
                     contact or not, and no node in contact pulls",
         threshold: "of penetration 1 % of the target's largest displacement: this audit's; the paper gives \
@@ -29,26 +29,27 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         id: "P2",
-        place: "statement of the problem, the sentence before eq. (1)",
+        place: "statement of the problem, the sentence of eq. (1)",
         quote: "по касательной к поверхности зоны контакта – из условия равновесия действия сил трения между \
                 контактирующими поверхностями",
         translation: "along the tangent to the surface of the contact zone – by the condition of equilibrium \
                       of the friction forces between the surfaces in contact",
-        says: "equal displacements along the tangent are the equilibrium of friction",
-        condition: "under unilateral no node in contact needs more friction than there is",
-        threshold: "none: the value is the least coefficient of friction; the paper gives no coefficient",
+        judged: "equal displacements along the tangent are the equilibrium of friction",
+        condition: "under unilateral no node in contact needs more friction than there is, on the whole path of the load",
+        threshold: "none: the value is the least coefficient of friction, which runs 0.1 % above and below confirm; \
+                    the paper gives none",
         basis: Basis::Runs,
-        number: "largest shear over pressure of a node in contact at the end of unilateral",
-        command: &["audit", "SCENE", "--json"],
-        at: &["/variants/3/friction_needed"],
+        number: "largest shear over pressure of a node in contact on the path of unilateral, sticking",
+        command: &["audit", "SCENE", "--claim", "P2", "--json"],
+        at: &["/number"],
         measure: Measure::Scene(measures::friction_needed),
     },
     Claim {
         id: "P3",
-        place: "eq. (1)",
+        place: "statement of the problem, the sentence of eq. (1)",
         quote: "тогда для контактирующих поверхностей: u_cont = u_targ; v_cont = v_targ, (1)",
         translation: "then, for the surfaces in contact: u_cont = u_targ; v_cont = v_targ, (1)",
-        says: "displacements of linked nodes are equal in the system that is solved",
+        judged: "displacements of linked nodes are equal in the system that is solved",
         condition: "the matrix MJS of Km has entries that join the two bodies",
         threshold: "none: without any the bodies are not coupled",
         basis: Basis::Listing,
@@ -64,14 +65,15 @@ pub const CLAIMS: &[Claim] = &[
                 производится поиск элемента, с которым он, предположительно, может взаимодействовать.",
         translation: "First, for each node of the stamp, an element with which it presumably can interact is \
                       searched for, on the basis of the current coordinates of the nodes of both domains.",
-        says: "pairs and their interpolation come from current coordinates",
-        condition: "the weights of a node in contact are in [0, 1], as those of its current place are",
-        threshold: "none: current coordinates give no excess",
+        judged: "the search for a target edge takes current coordinates",
+        condition: "a node finds the same edge where the current coordinates of both bodies are moved far away \
+                    together; that the weights take initial ones is finding C6",
+        threshold: COUNT,
         basis: Basis::Listing,
-        number: "largest excess of a weight of a node in contact beyond [0, 1], on the finding's scene",
-        command: &["audit", "--finding", "C6", "--json"],
+        number: "contact nodes that find another edge then, on the scene of finding C6",
+        command: &["audit", "--claim", "P4", "--json"],
         at: &["/number"],
-        measure: Measure::Refuted("C6"),
+        measure: Measure::Scene(measures::searches_current),
     },
     Claim {
         id: "P5",
@@ -84,7 +86,7 @@ pub const CLAIMS: &[Claim] = &[
                       the stamp, having moved, is inside the main structure by a distance above c_tol, i.e. \
                       the algorithm described above will show as its result that there is no contact (see \
                       fig. 1, node 2.4).",
-        says: "a node deeper inside than c_tol is treated as separated",
+        judged: "a node deeper inside than c_tol is treated as separated",
         condition: "c_cnt finds such a node no target edge",
         threshold: COUNT,
         basis: Basis::Listing,
@@ -98,7 +100,7 @@ pub const CLAIMS: &[Claim] = &[
         place: "the second of the two solutions, before fig. 2",
         quote: "В этом случае существует два решения: … сравнение знаков Yi соседних узлов",
         translation: "In this case there are two solutions: … comparing the signs of Yi of neighbouring nodes",
-        says: "comparing signs of neighbours finds the nodes that jumped deeper than c_tol",
+        judged: "comparing signs of neighbours finds the nodes that jumped deeper than c_tol",
         condition: "in random scenes, after a jump to twice c_tll, the rule misses no node in contact, the \
                     target below the stamp or above",
         threshold: HUNDREDTH,
@@ -116,7 +118,7 @@ pub const CLAIMS: &[Claim] = &[
                 ответной поверхности не превышающим c_tol, назначается фиксированное значение Yi.",
         translation: "in this case all nodes of the contact surface of the stamp whose distance from the \
                       opposite surface is not above c_tol are given a fixed value of Yi.",
-        says: "nodes within c_tol are given a fixed Y before signs are compared",
+        judged: "nodes within c_tol are given a fixed Y before signs are compared",
         condition: "no node apart is in contact because of a neighbour that is itself within c_tll",
         threshold: COUNT,
         basis: Basis::Listing,
@@ -132,7 +134,7 @@ pub const CLAIMS: &[Claim] = &[
         quote: "Второй вариант представляется более предпочтительным с точки зрения объемов вычислений.",
         translation: "The second option appears preferable from the point of view of the volume of \
                       computation.",
-        says: "comparing signs takes fewer operations than intersecting elements",
+        judged: "comparing signs takes fewer operations than intersecting elements",
         condition: "in random scenes the sign rule takes fewer operations on lengths than the intersection",
         threshold: "none: the quotient is above 1",
         basis: Basis::Random,
@@ -149,7 +151,7 @@ pub const CLAIMS: &[Claim] = &[
         translation: "It was assumed that, as the elements of the contact surfaces of both domains are of \
                       comparable size, every node of either surface is linked with two nodes of the opposite \
                       one",
-        says: "every node of either surface is linked with two nodes of the other",
+        judged: "every node of either surface is linked with two nodes of the other",
         condition: "no target node has two or more contact nodes tied to it: its row of k_cnt has room for \
                     one",
         threshold: COUNT,
@@ -162,12 +164,12 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         id: "P10",
         place: "paragraph before fig. 2",
-        quote: "а так же, что величина значения c_tol = 0,001 мала для внесения в результат расчета ощутимой \
+        quote: "Было принято, что … а так же, что величина значения c_tol = 0,001 мала для внесения в результат расчета ощутимой \
                 погрешности.",
-        translation: "and also that the value c_tol = 0.001 is too small to bring a noticeable error into the \
+        translation: "It was assumed that … and also that the value c_tol = 0.001 is too small to bring a noticeable error into the \
                       result of the analysis.",
-        says: "c_tol = 0.001 is small enough to bring no noticeable error",
-        condition: "with a thousandth of c_tol no node's displacement is noticeably another one",
+        judged: "c_tol = 0.001 brings no noticeable error",
+        condition: "no node's displacement changes noticeably when c_tol is divided by 1,000",
         threshold: HUNDREDTH,
         basis: Basis::Runs,
         number: "largest difference of a node's displacement between c_tol and a thousandth of it, over \
@@ -181,7 +183,7 @@ pub const CLAIMS: &[Claim] = &[
         place: "data of the example, between fig. 4 and fig. 5",
         quote: "Расчет выполняется итерационно, состоит из 20 итераций.",
         translation: "The analysis is iterative and consists of 20 iterations.",
-        says: "20 iterations are enough under the whole load (tied)",
+        judged: "under the whole load (tied) the contact state settles in 20 iterations",
         condition: "under tied the contact state has settled in the last iteration; that 20 are enough, and \
                     the whole load in each, are this audit's reading: the paper says neither",
         threshold: "none: the period is 1",
@@ -198,7 +200,7 @@ pub const CLAIMS: &[Claim] = &[
                 комплексе Autodesk Simulation Mechanical 2013.",
         translation: "These results coincide with those of a similar numerical experiment, carried out in \
                       the software Autodesk Simulation Mechanical 2013.",
-        says: "the results are those of the contact problem, within a hundredth",
+        judged: "a variant of the paper reaches the equilibrium within a hundredth",
         condition: "a variant of the paper reaches the equilibrium under the scene's own friction on the \
                     same mesh: what another code solves correctly, for that code itself is P13",
         threshold: HUNDREDTH,
@@ -216,7 +218,7 @@ pub const CLAIMS: &[Claim] = &[
                 комплексе Autodesk Simulation Mechanical 2013.",
         translation: "These results coincide with those of a similar numerical experiment, carried out in \
                       the software Autodesk Simulation Mechanical 2013.",
-        says: "the results are those of that program",
+        judged: "that program gives the same results",
         condition: "that program, with its contact settings, gives the same results",
         threshold: "none: nothing to compare with",
         basis: Basis::Nothing,

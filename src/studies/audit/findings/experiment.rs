@@ -18,7 +18,7 @@ pub(super) type Shape = [[f64; 2]];
 const SHOWN: usize = 6;
 
 /// What counts as a difference, over the largest entry: sums in another order differ by less.
-pub(super) const ROUNDING: f64 = 1e-9;
+pub(in crate::audit) const ROUNDING: f64 = 1e-9;
 
 /// The number of `found`, each in words; the finding holds where there is one.
 pub(super) fn count(found: impl IntoIterator<Item = String>) -> Evidence {

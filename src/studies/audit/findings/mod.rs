@@ -12,12 +12,14 @@ mod status;
 mod stiffness;
 mod weights;
 
+pub(super) use experiment::ROUNDING;
 pub use register::FINDINGS;
 
 use serde::Serialize;
 
 use super::Case;
 use base::choices;
+use engine::estimates::moves;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -75,10 +77,18 @@ pub enum Preparation {
 type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 
 impl Finding {
-    /// Looks for the finding in a scene. Where a listing or a run fails, the detail says so; it
-    /// never panics.
+    /// Looks for the finding in a scene, and on the inputs that mean the same. Where a listing or a run fails,
+    /// the detail says so; it never panics.
     pub fn measure(&self, case: &Case) -> Evidence {
-        (self.measure)(case).unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
+        let on = |case| {
+            (self.measure)(case)
+                .unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
+        };
+        let own = on(case);
+        let moved = |other: Evidence| {
+            other.verdict != own.verdict || moves(Some(own.number), Some(other.number), 1.0)
+        };
+        Evidence { by_rounding: case.equivalents().iter().map(on).any(moved), ..own }
     }
 
     /// Returns the smallest scene that shows the finding.
@@ -109,19 +119,26 @@ pub struct Evidence {
     pub number: f64,
     /// What was found, in words.
     pub detail: String,
+    /// Whether inputs that mean the same lead to another verdict or number.
+    pub by_rounding: bool,
 }
 
 impl Evidence {
+    /// Returns the number; nothing where rounding decides on it.
+    pub fn figure(&self) -> Option<f64> {
+        (!self.by_rounding).then_some(self.number)
+    }
+
     /// Returns a measure of the verdict `present` or `not triggered here`.
     fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
-        Evidence { verdict, number, detail: detail.into() }
+        Evidence { verdict, number, detail: detail.into(), by_rounding: false }
     }
 
     /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
     /// finding needs.
     fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
-        Evidence { verdict, number, detail: detail.into() }
+        Evidence { verdict, number, detail: detail.into(), by_rounding: false }
     }
 }
