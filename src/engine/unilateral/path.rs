@@ -47,6 +47,7 @@ impl Point {
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    problem.turns_nowhere()?;
     let with_friction = problem.friction > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
@@ -58,6 +59,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         let config = problem.configuration(&point.u);
         run.keeps_all = problem.can_enumerate(&config, total);
         if problem.overlaps(&config) {
+            problem.starts_in_one_place(&config)?;
             match run.advance(&point, 0.0, 0) {
                 Ok(closed) => (run.start, point) = (Start::Closed, Point::after(0.0, closed)),
                 Err(_) => {
@@ -274,6 +276,7 @@ impl<'a> Run<'a> {
         let uniqueness = uniqueness(problem, &end, &taken);
         let nearest = nearest_decision(problem, &end, &taken);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
+        let facets = problem.coarse_facets();
         let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
         Solution {
             request: problem.request.clone(),
@@ -290,6 +293,7 @@ impl<'a> Run<'a> {
                 nearest,
                 unseen,
                 inside,
+                facets,
                 shape_change,
                 springs,
             }),
