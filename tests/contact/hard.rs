@@ -161,7 +161,7 @@ fn rough(rng: &mut Rng, coupling: Coupling) -> Hard {
     let mu = between(rng, 0.05, 0.5);
     let degrees = match rng.bool() {
         true => {
-            bodies.hold(&[over[0], over[n - 1]], &[Axis::X]);
+            bodies.hold(&[over[0], upper[1][n - 1]], &[Axis::X]);
             0.0
         }
         false => {
@@ -263,7 +263,7 @@ fn arm(rng: &mut Rng, coupling: Coupling) -> Hard {
 /// block.
 fn thin(rng: &mut Rng, coupling: Coupling) -> Hard {
     let mut all = Rows::default();
-    let (n, span) = (rng.usize(5..=8), between(rng, 2.0, 4.0));
+    let (n, span) = (rng.usize(6..=9), between(rng, 2.0, 4.0));
     let (thick, rise) = (between(rng, 0.05, 0.2), one_of(rng, &[0.0, 0.01, 0.02, 0.05]));
     let wide = span / 2.0 + 0.5;
     let ground = |y: f64| line(4, [-wide, wide], |_| y);
@@ -272,7 +272,7 @@ fn thin(rng: &mut Rng, coupling: Coupling) -> Hard {
     let ends = [-span / 2.0, span / 2.0];
     let (bottom, top) = (line(n, ends, arch), line(n, ends, |x| arch(x) + thick));
     let upper = all.body(&[bottom, top], false);
-    let mut bodies = all.finish(rng, &upper[0], &lower[1], false);
+    let mut bodies = all.finish(rng, &upper[0][1..], &lower[1], false);
     bodies.hold(&lower[0], &BOTH);
     bodies.hold(&[upper[0][0], upper[1][0]], &BOTH);
     let press = bodies.moduli[1].0 * magnitude(rng, 1e-4, 1e-2) * thick;
@@ -444,6 +444,8 @@ fn numbers_and_lists_change_no_answer() {
             let what = format!("kind {kind}, {seed}");
             match (hard.solve(), hard.written(&writing)) {
                 (Ok(one), Ok(other)) => {
+                    let show = |s: &Solution| s.steps.iter().map(|s| match &s.detail { plane_contact::engine::Detail::Unilateral(u) => format!("{:.5} {} {:e} {}\n", u.load, s.in_contact, s.max_displacement, u.statuses.iter().map(|s| match s { plane_contact::engine::contact::Status::Open => 'o', plane_contact::engine::contact::Status::Stick=>'s', _ => 'f'}).collect::<String>()), _ => String::new()}).collect::<String>();
+                    if (kind, seed) == (0,5) { println!("{:?}\n{}\n{:?}\n{}", one.equilibrium.as_ref().unwrap().path, show(&one), other.equilibrium.as_ref().unwrap().path, show(&other)); }
                     let places = writing.places(one.model.nodes.len()).into_iter().enumerate();
                     let places: Vec<_> =
                         places.map(|(n, place)| [n, place].map(NodeId::new)).collect();
@@ -489,7 +491,7 @@ fn an_overlap_that_comes_apart_in_many_ways_has_no_start() {
         let overlaps = |why: &Error| why.to_string().contains("the start is not determined");
         assert!(!hard.solve().err().as_ref().is_some_and(overlaps), "{seed}: one motion is free");
         hard.bodies.restrained.retain(|(node, _)| *node < first);
-        hard.bodies.nodes[first..].iter_mut().for_each(|[_, y]| *y -= 0.03);
+        hard.bodies.nodes[first..].iter_mut().for_each(|[_, y]| *y -= 0.01);
         let why = hard.solve().expect_err("nothing holds it");
         assert!(overlaps(&why) && why.exit_status() == 4, "{seed}: {why}");
     }

@@ -25,7 +25,7 @@ const FACET: f64 = 0.28;
 
 /// The part of a motion along the normals of a surface up to which it slides along itself: what a mesh of a
 /// circle misses.
-const ALONG: f64 = 1e-3;
+const ALONG: f64 = 1e-4;
 
 /// The number of contact nodes up to which a motion is looked for that no contact opposes.
 const MOST: usize = 150;
@@ -156,6 +156,8 @@ pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64
         let turning = motion[2] / motions.size;
         let [mx, my] = motions.middle[b];
         let centre = [mx - motion[1] / turning, my + motion[0] / turning];
+        // Without the rounding of a 0.
+        let centre = centre.map(|x| if x.abs() > ALONG * ALONG * motions.size { x } else { 0.0 });
         let far = |node: NodeId| {
             let [x, y] = model.coordinates(node);
             (x - centre[0]).hypot(y - centre[1])
