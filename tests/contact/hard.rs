@@ -444,8 +444,6 @@ fn numbers_and_lists_change_no_answer() {
             let what = format!("kind {kind}, {seed}");
             match (hard.solve(), hard.written(&writing)) {
                 (Ok(one), Ok(other)) => {
-                    let show = |s: &Solution| s.steps.iter().map(|s| match &s.detail { plane_contact::engine::Detail::Unilateral(u) => format!("{:.5} {} {:e} {}\n", u.load, s.in_contact, s.max_displacement, u.statuses.iter().map(|s| match s { plane_contact::engine::contact::Status::Open => 'o', plane_contact::engine::contact::Status::Stick=>'s', _ => 'f'}).collect::<String>()), _ => String::new()}).collect::<String>();
-                    if (kind, seed) == (0,5) { println!("{:?}\n{}\n{:?}\n{}", one.equilibrium.as_ref().unwrap().path, show(&one), other.equilibrium.as_ref().unwrap().path, show(&other)); }
                     let places = writing.places(one.model.nodes.len()).into_iter().enumerate();
                     let places: Vec<_> =
                         places.map(|(n, place)| [n, place].map(NodeId::new)).collect();

@@ -37,6 +37,8 @@ struct States {
 pub(super) struct TakenStep {
     /// The part of the path at its end.
     pub(super) to: f64,
+    /// Whether no step was taken before it.
+    pub(super) is_first: bool,
     /// The displacements before it, length.
     pub(super) before: DVector<f64>,
     pub(super) config: Configuration,
@@ -85,7 +87,7 @@ pub(super) fn uniqueness(
     let number = states.iter().map(|states| states.number).sum();
     let others = steps.iter().zip(&states);
     let others = others.flat_map(|(step, states)| problem.others(step, &states.worth)).collect();
-    let last_only = steps[0].before.amax() > 0.0;
+    let last_only = !steps[0].is_first;
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 

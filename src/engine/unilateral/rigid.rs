@@ -94,35 +94,47 @@ pub(super) fn escape(
     model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
-/// Returns a node that moves most in a motion of rigid bodies which takes all of their overlap away, where
-/// restraints leave more than one motion: then nothing tells in which of them the bodies come to touch. `gaps`
-/// are those of the pairings, length. None where nothing is known.
+/// A motion of rigid bodies after which nothing overlaps.
+pub(super) struct Release {
+    /// The number of motions that restraints leave: of several, nothing tells how the bodies come to touch.
+    pub(super) motions: usize,
+    /// The displacements by degree of freedom, length.
+    pub(super) u: DVector<f64>,
+}
+
+/// Returns the least motion of rigid bodies in a shape after which nothing overlaps, where a larger one takes them
+/// apart; None where nothing is known. `pairings` have their gaps, length.
 ///
 /// ```text
-///   the least ½ dᵀ d with A d + g ≥ room     d = Aᵀ λ,   the least ½ λᵀ A Aᵀ λ + (g − room)ᵀ λ  over λ ≥ 0
+///   the least ½ dᵀ d with A d + g ≥ 0     d = Aᵀ λ,   the least ½ λᵀ A Aᵀ λ + gᵀ λ  over λ ≥ 0
 /// ```
 ///
 /// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4.
-pub(super) fn releases(model: &Model, pairings: &[(&Pairing, f64)]) -> Option<NodeId> {
-    let motions = RigidMotions::new(model, &model.nodes);
+pub(super) fn release(
+    (model, shape): (&Model, &[[f64; 2]]),
+    pairings: &[(&Pairing, f64)],
+) -> Option<Release> {
+    let motions = RigidMotions::new(model, shape);
     let basis = free_part(&motions.restrained());
-    if basis.ncols() < 2 {
-        return None;
-    }
     let deepest = pairings.iter().map(|(_, gap)| -gap).fold(0.0, f64::max);
+    let opening = |p: &Pairing| basis.tr_mul(&motions.relative(p.node, &p.masters, p.normal));
     let mut near = pairings.to_vec();
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
     near.truncate(MOST);
-    let opening = |p: &Pairing| basis.tr_mul(&motions.relative(p.node, &p.masters, p.normal));
     let opens = DMatrix::from_columns(&near.iter().map(|(p, _)| opening(p)).collect::<Vec<_>>());
-    let gaps = DVector::from_iterator(near.len(), near.iter().map(|(_, gap)| gap - ROOM * deepest));
-    let forces = least(&opens.tr_mul(&opens), &gaps, DVector::zeros(near.len()))?;
-    let motion = opens * forces;
-    let apart = |(p, gap): &(&Pairing, f64)| gap + opening(p).dot(&motion) > 0.0;
-    let all = &basis * &motion;
-    let speed = |node: &NodeId| motions.velocity(*node, &all).iter().map(|v| v * v).sum::<f64>();
-    let nodes = model.bodies.iter().flat_map(|body| body.nodes.iter().copied());
-    pairings.iter().all(apart).then(|| nodes.max_by(|a, b| speed(a).total_cmp(&speed(b))))?
+    let least_beyond = |room: f64| {
+        let gaps = near.iter().map(|(_, gap)| gap - room);
+        let gaps = DVector::from_iterator(near.len(), gaps);
+        let sizes = least(&opens.tr_mul(&opens), &gaps, DVector::zeros(near.len()))?;
+        Some(&opens * sizes)
+    };
+    let beyond = least_beyond(ROOM * deepest)?;
+    if !pairings.iter().all(|(p, gap)| gap + opening(p).dot(&beyond) > 0.0) {
+        return None;
+    }
+    let motion = &basis * least_beyond(0.0)?;
+    let u = model.all_dofs().map(|dof| motions.along(dof).dot(&motion));
+    Some(Release { motions: basis.ncols(), u: DVector::from_iterator(model.dofs(), u) })
 }
 
 /// Returns a body that can turn as a rigid one while its part of some edges, an arc of a circle, slides along
@@ -264,11 +276,6 @@ impl<'a> RigidMotions<'a> {
     ) -> DVector<f64> {
         let target = masters.iter().map(|(master, w)| self.motion(*master, direction) * *w);
         target.fold(self.motion(node, direction), |row, part| row - part)
-    }
-
-    /// Returns the motion of a node in a sum of rigid motions.
-    fn velocity(&self, node: NodeId, motion: &DVector<f64>) -> [f64; 2] {
-        node.dofs().map(|dof| self.along(dof).dot(motion))
     }
 
     /// Returns the component of a node's motion along `direction` in each rigid motion.

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::path::part_of_load;
 use super::problem::{Configuration, Problem};
-use super::rigid;
+use super::rigid::{self, Release};
 use super::search::StateSearch;
 use crate::contact::{BEND, Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
@@ -18,6 +18,9 @@ use problem::modelling::Coupling;
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
+
+/// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
+const RELEASES: usize = 20;
 
 impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
@@ -121,23 +124,42 @@ impl Problem<'_> {
         Some(NoEquilibrium { cause: self.cause(), what })
     }
 
-    /// Checks before any load that the bodies stand in one place: with friction, that what overlaps cannot come
-    /// apart in several ways.
+    /// Returns the displacements with which bodies that overlap, and that contact alone keeps in place, come to
+    /// touch as rigid ones, before any load; None where restraints or other contacts press them together.
     ///
     /// # Errors
-    /// Names a node that can stand in several places.
-    pub(super) fn starts_in_one_place(&self, config: &Configuration) -> Result<(), NoEquilibrium> {
-        let gaps = self.initial_gaps(config);
-        let facing = config.pairings.iter().zip(gaps);
-        let facing: Vec<_> = facing.filter_map(|(p, gap)| p.as_ref().zip(gap)).collect();
-        let Some(node) = rigid::releases(self.model, &facing) else { return Ok(()) };
+    /// They come apart in several ways, and friction would count from each.
+    pub(super) fn released(&self) -> Result<Option<DVector<f64>>, NoEquilibrium> {
+        let mut u = DVector::zeros(self.model.dofs());
+        for _ in 0..RELEASES {
+            let config = self.configuration(&u);
+            let gaps = self.gaps(&config, &u);
+            let facing = config.pairings.iter().zip(gaps);
+            let facing: Vec<_> = facing.filter_map(|(p, gap)| p.as_ref().zip(gap)).collect();
+            if facing.iter().all(|(_, gap)| *gap >= -self.closed) {
+                return Ok(Some(u));
+            }
+            let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
+            match rigid::release((self.model, shape), &facing) {
+                None => return Ok(None),
+                Some(Release { motions: 1, u: more }) => u += more,
+                Some(Release { u, .. }) => return Err(self.starts_anywhere(&u)),
+            }
+        }
+        Ok(None)
+    }
+
+    fn starts_anywhere(&self, motion: &DVector<f64>) -> NoEquilibrium {
         let what = format!(
             "the start is not determined: before any load bodies overlap that contact alone holds, as at {}; \
              they come apart in many ways, in each of which nothing presses, and friction counts from \
              there; restrain the body until one motion at most is free, or move it until it touches",
-            self.named(node)
+            self.model
+                .all_dofs()
+                .nth(motion.iamax())
+                .map_or(String::new(), |dof| self.named(dof.node()))
         );
-        Err(NoEquilibrium { cause: Cause::Several, what })
+        NoEquilibrium { cause: Cause::Several, what }
     }
 
     /// Checks that without friction no round body can turn in its place, whatever the load.
