@@ -56,7 +56,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     km: Option<PathBuf>,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
-    /// largest.
+    /// largest: from f64 on, as f32 is slower.
     #[arg(long, value_name = "A",
         conflicts_with_all = ["scalar", "solver", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,

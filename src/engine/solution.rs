@@ -392,6 +392,10 @@ pub struct Equilibrium {
     /// model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
+    /// The height of the arcs over the edges of curved surfaces, and the deepest overlap or the least gap before
+    /// any load, length; None where this is larger than twice that height.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,

@@ -38,26 +38,15 @@ pub(super) fn complementary(
         return Some(vec![false; n]);
     }
     let mut entering = z0;
-    for _k in 0..PATIENCE * n {
+    for _ in 0..PATIENCE * n {
         pivot(&mut tableau, row, entering);
         let leaving = std::mem::replace(&mut basis[row], entering);
         if leaving == z0 {
             return Some((n..2 * n).map(|z| basis.contains(&z)).collect());
         }
         entering = (leaving + n) % z0;
-        row = match first_at_zero(&tableau, &basis, entering, FLAT * m.amax()) {
-            Some(r) => r,
-            None => {
-                eprintln!(
-                    "RAY after {_k} of {n}, rhs max {} col max {}",
-                    tableau.column(z0 + 1).amax(),
-                    tableau.column(entering).max()
-                );
-                return None;
-            }
-        };
+        row = first_at_zero(&tableau, &basis, entering, FLAT * m.amax())?;
     }
-    eprintln!("PATIENCE {n}");
     None
 }
 

@@ -288,6 +288,18 @@ impl<'a> Problem<'a> {
         self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
+    /// Returns the height of the arcs over the edges of curved surfaces, and the deepest overlap, or the least
+    /// gap, before any load, where this is not larger than twice that height, length; None where it is, and
+    /// where the surfaces touch.
+    pub(super) fn coarse_facets(&self) -> Option<[f64; 2]> {
+        let height = self.surfaces.facet_height(&self.model.nodes);
+        let start = self.configuration(&DVector::zeros(self.model.dofs()));
+        let gaps = self.initial_gaps(&start).into_iter().flatten();
+        let least = gaps.reduce(f64::min)?.abs();
+        // Nodes of one surface stand over the edges of the other: up to a height nearer than its arc.
+        (self.closed < least && least <= 2.0 * height).then_some([height, least])
+    }
+
     /// Returns the target node that lies deepest inside the contact surface, under node to segment, and the
     /// contact node that lies deepest inside the target's body in the shape reached, whatever edges it faces,
     /// each with its depth, length; None where none lies deeper than [`UNSEEN`].

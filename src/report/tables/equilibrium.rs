@@ -30,12 +30,21 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
             length(depth)
         )
     });
+    let facets = found.facets.map(|[height, least]| {
+        format!(
+            "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the surfaces \
+             overlap by, or are apart by, {}: what is below the height of a facet is the mesh's own, and no \
+             error estimate counts it; refine the surfaces, or place nodes opposite nodes",
+            length(height),
+            length(least)
+        )
+    });
     let geometry = (found.shape_change > 0.0).then(|| {
         let change = length(found.shape_change);
         format!("Geometry: its last update changed no displacement component by more than {change}")
     });
     let nearest = found.nearest.as_ref().map(nearest_decision);
-    let lines = [nearest, springs, unseen, inside, geometry].into_iter().flatten();
+    let lines = [nearest, springs, unseen, inside, facets, geometry].into_iter().flatten();
     lines.fold(uniqueness(solution, &found.uniqueness), Report::line)
 }
 

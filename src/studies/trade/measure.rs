@@ -182,7 +182,10 @@ impl Bench<'_> {
     fn section(&self, parameter: Varied) -> Section {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
-        mark_front(&mut rows);
+        mark_front(&mut rows, |place| {
+            let times = self.runs[place].seconds.iter().copied();
+            [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)]
+        });
         let orders = if parameter == Varied::Mesh { self.orders() } else { Vec::new() };
         Section { parameter, against: parameter.against(), rows, orders, claims: Vec::new() }
     }
@@ -287,20 +290,39 @@ fn median(times: &[f64]) -> f64 {
     (times[low] + times[high]) / 2.0
 }
 
-/// Marks the rows that no other is quicker and nearer than.
-fn mark_front(rows: &mut [Row]) {
-    let place = |row: &Row| row.seconds.zip(row.error).map(|(time, e)| [time, e.displacement]);
-    let (at, points): (Vec<usize>, Vec<[f64; 2]>) =
-        rows.iter().enumerate().filter_map(|(k, row)| Some((k, place(row)?))).unzip();
+/// Marks the rows that no other is quicker and nearer than, from the times of each one's runs.
+fn mark_front(rows: &mut [Row], times: impl Fn(usize) -> [f64; 2]) {
+    let place = |row: &Row| row.seconds.and(row.error).map(|e| e.displacement);
+    let (at, points): (Vec<usize>, Vec<Point>) = rows
+        .iter()
+        .enumerate()
+        .filter_map(|(k, row)| Some((k, Point { seconds: times(k), error: place(row)? })))
+        .unzip();
     for (k, front) in at.into_iter().zip(pareto(&points)) {
         rows[k].pareto = front;
     }
 }
 
-/// Whether each point of (time, error) is on the Pareto front: no other is better in one and at
-/// least as good in the other.
-pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
-    let beats =
-        |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && (a[0] < b[0] || a[1] < b[1]);
+/// What a run costs, and how far it is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// The least and the greatest time of its repetitions, seconds.
+    pub seconds: [f64; 2],
+    /// The difference of a displacement over the largest displacement.
+    pub error: f64,
+}
+
+/// Whether each point is on the Pareto front: no other is better in one and at least as good in the other, as far
+/// as noise tells: times of which the ranges meet are equal, and so are errors by rounding, below 1e-9, that are
+/// less than ten times each other.
+pub fn pareto(points: &[Point]) -> Vec<bool> {
+    const ROUNDING: f64 = 1e-9;
+    let quicker = |a: &Point, b: &Point| a.seconds[1] < b.seconds[0];
+    let nearer = |a: &Point, b: &Point| {
+        let noise = if b.error < ROUNDING { 0.1 } else { 1.0 };
+        a.error < noise * b.error
+    };
+    let better = |a: &Point, b: &Point| quicker(a, b) || nearer(a, b);
+    let beats = |a: &Point, b: &Point| better(a, b) && !better(b, a);
     points.iter().map(|b| !points.iter().any(|a| beats(a, b))).collect()
 }
