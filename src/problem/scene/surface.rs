@@ -19,6 +19,16 @@ pub enum Surface {
     Numbers(Vec<usize>),
 }
 
+impl Surface {
+    /// Returns the numbers of a list; none of a group.
+    pub(super) fn numbers(&mut self) -> &mut [usize] {
+        match self {
+            Surface::Group(_) => &mut [],
+            Surface::Numbers(numbers) => numbers,
+        }
+    }
+}
+
 impl From<&str> for Surface {
     fn from(name: &str) -> Self {
         Surface::Group(name.into())
