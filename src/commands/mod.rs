@@ -112,7 +112,7 @@ pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
     if !is_unlike {
         return;
     }
-    let group = std::env::args()
+    let group = std::env::args_os()
         .skip(1)
         .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
     let names = group.get_subcommands().map(clap::Command::get_name);

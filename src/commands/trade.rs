@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
+use plane_contact::child;
 use plane_contact::engine::error::Result;
 use plane_contact::engine::{Request, solve};
 use plane_contact::error::InputError;
@@ -92,13 +93,16 @@ pub fn run(args: &Args) -> Result<()> {
     args.tables.print(report)
 }
 
+/// The bytes that a process which measures its memory may print.
+const PRINTED: u64 = 1 << 16;
+
 /// The peak memory of a process that runs nothing but `trial`: this command again, with one more
 /// option.
 fn in_a_process(trial: &Trial) -> Option<u64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(std::env::args_os().skip(1)).arg(format!("--peak-of={}", trial.name()));
-    let output = command.output().ok()?;
-    std::str::from_utf8(&output.stdout).ok()?.trim().parse().ok()
+    let (_, printed) = child::start(command).and_then(|running| running.end(PRINTED)).ok()?;
+    std::str::from_utf8(&printed).ok()?.trim().parse().ok()
 }
 
 fn peak_of(request: &Request, name: &str) -> Result<()> {

@@ -124,7 +124,7 @@ impl<'l> Runner<'l> {
             limits,
             cells: values.iter().map(cell).collect(),
             functions,
-            observer,
+            observer: &mut *observer,
             line: 0,
             spent,
             stored: 0,
@@ -132,7 +132,9 @@ impl<'l> Runner<'l> {
             last: None,
             trace: vec![],
         };
-        run.run(arguments)?.outcome()
+        let outcome = run.run(arguments).and_then(Run::outcome);
+        observer.end(spent.get());
+        outcome
     }
 }
 

@@ -49,7 +49,14 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<u8> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
-    let checked = check(&args.files, snapshots.collect(), scene.as_ref());
+    let snapshots = snapshots.collect();
+    let written = [&args.junit, &args.report].into_iter().flatten();
+    written.clone().try_for_each(|file| files::check_file(file))?;
+    if args.junit.is_some() && args.junit == args.report {
+        let what = "both --junit and --report write this file";
+        return Err(InputError::new("--report", what, "name another file").into());
+    }
+    let checked = check(&args.files, snapshots, scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }

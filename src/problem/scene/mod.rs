@@ -11,6 +11,7 @@ mod check;
 mod description;
 mod embedded;
 pub mod file;
+mod fold;
 pub mod gmsh;
 mod groups;
 mod hashes;
@@ -160,6 +161,7 @@ impl Scene {
             restrained,
             dropped,
         };
+        fold::check(&mesh, &model)?;
         check::restrained_bodies(&model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
