@@ -57,10 +57,11 @@ fn summary(regions: &[ExecutedRegion]) -> String {
     let digits = count(&|v| matches!(v, Verdict::Digits(_)));
     let failures = count(&|v| matches!(v, Verdict::SameFailure { .. }));
     let differ = count(&|v| matches!(v, Verdict::Differs { .. }));
+    let fail = count(&|v| matches!(v, Verdict::Fails(_)));
     let unsupported = count(&|v| matches!(v, Verdict::Unsupported(_)));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
-         both, {differ} differ, {unsupported} regions unsupported"
+         both, {differ} differ, {fail} regions fail here alone, {unsupported} are unsupported"
     )
 }
 
