@@ -157,7 +157,9 @@ pub fn corrected(export: &CorrectedExport) -> String {
 /// begins with a function is no script.
 fn head(title: &str, about: &str) -> String {
     let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
-    format!("% {title}\n% {about}\n% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n")
+    format!(
+        "% {title}\n% {about}\n% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
+    )
 }
 
 fn elasticity(plane: Plane) -> &'static str {
