@@ -13,7 +13,6 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
 use plane_contact::studies::audit::range::{Range, range};
-use plane_contact::studies::trade::{Section, geometry};
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
@@ -26,13 +25,6 @@ pub static RANGE: LazyLock<Range> =
 /// The claims on the paper's example over the range.
 pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
     LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
-
-/// What `trade` says of the range.
-pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
-    // Its runs are made once, by one test: see `Case::prepare`.
-    LazyLock::force(&JUDGED);
-    geometry(&open("strand"), &RANGE, &|_| ())
-});
 
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
@@ -80,7 +72,7 @@ fn the_change_by_c_tol_is_that_of_trade() {
 #[test]
 fn verdicts_on_runs_name_the_error_of_the_mesh() {
     for judged in &*JUDGED {
-        assert_eq!(judged.mesh_error.is_some(), judged.claim.basis == Basis::Runs);
+        assert_eq!(!judged.measured.mesh_errors.is_empty(), judged.claim.basis == Basis::Runs, "{}", judged.claim.id);
     }
 }
 

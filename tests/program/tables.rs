@@ -75,9 +75,9 @@ fn thousands(number: usize) -> String {
 #[test]
 fn prices() {
     let alone =
-        Compared::new(&Request::new(&STRAND)).expect("strand has a solution").prices(&|| ());
+        Compared::new(&Case::new(STRAND.clone())).expect("strand has a solution").prices(&|| ());
     let fig1 = Scene::open("fig1").expect("an embedded scene");
-    let repairs = Compared::new(&Request::new(&fig1)).expect("fig1 has a solution").repairs(&|| ());
+    let repairs = Compared::new(&Case::new(fig1)).expect("fig1 has a solution").repairs(&|| ());
     for price in &alone {
         let is_free = [None, Some("C7"), Some("C12"), Some("K4")].contains(&price.finding);
         assert!(price.outcome.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
@@ -92,6 +92,7 @@ fn prices() {
             von_mises_relative,
             period,
             passes_nothing: _,
+            equilibrium_relative: _,
         } => {
             let settled = match period {
                 Some(1) => String::new(),
@@ -317,7 +318,7 @@ fn settings() {
     let request = Request::new(&STRAND).arithmetic(arithmetic);
     let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
     let options = trade::Options { runs: 1, only };
-    let trade = trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured");
+    let trade = trade::measure(&request, &options, |_| ()).expect("it is measured");
     let rows = trade.sections.iter().flat_map(|section| {
         section.rows.iter().map(move |row| {
             let [error, change] = [&row.error, &row.change].map(|errors| {

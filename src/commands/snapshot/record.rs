@@ -10,7 +10,7 @@ use plane_contact::files;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
-use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
+use plane_contact::studies::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
 
 use crate::commands::arithmetic::ArithmeticArgs;
 use crate::commands::{ModelArgs, ReadingArg, print_report, waiting};
@@ -45,9 +45,9 @@ pub struct Args {
     #[command(flatten)]
     reading: ReadingArg,
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(FIELDS), help = format!(
+        value_parser = PossibleValuesParser::new(FIELDS.map(Quantity::name)), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
-        FIELDS.join(", ")
+        FIELDS.map(Quantity::name).join(", ")
     ))]
     only: Vec<String>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].

@@ -39,13 +39,11 @@ impl Search {
         Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
     }
 
-    /// A node above a level edge, then a sloping one, by the tolerance or by the next number to it.
-    pub fn at_tolerance(case: f64) -> Search {
-        let (case, c_tll) = (case as usize, 1e-3);
-        let (b, height) = if case < 3 { ([2.0, 0.0], 0.0) } else { ([3.0, 1.0], 0.7 / 3.0) };
-        let y: f64 = height + c_tll;
-        let y = [y.next_down(), y, y.next_up()][case % 3];
-        Search { a: [0.0, 0.0], b, n: [0.7, y], moved: [[0.0; 2]; 3], c_tll }
+    /// A node above a sloping edge, its gap longer than the tolerance by `excess` of it.
+    pub fn at_tolerance(excess: f64) -> Search {
+        let c_tll = 1e-3;
+        let n = [0.7, 0.7 / 3.0 + c_tll * (1.0 + excess)];
+        Search { a: [0.0, 0.0], b: [3.0, 1.0], n, moved: [[0.0; 2]; 3], c_tll }
     }
 
     /// What `c_cnt` finds of the node: `yt`, and whether it is in contact.

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::changes::{Change, Side, changes};
 use super::compare::{Difference, compare};
 use super::first::{First, first};
-use super::place::iteration;
 use super::record::{Bounds, record};
+use super::{Entry, Quantity};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
 use engine::Request;
@@ -127,7 +127,7 @@ fn verify_run(
     // Equal bits need no bounds, which take another run.
     let run = rerun(Bounds::LeftOut)?;
     let (differences, compared) = compare(old, &run);
-    let has_bits = |(name, was): (&String, &Numbers)| {
+    let has_bits = |(name, was): (&Entry, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
@@ -173,7 +173,7 @@ fn decided_by_rounding(
 ) -> Result<Option<usize>> {
     let Some(first) = first_iteration(differences) else { return Ok(None) };
     if run.options.variant != Some(Variant::Unilateral)
-        || !differences.iter().all(|d| is_of_path(&d.entry, first))
+        || !differences.iter().all(|d| is_of_path(d.entry, first))
     {
         return Ok(None);
     }
@@ -189,16 +189,16 @@ fn decided_by_rounding(
 /// Returns a run without its path from iteration `first` on.
 fn without_path(run: &Run, first: usize) -> Run {
     let mut run = run.clone();
-    run.facts.retain(|name, _| !is_of_path(name, first));
-    run.numbers.retain(|name, _| !is_of_path(name, first));
+    run.facts.retain(|name, _| !is_of_path(*name, first));
+    run.numbers.retain(|name, _| !is_of_path(*name, first));
     run
 }
 
-fn is_of_path(entry: &str, first: usize) -> bool {
-    entry == "iterations" || iteration(entry).is_some_and(|(k, _)| k >= first)
+fn is_of_path(entry: Entry, first: usize) -> bool {
+    entry == Quantity::Iterations.into() || entry.iteration.is_some_and(|k| k >= first)
 }
 
 /// Returns the first iteration of which something differs; None where nothing does.
 fn first_iteration(differences: &[Difference]) -> Option<usize> {
-    differences.iter().filter_map(|d| Some(iteration(&d.entry)?.0)).min()
+    differences.iter().filter_map(|d| d.entry.iteration).min()
 }
