@@ -163,7 +163,7 @@ pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cau
 /// Returns the cross product of two columns of three numbers.
 pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
     let three = |value| match value {
-        &Value::Array(ref array) if value.size() == (3, 1) => Ok(array.entries()),
+        Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
         other => Err(kind("a column of three numbers", other)),
     };
     let (a, b) = (three(a)?, three(b)?);

@@ -72,7 +72,12 @@ fn the_change_by_c_tol_is_that_of_trade() {
 #[test]
 fn verdicts_on_runs_name_the_error_of_the_mesh() {
     for judged in &*JUDGED {
-        assert_eq!(!judged.measured.mesh_errors.is_empty(), judged.claim.basis == Basis::Runs, "{}", judged.claim.id);
+        assert_eq!(
+            !judged.measured.mesh_errors.is_empty(),
+            judged.claim.basis == Basis::Runs,
+            "{}",
+            judged.claim.id
+        );
     }
 }
 
