@@ -149,9 +149,8 @@ fn entry(judged: &JudgedClaim) -> Report {
 
 /// Says the error of the mesh in each run that was measured.
 fn error_of_the_mesh(errors: &[MeshError]) -> Option<String> {
-    let each = errors.iter().map(|MeshError { run, energy_relative, diverges }| {
-        let limit = if *diverges { " (more where the stress diverges)" } else { "" };
-        format!("{run} {}{limit}", or_dash(*energy_relative, |error| percent(error, 1)))
+    let each = errors.iter().map(|MeshError { run, energy_relative }| {
+        format!("{run} {}", or_dash(*energy_relative, |error| percent(error, 1)))
     });
     (!errors.is_empty()).then(|| {
         format!(

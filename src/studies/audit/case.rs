@@ -7,13 +7,16 @@ use rayon::prelude::*;
 use base::error::InputError;
 use base::limits;
 use engine::error::Error;
-use engine::estimates::equivalent;
-use engine::{Request, Solution, solve};
+use engine::estimates::{equivalent, moves};
+use engine::{Request, Solution, distance, last_under_each_load, solve};
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
 use problem::model::Model;
-use problem::modelling::Variant;
+use problem::modelling::{ContactModel, Friction, Variant};
 use problem::scene::Scene;
+
+/// The relative distance from the least coefficient of friction at which two runs confirm it.
+const BESIDE: f64 = 1e-3;
 
 /// A scene under audit. Runs are made when they are first asked for, once.
 pub struct Case {
@@ -22,11 +25,20 @@ pub struct Case {
     base: Request,
     /// The scene's model under the reading.
     model: Arc<Model>,
-    runs: [OnceLock<Result<Solution, Error>>; Variant::ALL.len()],
+    runs: [OnceLock<Result<Solution, Error>>; Variant::OF_THE_PAPER.len()],
     finer: OnceLock<Result<Solution, Error>>,
+    unilateral: Arc<Unilateral>,
+    equivalents: OnceLock<Vec<Case>>,
+}
+
+/// The runs of `unilateral`, which no reading changes but by the model.
+#[derive(Default)]
+struct Unilateral {
+    run: OnceLock<Result<Solution, Error>>,
+    sticking: OnceLock<Result<Solution, Error>>,
+    least_friction: OnceLock<bool>,
     reference: OnceLock<Option<Solution>>,
     equilibrium: OnceLock<Option<Solution>>,
-    equivalents: OnceLock<Vec<Case>>,
 }
 
 impl Case {
@@ -59,8 +71,7 @@ impl Case {
             base,
             runs: Default::default(),
             finer: OnceLock::new(),
-            reference: OnceLock::new(),
-            equilibrium: OnceLock::new(),
+            unilateral: Arc::default(),
             equivalents: OnceLock::new(),
         })
     }
@@ -80,14 +91,29 @@ impl Case {
     /// # Errors
     /// The plane problem of R6 does not allow a Poisson's ratio.
     pub fn under(&self, reading: Reading) -> Result<Self, InputError> {
-        Case::from_request(self.base.clone().reading(reading))
+        self.changed(&|base| base.reading(reading))
     }
 
     /// The case of the same request with another variant as the scene's own.
     pub fn with_variant(&self, variant: Variant) -> Self {
-        let mut base = self.base.clone();
-        base.scene.variant = variant;
-        Case::from_request(base).expect("the reading allows the model")
+        let changed = self.changed(&|mut base| {
+            base.scene.variant = variant;
+            base
+        });
+        changed.expect("the reading allows the model")
+    }
+
+    /// The case of a changed request, with the runs of `unilateral` where it leaves the model as it is.
+    fn changed(&self, change: &dyn Fn(Request) -> Request) -> Result<Self, InputError> {
+        let mut changed = Case::from_request(change(self.base.clone()))?;
+        if Arc::ptr_eq(&changed.model, &self.model) {
+            changed.unilateral = Arc::clone(&self.unilateral);
+        }
+        if let Some(equivalents) = self.equivalents.get() {
+            let changed_too = equivalents.iter().map(|case| case.changed(change));
+            changed.equivalents = OnceLock::from(changed_too.collect::<Result<Vec<_>, _>>()?);
+        }
+        Ok(changed)
     }
 
     /// What is asked for.
@@ -101,7 +127,50 @@ impl Case {
     /// The run fails.
     pub fn run(&self, variant: Variant) -> Result<&Solution, &Error> {
         let run = || solve(&self.request(variant), &mut |_| ());
-        self.runs[variant_index(variant)].get_or_init(run).as_ref()
+        let of_the_paper = Variant::OF_THE_PAPER.iter().position(|other| *other == variant);
+        of_the_paper.map_or(&self.unilateral.run, |k| &self.runs[k]).get_or_init(run).as_ref()
+    }
+
+    /// The run of `unilateral` in which no node slides.
+    ///
+    /// # Errors
+    /// The run fails.
+    pub fn sticking(&self) -> Result<&Solution, &Error> {
+        if self.request(Variant::Unilateral).contact.friction == Friction::STICK {
+            return self.run(Variant::Unilateral);
+        }
+        self.unilateral.sticking.get_or_init(|| self.rubbing(Friction::STICK)).as_ref()
+    }
+
+    /// `unilateral` under a coefficient of friction.
+    fn rubbing(&self, friction: Friction) -> Result<Solution, Error> {
+        let request = self.request(Variant::Unilateral);
+        let contact = ContactModel { friction, ..request.contact };
+        solve(&request.contact(contact), &mut |_| ())
+    }
+
+    /// The largest friction coefficient that a node in contact needs on the path of the load, where none slides.
+    pub fn friction_needed(&self) -> Option<f64> {
+        let sticking = self.sticking().ok()?;
+        let ends = last_under_each_load(&sticking.steps).into_iter();
+        let needed = ends.filter_map(|end| sticking.steps[end].unilateral()?.friction_needed);
+        needed.reduce(f64::max)
+    }
+
+    /// Whether that coefficient is the least under which no node slides, by a run on either side.
+    pub fn is_least_friction(&self) -> bool {
+        let (Some(least), Ok(sticking)) = (self.friction_needed(), self.sticking()) else {
+            return false;
+        };
+        let sticks = |part: f64| {
+            let friction = Friction::new(part * least).expect("a coefficient that is not negative");
+            let run = self.rubbing(friction).ok();
+            let apart = run.map(|run| distance(&run, sticking).displacement_relative);
+            !moves(apart, Some(0.0), 1.0)
+        };
+        let is_none = !moves(Some(least), Some(0.0), 1.0);
+        let is_least = || sticks(1.0 + BESIDE) && (is_none || !sticks(1.0 - BESIDE));
+        *self.unilateral.least_friction.get_or_init(is_least)
     }
 
     /// The run of the scene's variant of the paper with a thousandth of its c_tll; or why there is none.
@@ -132,16 +201,17 @@ impl Case {
             Variant::ALL.par_iter().for_each(|variant| {
                 let _ = case.run(*variant);
             });
-            // The equilibrium may be one of those runs.
-            case.model().target().map(|_| (case.finer(), case.equilibrium()));
+            // The others may be one of those runs.
+            case.model().target().map(|_| (case.finer(), case.equilibrium(), case.sticking()));
         });
+        self.model().target().map(|_| self.is_least_friction());
     }
 
     /// The reference solution; nothing without contact, and where it does not run.
     pub fn reference(&self) -> Option<&Solution> {
         self.model().target()?;
         let run = || solve(&self.base.reference(), &mut |_| ()).ok();
-        self.reference.get_or_init(run).as_ref()
+        self.unilateral.reference.get_or_init(run).as_ref()
     }
 
     /// The equilibrium under the scene's own friction, which variants are measured against; nothing
@@ -152,7 +222,7 @@ impl Case {
             return self.run(Variant::Unilateral).ok();
         }
         let run = || solve(&self.base.equilibrium(), &mut |_| ()).ok();
-        self.equilibrium.get_or_init(run).as_ref()
+        self.unilateral.equilibrium.get_or_init(run).as_ref()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

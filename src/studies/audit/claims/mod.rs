@@ -25,7 +25,7 @@ use base::choices;
 use base::error::InputError;
 use engine::Solution;
 use engine::estimates::discretisation::Discretisation;
-use engine::estimates::{moves, singular};
+use engine::estimates::moves;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
@@ -73,6 +73,8 @@ enum Measure {
     Finding(&'static str, Verdict, &'static str),
     /// By an experiment on a scene.
     Scene(fn(&Case) -> Outcome<'_>),
+    /// By an experiment on a scene, which more runs confirm.
+    Confirmed(fn(&Case) -> Outcome<'_>, fn(&Case, Evidence) -> Evidence),
     /// By nothing, for this reason.
     Nothing(&'static str),
 }
@@ -156,8 +158,6 @@ pub struct MeshError {
     pub run: String,
     /// The estimate of the error in the energy norm, relative; nothing where there is none.
     pub energy_relative: Option<f64>,
-    /// Whether the stress diverges somewhere as the mesh is refined.
-    pub diverges: bool,
 }
 
 impl Evidence {
@@ -172,7 +172,6 @@ impl Evidence {
             energy_relative: Some(Discretisation::new(&solution.model, &solution.elements))
                 .map(|estimate| estimate.relative())
                 .filter(|error| error.is_finite()),
-            diverges: !singular(solution).is_empty(),
         };
         self.mesh_errors = runs.into_iter().map(error).collect();
         self
@@ -252,6 +251,7 @@ pub struct ClaimVerdict {
 /// Judges claims under each other value of a reading that `--reading` offers, and with each other variant
 /// of the paper as the scene's own.
 pub fn by_reading(claims: &[Claim], case: &Case) -> Vec<UnderReading> {
+    case.prepare();
     let readings = others(case).into_iter().filter(|(row, _)| row.is_option());
     let readings = readings.map(|(row, (value, reading))| (row.label(value), case.under(reading)));
     let variants = Variant::OF_THE_PAPER.iter().filter(|v| **v != case.published_variant());
@@ -285,14 +285,8 @@ impl Claim {
             Measure::Finding(id, verdict, words) => {
                 by_finding(id, verdict, Some(words), *case.reading())
             }
-            Measure::Scene(measure) => {
-                let on = |case| {
-                    measure(case).unwrap_or_else(|why| {
-                        not_checkable(why.to_string().lines().next().unwrap_or_default())
-                    })
-                };
-                on(case).repeated(case.equivalents().iter().map(on))
-            }
+            Measure::Scene(measure) => on_scene(case, measure),
+            Measure::Confirmed(measure, confirmed) => confirmed(case, on_scene(case, measure)),
             Measure::Nothing(reason) => not_checkable(reason),
         }
     }
@@ -337,6 +331,17 @@ impl Claim {
         let place = measured.variant.map_or(0, variant_index).to_string();
         self.at.iter().map(|pointer| pointer.replace("VARIANT", &place)).collect()
     }
+}
+
+/// Measures on a scene, and on the inputs that mean the same.
+fn on_scene(case: &Case, measure: fn(&Case) -> Outcome<'_>) -> Evidence {
+    let on = |case| {
+        measure(case).unwrap_or_else(|why| {
+            let why = why.to_string();
+            Evidence::new(Verdict::NotCheckable, None, why.lines().next().unwrap_or_default())
+        })
+    };
+    on(case).repeated(case.equivalents().iter().map(on))
 }
 
 /// Judges a claim by a finding on the finding's own scene under a reading; without words the finding's

@@ -42,7 +42,7 @@ pub const CLAIMS: &[Claim] = &[
         number: "largest shear over pressure of a node in contact on the path of unilateral, sticking",
         command: &["audit", "SCENE", "--claim", "P2", "--json"],
         at: &["/number"],
-        measure: Measure::Scene(measures::friction_needed),
+        measure: Measure::Confirmed(measures::friction_needed, measures::confirmed),
     },
     Claim {
         id: "P3",
@@ -70,7 +70,7 @@ pub const CLAIMS: &[Claim] = &[
                     together; that the weights take initial ones is finding C6",
         threshold: COUNT,
         basis: Basis::Listing,
-        number: "contact nodes that find another edge then, on the scene of finding C6",
+        number: "contact nodes that find another edge then, on the scene of finding C7",
         command: &["audit", "--claim", "P4", "--json"],
         at: &["/number"],
         measure: Measure::Scene(measures::searches_current),
