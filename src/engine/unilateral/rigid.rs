@@ -18,6 +18,11 @@ const OPPOSED: f64 = 1e-9;
 /// The gap, over the deepest overlap, beyond which bodies are apart.
 const ROOM: f64 = 1e-3;
 
+/// The load, over the one that moves bodies by their deepest overlap on springs, and the motion over that overlap
+/// beyond which nothing holds them.
+const VANISHING: f64 = 1e-6;
+const FAR: f64 = 1e4;
+
 /// The number of edges that make an arc, and half an edge over the radius up to which it is a facet of one: of
 /// a circle of twelve edges, and no body's corner.
 const ARC: usize = 3;
@@ -72,8 +77,7 @@ pub(super) fn escape(
     if basis.ncols() == 0 || gaps.len() > MOST {
         return None;
     }
-    let work = |dof: Dof| motions.along(dof) * load[dof.index()];
-    let f = basis.tr_mul(&model.all_dofs().map(work).sum::<DVector<f64>>());
+    let f = basis.tr_mul(&motions.work_of(load));
     let forces = gaps.iter().flat_map(|pairing| {
         let of_force = |force| motions.relative(pairing.node, &pairing.masters, force);
         extreme_forces(pairing, friction(pairing)).into_iter().map(of_force).collect::<Vec<_>>()
@@ -94,25 +98,30 @@ pub(super) fn escape(
     model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
-/// A motion of rigid bodies after which nothing overlaps.
-pub(super) struct Release {
-    /// The number of motions that restraints leave: of several, nothing tells how the bodies come to touch.
-    pub(super) motions: usize,
-    /// The displacements by degree of freedom, length.
-    pub(super) u: DVector<f64>,
+/// Where rigid bodies that overlap come to touch, by the displacements of each degree of freedom, length.
+pub(super) enum Release {
+    /// In one place: in that to which a vanishing load brings them without friction, or by their only motion.
+    There(DVector<f64>),
+    /// In no place more than in another one.
+    Anywhere(DVector<f64>),
 }
 
-/// Returns the least motion of rigid bodies in a shape after which nothing overlaps, where a larger one takes them
-/// apart; None where nothing is known. `pairings` have their gaps, length.
+/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, where they can
+/// come apart; None where they cannot, and where nothing is known. `pairings` have their gaps, length.
 ///
 /// ```text
-///   the least ½ dᵀ d with A d + g ≥ 0     d = Aᵀ λ,   the least ½ λᵀ A Aᵀ λ + gᵀ λ  over λ ≥ 0
+///   the least ½ ε dᵀ d − fᵀ d with A d + g ≥ 0
+///     ε d = f + Aᵀ λ,   the least ½ λᵀ A Aᵀ λ + (A f + ε g)ᵀ λ  over λ ≥ 0
 /// ```
 ///
-/// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4.
+/// f is the load in the free motions, of unit length. Without it d is the least motion.
+///
+/// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4; O. L. Mangasarian,
+/// R. R. Meyer, SIAM J. Control Optim. 17 (1979) 745-752 (a small ε leaves the solution exact).
 pub(super) fn release(
     (model, shape): (&Model, &[[f64; 2]]),
     pairings: &[(&Pairing, f64)],
+    load: &DVector<f64>,
 ) -> Option<Release> {
     let motions = RigidMotions::new(model, shape);
     let basis = free_part(&motions.restrained());
@@ -122,19 +131,32 @@ pub(super) fn release(
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
     near.truncate(MOST);
     let opens = DMatrix::from_columns(&near.iter().map(|(p, _)| opening(p)).collect::<Vec<_>>());
-    let least_beyond = |room: f64| {
-        let gaps = near.iter().map(|(_, gap)| gap - room);
-        let gaps = DVector::from_iterator(near.len(), gaps);
-        let sizes = least(&opens.tr_mul(&opens), &gaps, DVector::zeros(near.len()))?;
-        Some(&opens * sizes)
+    let least_under = |f: &DVector<f64>, weight: f64, room: f64| {
+        let gaps = near.iter().map(|(_, gap)| weight * (gap - room));
+        let right = opens.tr_mul(f) + DVector::from_iterator(near.len(), gaps);
+        let forces = least(&opens.tr_mul(&opens), &right, DVector::zeros(near.len()))?;
+        Some((f + &opens * forces) / weight)
     };
-    let beyond = least_beyond(ROOM * deepest)?;
-    if !pairings.iter().all(|(p, gap)| gap + opening(p).dot(&beyond) > 0.0) {
+    let none = DVector::zeros(basis.ncols());
+    let apart = least_under(&none, 1.0, ROOM * deepest)?;
+    if !pairings.iter().all(|(p, gap)| gap + opening(p).dot(&apart) > 0.0) {
         return None;
     }
-    let motion = &basis * least_beyond(0.0)?;
-    let u = model.all_dofs().map(|dof| motions.along(dof).dot(&motion));
-    Some(Release { motions: basis.ncols(), u: DVector::from_iterator(model.dofs(), u) })
+    let in_all = |motion: DVector<f64>| {
+        let motion = &basis * motion;
+        let u = model.all_dofs().map(|dof| motions.along(dof).dot(&motion));
+        DVector::from_iterator(model.dofs(), u)
+    };
+    let f = basis.tr_mul(&motions.work_of(load));
+    let under_load = (f.norm() > OPPOSED * load.amax())
+        .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
+        .flatten()
+        .filter(|motion| motion.norm() <= FAR * deepest);
+    Some(match under_load {
+        Some(motion) => Release::There(in_all(motion)),
+        None if basis.ncols() == 1 => Release::There(in_all(least_under(&none, 1.0, 0.0)?)),
+        None => Release::Anywhere(in_all(apart)),
+    })
 }
 
 /// Returns a body that can turn as a rigid one while its part of some edges, an arc of a circle, slides along
@@ -259,6 +281,11 @@ impl<'a> RigidMotions<'a> {
             gram += &row * row.transpose();
         }
         gram
+    }
+
+    /// Returns the work of a load in each rigid motion.
+    fn work_of(&self, load: &DVector<f64>) -> DVector<f64> {
+        self.model.all_dofs().map(|dof| self.along(dof) * load[dof.index()]).sum()
     }
 
     /// Returns a degree of freedom in each rigid motion.

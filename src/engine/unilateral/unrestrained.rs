@@ -128,7 +128,7 @@ impl Problem<'_> {
     /// touch as rigid ones, before any load; None where restraints or other contacts press them together.
     ///
     /// # Errors
-    /// They come apart in several ways, and friction would count from each.
+    /// They come apart in several ways, the load presses them together in none, and friction counts from there.
     pub(super) fn released(&self) -> Result<Option<DVector<f64>>, NoEquilibrium> {
         let mut u = DVector::zeros(self.model.dofs());
         for _ in 0..RELEASES {
@@ -140,10 +140,10 @@ impl Problem<'_> {
                 return Ok(Some(u));
             }
             let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
-            match rigid::release((self.model, shape), &facing) {
+            match rigid::release((self.model, shape), &facing, &self.load(1.0)) {
                 None => return Ok(None),
-                Some(Release { motions: 1, u: more }) => u += more,
-                Some(Release { u, .. }) => return Err(self.starts_anywhere(&u)),
+                Some(Release::There(more)) => u += more,
+                Some(Release::Anywhere(motion)) => return Err(self.starts_anywhere(&motion)),
             }
         }
         Ok(None)
@@ -152,8 +152,8 @@ impl Problem<'_> {
     fn starts_anywhere(&self, motion: &DVector<f64>) -> NoEquilibrium {
         let what = format!(
             "the start is not determined: before any load bodies overlap that contact alone holds, as at {}; \
-             they come apart in many ways, in each of which nothing presses, and friction counts from \
-             there; restrain the body until one motion at most is free, or move it until it touches",
+             they come apart in many ways, the load without friction holds them in none, and friction counts \
+             from there; restrain the body until one motion at most is free, or move it until it touches",
             self.model
                 .all_dofs()
                 .nth(motion.iamax())
