@@ -160,12 +160,16 @@ pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cau
     Ok(places.map(|(i, j)| value.entry(i, j).unwrap_or_else(|| value.clone())).collect())
 }
 
-/// Returns the cross product of two columns of three numbers.
-pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
-    let three = |value| match value {
+/// Returns the entries of a column of three numbers.
+fn three(value: &Value) -> Result<&[f64], Cause> {
+    match value {
         Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
         other => Err(kind("a column of three numbers", other)),
-    };
+    }
+}
+
+/// Returns the cross product of two columns of three numbers.
+pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (a, b) = (three(a)?, three(b)?);
     let entry = |k: usize| {
         let (k, l) = ((k + 1) % 3, (k + 2) % 3);

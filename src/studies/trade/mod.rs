@@ -18,7 +18,7 @@ mod trials;
 
 pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};
 pub use errors::Errors;
-pub use measure::{Options, PATIENCE, Point, measure, pareto, steps};
+pub use measure::{Options, Point, measure, pareto, steps};
 pub use order::Order;
 pub use rows::{Row, Section, Trade};
 pub use trials::{Trial, trials};
