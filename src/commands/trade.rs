@@ -8,6 +8,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::{Request, solve};
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Options, Trial, Varied, peak};
@@ -36,7 +37,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
-    scene: String,
+    scene: PathBuf,
     /// Runs of each trial.
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -89,7 +90,7 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    let report = report::report(&measured).line(format!("Written to {}", out.display()));
+    let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
     args.tables.print(report)
 }
 

@@ -1,6 +1,6 @@
 //! `plane-contact mathcad export`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Request};
@@ -39,7 +39,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
-    scene: String,
+    scene: PathBuf,
     /// mathcad or octave.
     #[arg(long, value_name = "PROGRAM", default_value = "mathcad")]
     to: Target,
@@ -149,7 +149,7 @@ const MOST_NODES: usize = 300;
 
 /// The function that the file is called after.
 fn function_name(args: &Args) -> String {
-    let stem = args.out.as_deref().unwrap_or(Path::new(&args.scene)).file_stem();
+    let stem = args.out.as_deref().unwrap_or(&args.scene).file_stem();
     let stem = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = stem.chars().map(plain).collect();

@@ -7,7 +7,10 @@
 pub mod lesson;
 pub mod report;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 use crate::language::Language;
 use base::xml::escape;
@@ -41,6 +44,8 @@ struct Page<'a> {
 impl Page<'_> {
     fn html(mut self) -> String {
         let script = [&[SCRIPT], self.script].concat().join("\n");
+        let (style, code) =
+            (format!("\n{STYLE}{}", self.style), format!("\n\"use strict\";\n{script}"));
         if let Some(messages) = self.language.messages_of(&script) {
             self.data["messages"] = messages;
         }
@@ -48,18 +53,24 @@ impl Page<'_> {
             "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-             script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n\
+             script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n\
              <link rel=\"icon\" href=\"data:,\">\n\
-             <title>{}</title>\n<style>\n{STYLE}{}</style>\n</head>\n<body>\n{}\
+             <title>{}</title>\n<style>{style}</style>\n</head>\n<body>\n{}\
              <script type=\"application/json\" id=\"data\">{}</script>\n\
-             <script type=\"module\">\n\"use strict\";\n{script}</script>\n</body>\n</html>\n",
+             <script type=\"module\">{code}</script>\n</body>\n</html>\n",
             self.language,
+            source(&code),
+            source(&style),
             escape(self.title),
-            self.style,
             self.body,
             in_script(&self.data),
         )
     }
+}
+
+/// Returns the name by which a policy lets in a script or a style of this text, and no other.
+fn source(text: &str) -> String {
+    format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)))
 }
 
 /// Returns JSON for a place within `<script>`, which `</script>` or `<!--` in a text would end.
