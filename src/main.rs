@@ -4,6 +4,7 @@
 mod commands;
 
 use std::process::ExitCode;
+use std::thread::Builder;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
 use commands::Command;
@@ -51,7 +52,11 @@ struct Cli {
     command: Option<Command>,
 }
 
+/// Bytes of the stack of each thread, whatever the environment (RUST_MIN_STACK) says; the default of Rust.
+const STACK: usize = 1 << 21;
+
 fn main() -> ExitCode {
+    let _ = rayon::ThreadPoolBuilder::new().stack_size(STACK).build_global();
     #[cfg(unix)]
     heed_signals();
     // Every command that prints JSON has this option.
@@ -125,7 +130,8 @@ fn heed_signals() {
         [SIGHUP, SIGINT, SIGQUIT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     let Ok(mut signals) = Signals::new(ending) else { return };
     let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
-    std::thread::spawn(move || signals.forever().for_each(end));
+    let thread = Builder::new().stack_size(STACK);
+    let _ = thread.spawn(move || signals.forever().for_each(end));
 }
 
 /// Returns whether a signal is ignored from the start, as SIGINT is in the background of a shell's

@@ -30,6 +30,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::shown;
 use plane_contact::plain::six_digits;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
@@ -257,11 +258,11 @@ impl SceneArgs {
 pub const LARGEST_LISTING: u64 = 1 << 24;
 
 /// Reads a file of listings.
-pub fn read_listing(place: &str) -> Result<String, InputError> {
-    let file = files::read_most(Path::new(place), LARGEST_LISTING);
+pub fn read_listing(path: &Path) -> Result<String, InputError> {
+    let file = files::read_most(path, LARGEST_LISTING);
     file.and_then(files::text).map_err(|why| {
         let what = format!("the listing cannot be read: {why}");
-        InputError::new(place, what, "give the path of a text file of listings")
+        InputError::new(shown(path), what, "give the path of a text file of listings")
     })
 }
 
@@ -318,7 +319,7 @@ pub fn within(error: Error, place: &str) -> Error {
 
 /// Prints to standard error that files were written to `folder`.
 pub fn report_written(folder: &Path) {
-    print_stderr(&format!("Written to {}\n", folder.display()));
+    print_stderr(&format!("Written to {}\n", shown(folder)));
 }
 
 /// Prints to standard error, for people; where that cannot be written, results and exit status are as

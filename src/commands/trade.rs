@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use plane_contact::engine::Request;
 use plane_contact::engine::error::Result;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::trade as report;
 use plane_contact::studies::trade::{self, Options, Varied};
@@ -28,7 +29,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
-    scene: String,
+    scene: PathBuf,
     /// Runs of each trial.
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -78,6 +79,6 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    let report = report::report(&measured).line(format!("Written to {}", out.display()));
+    let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
     args.tables.print(report)
 }

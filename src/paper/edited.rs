@@ -56,8 +56,8 @@ pub struct Interpreter {
     steps: Steps,
 }
 
-/// How often the limit of one execution all executions of a run may take: some 15 s on small meshes.
-const EXECUTIONS: u64 = 16;
+/// How often the limit of one execution all executions of a run may take: some 8 s on small meshes.
+const EXECUTIONS: u64 = 8;
 
 /// The steps that the executions of a run took.
 struct Steps(AtomicU64);

@@ -13,6 +13,7 @@ use super::json;
 use super::model::{Cell, Table};
 use base::choices;
 use base::error::{InputError, Result};
+use base::plain::shown;
 use problem::scene::sha256;
 use studies::sweep::{Job, Row};
 
@@ -55,7 +56,7 @@ pub fn read_result(job: &Job, text: &[u8]) -> io::Result<Row> {
 /// # Errors
 /// A name cannot stand in the file.
 pub fn job_file(engine: Engine, jobs: &[Job], words: [&Path; 3]) -> Result<String> {
-    let fault = |path: &Path, what| InputError::new(path.display().to_string(), what, "rename it");
+    let fault = |path: &Path, what| InputError::new(shown(path), what, "rename it");
     let mut names = Vec::new();
     for path in words {
         let name = path.to_str().ok_or_else(|| fault(path, "its name is not in UTF-8"))?;

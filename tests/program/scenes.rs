@@ -268,7 +268,7 @@ fn restraints_and_loads() {
         &["a load has either on and pressure, on and traction, or node and force"],
     );
     let e = refused(|s| push(&mut s["loads"], json!({ "node": 0, "force": [0.0, 1.0] })));
-    says(&e, "loads[1]", &["node number 0 is beyond R = 13"]);
+    says(&e, "loads[1]", &["there is no node number 0"]);
     let e = refused(|s| {
         push(&mut s["elem"], json!([19, 1, 2, 50, 1, 2, 10]));
         push(&mut s["loads"], json!({ "on": 50, "pressure": 1.0 }));

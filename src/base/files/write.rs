@@ -16,6 +16,7 @@ use super::json::is_from_program;
 use super::read::{is_input, read_from};
 use crate::child;
 use crate::error::{InputError, Result};
+use crate::plain::shown;
 
 /// How the name of everything temporary begins.
 const PREFIX: &str = ".plane-contact-";
@@ -161,7 +162,7 @@ pub fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
 fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
     no_hyphen(folder)?;
     if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
-        let why = format!("{} is a file", file.display());
+        let why = format!("{} is a file", shown(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, why));
     }
     let mut there = Vec::new();
@@ -258,11 +259,11 @@ fn put(files: Vec<(TempPath, PathBuf)>) -> io::Result<()> {
 
 fn unwritable(path: &Path, why: &io::Error) -> InputError {
     let what = format!("the file cannot be written: {why}");
-    InputError::new(path.display().to_string(), what, "choose another place")
+    InputError::new(shown(path), what, "choose another place")
 }
 
 fn no_folder(folder: &Path, why: &io::Error) -> InputError {
     let what = format!("the folder cannot be written: {why}");
     let fix = "choose another place, or move what is in the way";
-    InputError::new(folder.display().to_string(), what, fix)
+    InputError::new(shown(folder), what, fix)
 }

@@ -8,6 +8,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::limits;
 use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
+use plane_contact::plain::shown;
 use plane_contact::report::evaluation as report;
 use plane_contact::report::model::Report;
 
@@ -49,8 +50,8 @@ pub struct Args {
 
 /// Runs the call; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
-    let place = args.file.display().to_string();
-    let text = read_listing(&place)?;
+    let place = shown(&args.file);
+    let text = read_listing(&args.file)?;
     let notation = "see the notation in listings/README.md";
     let programs = file::listings(&place, &text, &Limits::default())
         .map_err(|error| InputError::new(&place, error.to_string(), notation))?;
@@ -72,7 +73,7 @@ pub fn run(args: &Args) -> Result<u8> {
             if args.json {
                 limits::PRINTED.check(json::count(&outcome.value), "--json")?;
             }
-            let printed = print_either(args.json, || report::json(&outcome), || shown(&outcome));
+            let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
             return printed.map(|()| 0);
         }
         Err(failure) => failure,
@@ -115,7 +116,7 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
 }
 
 /// Reports what `trace` was given, then the value, a row on each line.
-fn shown(outcome: &Outcome) -> Report {
+fn ended(outcome: &Outcome) -> Report {
     let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
     let value = match &outcome.value {
         nested @ Value::Nested(_) => json::write(nested).to_string(),

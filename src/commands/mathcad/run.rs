@@ -3,13 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use flate2::read::GzDecoder;
+use flate2::read::MultiGzDecoder;
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::limits;
 use plane_contact::mathcad::worksheet::{self, Verdict};
 use plane_contact::mathcad::{Limits, json, xmcd::document};
+use plane_contact::plain::shown;
 use plane_contact::report::worksheet as report;
 
 use crate::commands::{print_either, progress};
@@ -56,7 +57,7 @@ pub fn run(args: &Args) -> Result<u8> {
         let values = checked.iter().filter_map(|region| region.value.as_ref());
         limits::PRINTED.check(values.map(json::count).sum(), "--json")?;
     }
-    let json = || report::json(&args.file.display().to_string(), &checked);
+    let json = || report::json(&shown(&args.file), &checked);
     print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
     let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. } | Verdict::Fails(_)));
@@ -65,7 +66,7 @@ pub fn run(args: &Args) -> Result<u8> {
 
 /// Reads a worksheet's file.
 fn open(file: &Path) -> Result<document::Worksheet, InputError> {
-    let place = file.display().to_string();
+    let place = shown(file);
     let bytes = files::read_most(file, document::LARGEST as u64);
     if let Ok(bytes) = &bytes {
         document::check_kind(bytes, &place)?;
@@ -80,7 +81,7 @@ fn open(file: &Path) -> Result<document::Worksheet, InputError> {
 /// Reads the text of a worksheet, packed or not.
 fn read_text(bytes: Vec<u8>) -> io::Result<String> {
     let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
-        true => files::read_from(GzDecoder::new(&*bytes), document::LARGEST as u64)?,
+        true => files::read_from(MultiGzDecoder::new(&*bytes), document::LARGEST as u64)?,
         false => bytes,
     };
     files::text(bytes)

@@ -5,6 +5,7 @@ use plane_contact::error::InputError;
 use plane_contact::files::json;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, SceneFile};
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
@@ -27,7 +28,7 @@ Examples:
 pub struct Args {
     /// A snapshot or a scene, and another one.
     #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
-    sides: Vec<String>,
+    sides: Vec<PathBuf>,
     /// The variants of both sides, or one for both [default: the scene's].
     #[arg(long, value_name = "V,...", value_delimiter = ',')]
     variant: Vec<Variant>,
@@ -68,18 +69,21 @@ pub fn run(args: &Args) -> Result<u8> {
     })?;
     let verified = difference(&sides[0], &sides[1]);
     let status = if verified.is_same() { 0 } else { DIFFERS };
-    let file = format!("{} and {}", names[0], names[1]);
+    let file = format!("{} and {}", shown(names[0]), shown(names[1]));
     let checked = [VerifiedFile { file, verified: Ok(verified) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;
     Ok(status)
 }
 
 /// Reads a snapshot, or runs a scene.
-fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
+fn side(args: &Args, side: usize, name: &Path) -> Result<Snapshot> {
     // It is read once: it may come through a pipe.
     let file = SceneFile::read(name)?;
     if json::has_field(&file.text, "format") {
-        return Ok(Snapshot::read(&file.text).map_err(|error| error.within(name))?);
+        let snapshot = Snapshot::read(&file.text);
+        // What it says of its scene must be true.
+        let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
+        return Ok(checked.map_err(|error| error.within(&shown(name)))?);
     }
     let scene = Scene::of_file(&file)?;
     let mut request = plane_contact::engine::Request::new(&scene);

@@ -13,6 +13,7 @@ use crate::range::{beyond_range, inside_out};
 use base::error::InputError;
 use base::plain::six_digits;
 use numbers::solve::SparseCholesky;
+use problem::element::Plane;
 use problem::model::{Dof, NodeId};
 use problem::modelling::Coupling;
 
@@ -240,16 +241,24 @@ impl Problem<'_> {
             let apart = most / least;
             let ratio =
                 if apart.is_finite() { format!("{apart:.0e}") } else { "more than 1e308".into() };
+            let ratios = self.model.triangles.iter().map(|triangle| triangle.material.nu);
+            let nu = ratios.fold(-1.0, f64::max);
+            let (place, cause, fix) =
+                if self.model.plane == Plane::Strain && 1.0 / (1.0 - 2.0 * nu) > FAR_APART {
+                    ("materials", format!("nu = {nu} is too near 0.5"), "choose a smaller nu")
+                } else {
+                    let fix = "choose moduli that are closer, or restrain the stiff body itself";
+                    let (place, fix) = match apart > FAR_APART {
+                        true => ("materials", fix),
+                        false => ("mesh, materials", "choose other units"),
+                    };
+                    (place, format!("the moduli are {ratio} apart"), fix)
+                };
             let what = format!(
                 "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
-                 {node}, direction {direction}; the moduli are {ratio} apart"
+                 {node}, direction {direction}; {cause}"
             );
-            let fix = "choose moduli that are closer, or restrain the stiff body itself";
-            return if apart > FAR_APART {
-                InputError::new("materials", what, fix)
-            } else {
-                InputError::new("mesh, materials", what, "choose other units")
-            };
+            return InputError::new(place, what, fix);
         }
         let what = format!(
             "{} can move in {direction} with every contact node in contact",

@@ -26,6 +26,7 @@ pub mod surface;
 pub mod symmetry;
 
 use serde::Serialize;
+use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -84,8 +85,8 @@ impl Scene {
     ///
     /// # Errors
     /// The scene file, the mesh file, or the two together are at fault.
-    pub fn open(name_or_path: &str) -> Result<Self> {
-        Self::of_file(&SceneFile::read(name_or_path)?)
+    pub fn open(name_or_path: impl AsRef<Path>) -> Result<Self> {
+        Self::of_file(&SceneFile::read(name_or_path.as_ref())?)
     }
 
     /// Builds the scene of a file.

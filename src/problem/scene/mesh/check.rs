@@ -24,8 +24,12 @@ impl Mesh {
         if (1..=r).contains(&n) {
             return Ok(());
         }
-        let what = format!("node number {n} is beyond R = {r}");
-        let fix = "the paper's tables are indexed by node number: nodes are numbered 1 to R";
+        let what = match n {
+            0 => "there is no node number 0".into(),
+            _ => format!("node number {n} is beyond R = {r}"),
+        };
+        let fix = "the paper's tables are indexed by node number: nodes are numbered 1 to R \
+                   (in Gmsh: Mesh.Renumber = 1)";
         Err(InputError::new(place, what, fix))
     }
 
