@@ -169,9 +169,17 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Returns the values of arguments; each counts as stored while the next is evaluated.
     pub fn arguments(&mut self, arguments: &[Expr]) -> Fallible<Vec<Value>> {
+        self.held(arguments, Self::eval)
+    }
+
+    fn held<'e>(
+        &mut self,
+        exprs: impl IntoIterator<Item = &'e Expr>,
+        eval: fn(&mut Self, &Expr) -> Fallible<Value>,
+    ) -> Fallible<Vec<Value>> {
         let stored = self.stored;
-        let values = arguments.iter().map(|argument| {
-            let value = self.eval(argument)?;
+        let values = exprs.into_iter().map(|expr| {
+            let value = eval(self, expr)?;
             self.room(value.count())?;
             self.stored += value.count();
             Ok(value)
@@ -376,8 +384,7 @@ impl<O: Observer> Run<'_, '_, O> {
                 return Err(self.fail(&expr.span, Cause::Unsupported { construct }));
             }
         }
-        let operands = expr.parts().into_iter().map(|part| self.vectorized(part));
-        let operands = operands.collect::<Fallible<Vec<_>>>()?;
+        let operands = self.held(expr.parts(), Self::vectorized)?;
         let mut arrays = operands.iter().filter(|operand| operand.number().is_none());
         let Some(first) = arrays.next() else { return self.applied(expr, &operands) };
         if let Some(other) = arrays.find(|other| other.size() != first.size()) {

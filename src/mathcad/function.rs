@@ -119,7 +119,7 @@ static BUILTINS: [Builtin; 46] = {
         row("×", free, Values(|ab| two(ab).and_then(|(a, b)| matrices::cross(a, b)))),
         // Of a matrix whose eigenvalues are real, in ascending order.
         row("eigenvals", eigen, Values(|m| one(m).and_then(matrices::eigenvals))),
-        row("eigenvecs", eigen, Values(|m| one(m).and_then(matrices::eigenvecs))),
+        row("eigenvecs", vectors, Values(|m| one(m).and_then(matrices::eigenvecs))),
         row("→", free, Vectorize),
         row("trace", written, Trace),
     ]
@@ -171,6 +171,12 @@ fn eliminated(arguments: &[Value]) -> (usize, u64) {
 fn eigen(arguments: &[Value]) -> (usize, u64) {
     let (numbers, steps) = eliminated(arguments);
     (2 * numbers, steps.saturating_mul(10))
+}
+
+/// An elimination of another matrix for each.
+fn vectors(arguments: &[Value]) -> (usize, u64) {
+    let (numbers, steps) = eigen(arguments);
+    (numbers, steps.saturating_mul(size(arguments).isqrt() as u64))
 }
 
 /// The line is kept twice, as output and as a value; a number takes eight bytes.

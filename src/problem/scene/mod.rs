@@ -118,6 +118,11 @@ impl Scene {
         self.source.as_deref().map(|source| (&source.description, &source.mesh))
     }
 
+    /// Says what the mesh file has in another form than the mesh here, in sentences.
+    pub fn adapted(&self) -> &[String] {
+        self.source.as_deref().map_or(&[], |source| &source.mesh.adapted)
+    }
+
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
     /// without blanks; None for half a scene.
     pub fn hashes(&self) -> Option<&[String; 2]> {

@@ -1,6 +1,6 @@
 //! A call of `c_cnt`.
 
-use super::{adapted, direction, dropped};
+use super::{direction, dropped};
 use crate::model::{Cell, Report, Table};
 use paper::door::Call;
 use paper::mirror::Reading;
@@ -42,7 +42,7 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
         rows = rows.column("in fig. 1", |node| in_figure(*node));
     }
     Report::default()
-        .notes(adapted(scene))
+        .notes(scene.adapted().to_vec())
         .notes(dropped(&scene.model))
         .table(format!("Contact nodes (c_tll = {})", model.contact.tolerance), found)
         .notes(direction(model, reading, &model.nodes))

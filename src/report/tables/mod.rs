@@ -19,7 +19,6 @@ use engine::{Assessment, BodySummary, Solution, beyond_range};
 use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::Variant;
-use problem::scene::Scene;
 
 /// What is said of a run in which contact passes no load on.
 const NOTHING_TRANSMITTED: &str =
@@ -58,13 +57,8 @@ fn heading(solution: &Solution) -> Report {
         ))
         .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
         .notes(arithmetic(solution))
-        .notes(adapted(&request.scene))
+        .notes(request.scene.adapted().to_vec())
         .notes(dropped(model))
-}
-
-/// Says what the mesh file has in another form.
-fn adapted(scene: &Scene) -> Vec<String> {
-    scene.source().map_or_else(Vec::new, |(_, mesh)| mesh.adapted.clone())
 }
 
 /// Names the arithmetic, unless it is the default, and its bound on rounding errors.
