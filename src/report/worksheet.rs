@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::json;
 use super::model::{Report, Table};
+use mathcad::json::Written;
 use mathcad::worksheet::{ExecutedRegion, Verdict};
 
 /// Reports each region with what came of it, and how many regions came out how.
@@ -85,7 +85,7 @@ struct RegionRow<'a> {
     inputs: &'a BTreeSet<String>,
     /// The region's value: a number, words, or a list of rows; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Value>,
+    value: Option<Written<'a>>,
 }
 
 /// How a region compares with what Mathcad saved.
@@ -127,9 +127,9 @@ pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
         text: &region.text,
         verdict: verdict(&region.verdict),
         inputs: &region.inputs,
-        value: region.value.as_ref().map(mathcad::json::write),
+        value: region.value.as_ref().map(Written),
     });
-    json::line(None, &Document { file, regions: regions.collect() })
+    json::streamed(&Document { file, regions: regions.collect() })
 }
 
 fn verdict(verdict: &Verdict) -> VerdictRow<'_> {

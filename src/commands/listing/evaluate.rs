@@ -6,8 +6,10 @@ use std::rc::Rc;
 use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::limits;
-use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
+use plane_contact::mathcad::{
+    Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file,
+    json::{self, Written},
+};
 use plane_contact::plain::shown;
 use plane_contact::report::evaluation as report;
 use plane_contact::report::model::Report;
@@ -70,9 +72,6 @@ pub fn run(args: &Args) -> Result<u8> {
         waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
-            if args.json {
-                limits::PRINTED.check(json::count(&outcome.value), "--json")?;
-            }
             let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
             return printed.map(|()| 0);
         }
@@ -119,7 +118,9 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
 fn ended(outcome: &Outcome) -> Report {
     let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
     let value = match &outcome.value {
-        nested @ Value::Nested(_) => json::write(nested).to_string(),
+        nested @ Value::Nested(_) => {
+            serde_json::to_string(&Written(nested)).expect("an array of JSON")
+        }
         value => value.to_string().replace("; ", "\n"),
     };
     traces.chain([value]).fold(Report::default(), Report::line)
