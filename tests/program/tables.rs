@@ -75,9 +75,9 @@ fn thousands(number: usize) -> String {
 #[test]
 fn prices() {
     let alone =
-        Compared::new(&Case::new(STRAND.clone())).expect("strand has a solution").prices(&|| ());
+        Compared::new(&audit::Case::new(STRAND.clone())).expect("strand has a solution").prices(&|| ());
     let fig1 = Scene::open("fig1").expect("an embedded scene");
-    let repairs = Compared::new(&Case::new(fig1)).expect("fig1 has a solution").repairs(&|| ());
+    let repairs = Compared::new(&audit::Case::new(fig1)).expect("fig1 has a solution").repairs(&|| ());
     for price in &alone {
         let is_free = [None, Some("C7"), Some("C12"), Some("K4")].contains(&price.finding);
         assert!(price.outcome.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);

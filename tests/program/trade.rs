@@ -17,7 +17,7 @@ use plane_contact::report::trade as report;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
 use plane_contact::studies::trade::{
-    self, Options, Order, Outcome, Point, Row, Trade, Varied, pareto, solve_to,
+    self, Options, Order, Outcome, Point, Trade, Varied, pareto, solve_to,
 };
 use serde_json::{Value, json};
 

@@ -1,5 +1,7 @@
 //! `plane-contact snapshot diff`.
 
+use std::path::{Path, PathBuf};
+
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files::json;
