@@ -162,7 +162,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
     };
-    let repairs = Compared::new(&Request::new(&scene)).unwrap().repairs(&|| ());
+    let repairs = Compared::new(&Case::new(scene.clone())).unwrap().repairs(&|| ());
     let mut put_back: Vec<String> = vec![];
     for pair in repairs.windows(2).rev() {
         let [before, repaired] = pair else { unreachable!("pairs") };
@@ -220,7 +220,7 @@ fn where_it_does_not_hold_the_prices_say_so() {
     assert_eq!(roof.kind, Kind::Roof);
     let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
     let roof = roof.build().unwrap();
-    let compared = Compared::new(&Request::new(&roof)).unwrap();
+    let compared = Compared::new(&Case::new(roof.clone())).unwrap();
     let (prices, repairs) = (compared.prices(&|| ()), compared.repairs(&|| ()));
     let document = report::prices::Document {
         reading: Reading::default(),
@@ -231,7 +231,7 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let report = report::prices::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
     let plate = Annulus { radial: 2, around: 4 }.generate().unwrap().build().unwrap();
-    let refused = Compared::new(&Request::new(&plate)).err().expect("no contact").to_string();
+    let refused = Compared::new(&Case::new(plate)).err().expect("no contact").to_string();
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }
 
@@ -242,7 +242,7 @@ fn without_a_load_no_fault_is_weighed() {
     let finding = FINDINGS.iter().find(|finding| finding.id == "C1").expect("a finding");
     let scene = finding.scene();
     assert!(scene.model.load.iter().all(|f| *f == 0.0));
-    let repairs = Compared::new(&Request::new(&scene)).expect("a solution").repairs(&|| ());
+    let repairs = Compared::new(&Case::new(scene.clone())).expect("a solution").repairs(&|| ());
     assert_eq!(prices::needed(&repairs), None);
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let why = report::prices::unsound(&prices).expect("a reason");
