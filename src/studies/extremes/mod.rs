@@ -100,8 +100,8 @@ pub static GENERATORS: [Generator; 8] = [
     },
     Generator {
         name: "gap-at-tolerance",
-        title: "A gap on a sloping edge, a little more than c_tll: is the node in contact",
-        magnitude: "gap / c_tll - 1",
+        title: "A gap on a sloping edge, a little more and a little less than c_tll: is the node in contact",
+        magnitude: "|gap / c_tll - 1|",
         decades: (-18, 0, 1),
         made: Made::Search(Search::at_tolerance, &[Quantity::Status]),
     },
