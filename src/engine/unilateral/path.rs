@@ -61,7 +61,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         if problem.overlaps(&config) {
             run.start = Start::Closed;
             if let Some(u) = problem.released()? {
-                point.u = u;
+                (run.start, point.u) = (Start::Released, u);
             } else if let Ok(closed) = run.advance(&point, 0.0, 0) {
                 point = Point::after(0.0, closed);
             } else {

@@ -187,7 +187,11 @@ pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64
         let eigen = (&root * across * root.transpose()).symmetric_eigen();
         let (k, part) = eigen.eigenvalues.argmin();
         let motion = basis * root.tr_mul(&eigen.eigenvectors.column(k));
+        // A flat surface slides along itself too, about a point that is far away.
         let turning = motion[2] / motions.size;
+        if turning.abs() * motions.size <= ALONG * motion.norm() {
+            return None;
+        }
         let [mx, my] = motions.middle[b];
         let centre = [mx - motion[1] / turning, my + motion[0] / turning];
         // Without the rounding of a 0.

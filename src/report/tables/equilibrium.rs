@@ -2,7 +2,7 @@
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{short, with_unit};
+use crate::numbers::{percent, short, with_unit};
 use engine::{Equilibrium, Margin, NearestDecision, OtherEquilibrium, Solution, Uniqueness};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
@@ -33,10 +33,11 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
     let facets = found.facets.map(|[height, least]| {
         format!(
             "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the surfaces \
-             overlap by, or are apart by, {}: what is below the height of a facet is the mesh's own, and no \
-             error estimate counts it; refine the surfaces, or place nodes opposite nodes",
+             overlap by, or are apart by, {}, of which that is {}; no error estimate counts it; refine the \
+             surfaces",
             length(height),
-            length(least)
+            length(least),
+            percent(height / least, 0)
         )
     });
     let geometry = (found.shape_change > 0.0).then(|| {
