@@ -96,7 +96,6 @@ fn prices() {
             von_mises_relative,
             period,
             passes_nothing: _,
-            equilibrium_relative: _,
         } => {
             let settled = match period {
                 Some(1) => String::new(),
