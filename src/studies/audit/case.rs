@@ -10,6 +10,7 @@ use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::{Certainty, certain};
 use engine::{Request, Solution, solve};
+use numbers::finite;
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
 use problem::model::Model;
@@ -168,8 +169,7 @@ impl Case {
     /// where there is no equilibrium, and where a body has too few triangles for an estimate.
     pub fn mesh_error(&self) -> Option<f64> {
         let equilibrium = self.equilibrium()?;
-        let estimate = Discretisation::new(&equilibrium.model, &equilibrium.elements).relative();
-        Some(estimate).filter(|error| error.is_finite())
+        finite(Discretisation::new(&equilibrium.model, &equilibrium.elements).relative())
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.
