@@ -1,7 +1,6 @@
-//! The numbers to reach: whole processes from the outside beside their goals and their peers; then
-//! parts of a run. Answers are compared before anything is timed. Prints tables, writes
-//! `target/numbers.json`, and with `--page` `benches/README.md`; asserts no time, for machines
-//! differ.
+//! What things take: whole processes from the outside beside their peers; then parts of a run.
+//! Answers are compared before anything is timed. Prints tables, writes `target/numbers.json`, and
+//! with `--page` `benches/README.md`; asserts no time, for machines differ.
 //!
 //! `cargo bench --bench numbers -- --largest 116 --page`
 
@@ -400,21 +399,19 @@ fn iteration() -> Table {
     let mut table = Table::new("An iteration of `strand` beyond the first", &["ms", "20 over 1"]);
     let scene = Scene::open("strand").expect("embedded");
     for variant in [Variant::Tied, Variant::Stepped] {
-        let [one, twenty] = [1, 20].map(|iterations| of_iterations(&scene, variant, iterations));
-        let each = 1e3 * (twenty - one) / 19.0;
-        table.row(variant.to_string(), &[Some(each), Some(twenty / one)]);
+        table.row(variant.to_string(), &beyond_the_first(&scene, variant).map(Some));
     }
     table
 }
 
-/// Returns the least time of some iterations of a scene, s.
-fn of_iterations(scene: &Scene, variant: Variant, iterations: usize) -> f64 {
-    // A new request each: clones of one share its factors.
-    least(5, || {
-        let mut request = Request::new(scene).variant(variant);
+/// Returns what an iteration of a scene takes beyond the first, ms, and the least time of 20 over that of 1.
+fn beyond_the_first(scene: &Scene, variant: Variant) -> [f64; 2] {
+    let mut request = Request::new(scene).variant(variant);
+    let [one, twenty] = [1, 20].map(|iterations| {
         request.iterations = iterations;
-        drop(black_box(solve(&request, &mut |_| ()).expect("it runs")));
-    })
+        least(5, || drop(black_box(solve(&request, &mut |_| ()).expect("it runs"))))
+    });
+    [1e3 * (twenty - one) / 19.0, twenty / one]
 }
 
 /// The listings of an iteration in Octave, where `octave-cli` is installed, beside the mirror's, and
@@ -456,9 +453,7 @@ fn octave(folder: &Path) -> Table {
     assert!((number("size") - size).abs() <= 1e-12 * size, "the matrices are the same");
     let octave = 1e3 * number("seconds");
     let mirror = 1e3 * least(5, || drop(black_box(mirrored())));
-    let [one, twenty] =
-        [1, 20].map(|iterations| of_iterations(&scene, Variant::Stepped, iterations));
-    let whole = 1e3 * (twenty - one) / 19.0;
+    let [whole, _] = beyond_the_first(&scene, Variant::Stepped);
     let values = [octave, mirror, octave / mirror, whole, octave / whole];
     table.row("one iteration", &values.map(Some));
     table

@@ -11,6 +11,7 @@ use engine::{
     Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Solution,
     TriangleValues,
 };
+use numbers::finite;
 use numbers::scalar::rational;
 use numbers::solve::Arithmetic;
 use paper::edited::Edited;
@@ -175,7 +176,7 @@ impl ResultFile {
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
             materials: materials(solution),
-            error_bound: solution.error_bound.filter(|bound| bound.is_finite()),
+            error_bound: solution.error_bound.and_then(finite),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),

@@ -2,6 +2,7 @@
 
 use super::{BodySummary, IterationRow, NodeFields, TriangleValues};
 use crate::solution::{Solution, Step};
+use numbers::finite;
 use numbers::largest::{Largest, largest};
 use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
 use problem::model::{Body, Model, TriangleId};
@@ -14,7 +15,7 @@ pub(crate) struct IterationPlace<'a> {
 
 impl IterationPlace<'_> {
     pub(super) fn target_share(&self) -> Option<f64> {
-        Some(self.step.target_force / self.load).filter(|share| share.is_finite())
+        finite(self.step.target_force / self.load)
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::fields::Fields;
+use numbers::finite;
 use problem::model::{Body, Model, NodeId, TriangleId};
 
 /// Two results of one model, node by node and triangle by triangle.
@@ -112,7 +113,7 @@ impl<Place: Copy> Difference<Place> {
 
 /// Returns a share of a scale; None where that is 0, or too small.
 fn over(difference: f64, scale: f64) -> Option<f64> {
-    Some(difference / scale).filter(|share| share.is_finite())
+    finite(difference / scale)
 }
 
 fn bodies(model: &Model, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {
