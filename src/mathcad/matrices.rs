@@ -162,16 +162,19 @@ pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cau
 
 /// Returns the cross product of two columns of three numbers.
 pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
-    let three = |value| match value {
-        &Value::Array(ref array) if value.size() == (3, 1) => Ok(array.entries()),
-        other => Err(kind("a column of three numbers", other)),
-    };
     let (a, b) = (three(a)?, three(b)?);
     let entry = |k: usize| {
         let (k, l) = ((k + 1) % 3, (k + 2) % 3);
         finite(a[k] * b[l] - a[l] * b[k])
     };
     Ok(Array::column((0..3).map(entry).collect::<Result<_, _>>()?).into())
+}
+
+fn three(value: &Value) -> Result<&[f64], Cause> {
+    match value {
+        Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
+        other => Err(kind("a column of three numbers", other)),
+    }
 }
 
 /// Returns the eigenvalues of a square matrix, in ascending order.
