@@ -293,6 +293,33 @@ fn restraints_and_loads() {
     says(&e, "loads[0]", &["too large"]);
 }
 
+/// Two triangles on one side of an edge, a third at an edge, one of other nodes that shares no edge, and one of
+/// nodes of its own but one: each counts the stiffness of a place twice. Bodies may lie inside each other.
+#[test]
+fn triangles_of_one_body_that_lie_over_each_other() {
+    for (nodes, pair) in [([1, 10, 11], [10, 19]), ([1, 11, 4], [11, 19]), ([6, 13, 12], [15, 19])]
+    {
+        let e = refused(|s| {
+            let [a, b, c] = nodes;
+            push(&mut s["elem"], json!([19, 2, 2, 1, 1, a, b, c]));
+        });
+        says(&e, "the mesh's triangles", &["of one body lie over each other", "and 19"]);
+        assert!(pair.iter().any(|number| e.what.contains(&number.to_string())), "{e}");
+    }
+    let e = refused(|s| {
+        push(&mut s["node"], json!([14, 0.9, -0.9, 0.0]));
+        push(&mut s["node"], json!([15, 0.9, -0.8, 0.0]));
+        push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 14, 15]));
+    });
+    says(&e, "the mesh's triangles", &["triangles 11 and 19"]);
+    let mut scene = scene_json("fig1");
+    for n in 4..9 {
+        let y = scene["node"][n][2].as_f64().expect("a number") - 0.01;
+        scene["node"][n][2] = json!(y);
+    }
+    assert!(build(&scene).is_ok(), "the stamp lies 0.01 inside the base");
+}
+
 #[test]
 fn contact() {
     let e = refused(|s| s["contact"]["cnt"] = json!([5, 6, 2]));
@@ -303,6 +330,18 @@ fn contact() {
     says(&e, "contact.trg", &["elem 10 is no edge"]);
     let e = refused(|s| s["contact"]["trg"] = json!([]));
     says(&e, "contact.trg", &["the list is empty"]);
+    let e = refused(|s| s["contact"]["trg"] = json!([1, 2, 1]));
+    says(&e, "contact.trg", &["edge 1 is named twice"]);
+    for (place, edge, words) in [
+        ("trg", json!([19, 1, 2, 10, 10, 3, 2]), "edges 2 and 19 both join nodes 3 and 2"),
+        ("cnt", json!([19, 1, 2, 20, 20, 8, 9]), "edges 7 and 19 both join nodes 8 and 9"),
+    ] {
+        let e = refused(|s| {
+            push(&mut s["elem"], edge);
+            s["contact"] = json!({ "cnt": 20, "trg": 10, "c_tll": 0.001 });
+        });
+        says(&e, &format!("contact.{place}"), &[words]);
+    }
     let e = refused(|s| s["contact"]["c_tll"] = json!(-0.001));
     says(&e, "contact.c_tll", &["-0.001 is negative"]);
     let e = refused(|s| {
