@@ -169,6 +169,6 @@ impl Request {
                 Arc::make_mut(&mut model).contact.nodes = nodes;
             }
         }
-        door::under(model, &self.reading)
+        door::under(model, &self.scene.units.length, &self.reading)
     }
 }

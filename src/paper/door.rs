@@ -23,22 +23,40 @@ use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
 
-/// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance. A model
-/// that the reading changes is no longer shared.
+/// Returns `model`, whose lengths are in `unit`, under a reading: R6 sets the plane problem, R8 the unit of
+/// the tolerance. A model that the reading changes is no longer shared.
 ///
 /// # Errors
-/// The plane problem of R6 does not allow a Poisson's ratio.
-pub fn under(mut model: Arc<Model>, reading: &Reading) -> Result<Arc<Model>, InputError> {
+/// The plane problem of R6 does not allow a Poisson's ratio; or R8 asks for metres, and what a metre is in
+/// the unit is not known.
+pub fn under(
+    mut model: Arc<Model>,
+    unit: &str,
+    reading: &Reading,
+) -> Result<Arc<Model>, InputError> {
     if let Some(plane) = reading.r6 {
         Arc::make_mut(&mut model).plane = plane;
         for triangle in &model.triangles {
             plane.check_poisson(triangle.material.nu, "reading R6")?;
         }
     }
-    if reading.r8 == ToleranceUnit::Metre {
-        Arc::make_mut(&mut model).contact.tolerance *= 1000.0;
+    match reading.r8 {
+        ToleranceUnit::Millimetre => (),
+        ToleranceUnit::Metre => {
+            Arc::make_mut(&mut model).contact.tolerance *= units_of_a_metre(unit)?;
+        }
     }
     Ok(model)
+}
+
+/// Returns how many units of length are a metre, by the unit's name.
+fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
+    let known = [("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("um", 1e6), ("µm", 1e6)];
+    let found = known.iter().find_map(|(name, units)| (*name == unit).then_some(*units));
+    found.ok_or_else(|| {
+        let what = format!("what a metre is in the unit of length, {unit:?}, is not known");
+        InputError::new("reading R8", what, "name units.length of the scene: m, cm, mm or um")
+    })
 }
 
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are

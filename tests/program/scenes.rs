@@ -467,10 +467,20 @@ fn a_name_belongs_to_one_group() {
     read(mesh.replacen("top", "base", 1)).expect("each name once");
 }
 
-/// R8: c_tol in metres is 1,000 times as much in a scene in mm.
+/// R8: c_tol in metres is 1,000 times as much in a scene in mm, 100 times in one in cm; without a unit, or in
+/// one that is not known, it is refused.
 #[test]
-fn r8_multiplies_the_tolerance() {
-    let scene = build(&scene_json("fig1")).unwrap();
-    let model = Request::new(&scene).reading("R8=m".parse().unwrap()).model().unwrap();
-    assert_eq!(door::worksheet(&model, |x| x).c_tll, 1.0);
+fn r8_multiplies_the_tolerance_by_the_units_of_a_metre() {
+    let under = |unit: &str| {
+        let mut scene = scene_json("fig1");
+        scene["units"]["length"] = json!(unit);
+        Request::new(&build(&scene).unwrap()).reading("R8=m".parse().unwrap()).model()
+    };
+    for (unit, expected) in [("m", 0.001), ("cm", 0.1), ("mm", 1.0), ("um", 1000.0)] {
+        let model = under(unit).expect("a unit that is known");
+        assert_eq!(door::worksheet(&model, |x| x).c_tll, expected, "{unit}");
+    }
+    for unit in ["", "inch"] {
+        says(&under(unit).unwrap_err(), "R8", &["what a metre is", unit]);
+    }
 }
