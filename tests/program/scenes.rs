@@ -101,7 +101,7 @@ fn fields() {
     let e = refused(|s| s["c_tol"] = json!(1.0));
     says(&e, "c_tol", &["unknown field `c_tol`", "expected one of `title`, `mesh`"]);
     let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
-    says(&e, "contact.c_tll", &["the text \"small\" where a number is expected", "line"]);
+    says(&e, "contact.c_tll, line 1", &["the text \"small\" where a number is expected"]);
     let e = refused(|s| s["plane"] = json!("strian"));
     says(&e, "plane", &["\"strian\" is none of strain, stress"]);
     let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
@@ -132,7 +132,7 @@ fn text_that_is_no_scene() {
         let error = Scene::build("test", text.as_bytes(), |_| Err("no".into()));
         error.expect_err("refused")
     };
-    says(&parse("{"), "the scene file", &["the text ends within an object", "line 1"]);
+    says(&parse("{"), "the scene file, line 1", &["the text ends within an object"]);
     says(&parse("[1]"), "the scene file", &["a list where an object is expected"]);
     let whole = scene_json("fig1").to_string();
     says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["more follows"]);
