@@ -49,13 +49,14 @@ pub fn under(
     Ok(model)
 }
 
-/// Returns how many units of length are a metre, by the unit's name.
+/// Returns how many units of length are a metre, by the unit's name; without one it is mm, as in the paper's
+/// example.
 fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
-    let known = [("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("um", 1e6), ("µm", 1e6)];
+    let known = [("", 1000.0), ("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("um", 1e6), ("µm", 1e6)];
     let found = known.iter().find_map(|(name, units)| (*name == unit).then_some(*units));
     found.ok_or_else(|| {
         let what = format!("what a metre is in the unit of length, {unit:?}, is not known");
-        InputError::new("reading R8", what, "name units.length of the scene: m, cm, mm or um")
+        InputError::new("reading R8", what, "give units.length of the scene as m, cm, mm or um")
     })
 }
 
