@@ -9,9 +9,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::distance::finite;
 use mathcad::Conjunction;
 use mathcad::array::{Table, rows};
+use numbers::finite;
 use numbers::scalar::{Scalar, Unsure};
 use paper::mirror::{
     Comparison, Operand, Pairs, Reading, Worksheet, edge_box, is_in_box, is_jumped_after,

@@ -143,3 +143,9 @@ pub struct SingularMatrix {
     /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }
+
+/// Says that displacements or stresses cannot be represented.
+pub(super) fn too_large() -> InputError {
+    let what = "the displacements or stresses are too large to represent";
+    InputError::new("loads, materials, mesh", what, "choose other units")
+}

@@ -14,12 +14,11 @@ use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status}
 use super::decisions::{Decision, decisions};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
-use super::error::Error;
+use super::error::{Error, too_large};
 use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
-use super::solve::too_large;
 use super::sparse::is_dense;
 use super::support::transmitted_force;
 use base::error::InputError;

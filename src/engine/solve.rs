@@ -1,6 +1,6 @@
 //! The solution of a request by the requested variant in the requested numbers.
 
-use super::error::Error;
+use super::error::{Error, too_large};
 use super::published::{check_published, published};
 use super::request::Request;
 use super::solution::{Solution, Step};
@@ -155,10 +155,4 @@ fn check_finite(solution: &Solution) -> Result<(), InputError> {
         return Ok(());
     }
     Err(too_large())
-}
-
-/// Says that displacements or stresses cannot be represented.
-pub(super) fn too_large() -> InputError {
-    let what = "the displacements or stresses are too large to represent";
-    InputError::new("loads, materials, mesh", what, "choose other units")
 }

@@ -6,3 +6,8 @@ pub mod joined;
 pub mod largest;
 pub mod scalar;
 pub mod solve;
+
+/// Returns a number, None where it is not finite: JSON has no infinity.
+pub fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite())
+}

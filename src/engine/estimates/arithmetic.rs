@@ -9,8 +9,8 @@
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
-use crate::distance::finite;
 use crate::{Decision, Detail, Request, Solution, Step, StepBounds, Stiffness, solve};
+use numbers::finite;
 use numbers::scalar::{Bounded, Scalar};
 use numbers::solve::{Arithmetic, ScalarName};
 use problem::element::Plane;

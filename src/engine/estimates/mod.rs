@@ -16,11 +16,11 @@ mod singular;
 
 use serde::{Deserialize, Serialize};
 
-use super::distance::finite;
 use super::solution::{Solution, max_displacement};
 use crate::Decision;
 pub use arithmetic::{Certainty, certain};
 use discretisation::Discretisation;
+use numbers::finite;
 use numbers::largest::{is_as_large, largest};
 pub use perturbed::{ContactChange, Perturbed, perturbed};
 use problem::model::{Body, NodeId};

@@ -18,8 +18,9 @@ use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Status;
-use crate::distance::{finite, over};
+use crate::distance::over;
 use crate::{Request, Solution, last_under_each_load, solve};
+use numbers::finite;
 use problem::model::{Model, NodeId};
 
 /// The number of runs.
