@@ -212,6 +212,8 @@ impl<T: Scalar> Elimination<T> {
 
     fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
         let [x, y] = constraint.node.dofs();
+        // Bound twice, it would slide along an equation that nothing holds: a false singular matrix.
+        assert!(self.rows[x.index()].is_empty(), "node {} is bound once", constraint.node);
         let target = self.target_shift(constraint, [nx, ny]);
         for (dof, factor) in [(x, nx), (y, ny)] {
             self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);

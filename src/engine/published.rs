@@ -44,6 +44,11 @@ pub(super) fn published<T: Precision>(
 ) -> Result<Solution, Error> {
     let model = request.model()?;
     let number = |x: f64| number_of(request, x);
+    // k_cnt holds node numbers as numbers of the scalar.
+    if model.nodes.len() as f64 > 2.0 / T::EPSILON {
+        let what = format!("{} cannot count the mesh's nodes", request.arithmetic.scalar);
+        return Err(InputError::new("scalar", what, "use f64").into());
+    }
     let sheet: Worksheet<T> = door::worksheet(&model, number);
     let interpreter = (!request.edited.is_empty())
         .then(|| Interpreter::new(&model, &request.reading, &request.edited));
@@ -114,11 +119,11 @@ fn check_load<T: Scalar>(
     model: &Model,
     load: &DVector<T>,
 ) -> Result<(), InputError> {
-    /// The largest relative error of a load in range; it is 6e-8 in the coarsest scalar, f32.
-    const ROUNDED: f64 = 1e-6;
+    // A load in range is rounded by half of it.
+    let rounded_by = 8.0 * T::EPSILON;
     let lost = |(x, y): &(&f64, &T)| {
         let near = T::from_f64(**x).to_f64();
-        let rounded = near.is_finite() && (near - **x).abs() > ROUNDED * x.abs();
+        let rounded = near.is_finite() && (near - **x).abs() > rounded_by * x.abs();
         rounded || **x != 0.0 && y.to_f64() == 0.0
     };
     match model.load.iter().zip(load.iter()).find(lost) {

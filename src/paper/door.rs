@@ -27,8 +27,8 @@ const IND_1: usize = 6;
 /// the tolerance. A model that the reading changes is no longer shared.
 ///
 /// # Errors
-/// The plane problem of R6 does not allow a Poisson's ratio, or R8 = m is asked for where `unit` is no
-/// unit of length that is known here.
+/// The plane problem of R6 does not allow a Poisson's ratio; or R8 asks for metres, and what a metre is in
+/// the unit is not known.
 pub fn under(
     mut model: Arc<Model>,
     unit: &str,
@@ -42,25 +42,22 @@ pub fn under(
     }
     match reading.r8 {
         ToleranceUnit::Millimetre => (),
-        ToleranceUnit::Metre => Arc::make_mut(&mut model).contact.tolerance *= in_a_metre(unit)?,
+        ToleranceUnit::Metre => {
+            Arc::make_mut(&mut model).contact.tolerance *= units_of_a_metre(unit)?;
+        }
     }
     Ok(model)
 }
 
-/// Returns how many of a unit of length are in a metre.
-fn in_a_metre(unit: &str) -> Result<f64, InputError> {
-    match unit {
-        "mm" => Ok(1000.0),
-        "cm" => Ok(100.0),
-        "m" => Ok(1.0),
-        other => Err(InputError::new(
-            "reading R8",
-            format!(
-                "R8=m takes c_tll to be in metres, and the scene's unit of length is \"{other}\""
-            ),
-            "name it in units.length, one of mm, cm, m, or give c_tll in the scene's own unit",
-        )),
-    }
+/// Returns how many units of length are a metre, by the unit's name; without one it is mm, as in the paper's
+/// example.
+fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
+    let known = [("", 1000.0), ("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("um", 1e6), ("µm", 1e6)];
+    let found = known.iter().find_map(|(name, units)| (*name == unit).then_some(*units));
+    found.ok_or_else(|| {
+        let what = format!("what a metre is in the unit of length, {unit:?}, is not known");
+        InputError::new("reading R8", what, "give units.length of the scene as m, cm, mm or um")
+    })
 }
 
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are

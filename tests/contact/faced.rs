@@ -24,7 +24,9 @@ pub fn model(target: &[Chain], contact: Chain) -> Model {
     let contact = edges(contact);
     let mut inner = |&[a, b]: &[usize; 2]| {
         let ([ax, ay], [bx, by]) = (nodes[a], nodes[b]);
-        nodes.push([(ax + bx - (by - ay)) / 2.0, (ay + by + bx - ax) / 2.0]);
+        // So flat that the triangles at a sharp tip do not overlap.
+        let [across, along] = [(by - ay) / 256.0, (bx - ax) / 256.0];
+        nodes.push([(ax + bx) / 2.0 - across, (ay + by) / 2.0 + along]);
         [a, b, nodes.len() - 1]
     };
     let triangles = [&target, &contact].map(|edges| edges.iter().map(&mut inner).collect());

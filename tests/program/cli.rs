@@ -4,10 +4,11 @@ use std::path::Path;
 use std::process::Command;
 
 use plane_contact::problem::modelling::Variant;
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
+use crate::limits::shell;
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).expect("UTF-8")
@@ -28,6 +29,55 @@ fn fails(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
     for word in words {
         assert!(text(&output.stderr).contains(word), "{word:?}: {}", text(&output.stderr));
     }
+}
+
+/// A command or a path may have any bytes; a path stands on one line.
+#[cfg(target_os = "linux")]
+#[test]
+fn arguments_need_not_be_utf_8() {
+    let folder = TempDir::new().expect("a folder");
+    let line = "$P $(printf 'solv\\351'); echo $?; \
+                $P scene copy two-blocks --out my >/dev/null; f=my/$(printf 'a\\351\\nforged').json; \
+                cp my/scene.json \"$f\"; $P solve \"$f\" --no-pictures --out o >/dev/null; echo $?; \
+                echo 5 > \"$f\"; $P solve \"$f\"; echo $?";
+    let output = shell(folder.path(), line);
+    assert_eq!(text(&output.stdout), "2\n0\n2\n");
+    let error = text(&output.stderr);
+    assert!(error.contains("where: my/a��forged.json: the scene file"), "{error}");
+    assert!(!error.contains("panicked") && !error.contains("\nforged"), "{error}");
+}
+
+/// An error of JSON has no words of the library that reads it.
+#[test]
+fn errors_of_json_are_in_plain_words() {
+    let folder = TempDir::new().expect("a folder");
+    succeeds(folder.path(), &["snapshot", "record", "fig1", "--out", "s.json"]);
+    let file = folder.path().join("s.json");
+    let recorded: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    for (pointer, wrong, words) in [
+        ("numbers/u/values", json!({"a": 1}), "values are numbers, or rows of a number"),
+        ("numbers/u/values", json!([["a"]]), "values are numbers, or rows of a number"),
+        ("options/variant", json!({"a": 1}), "unknown value `a`"),
+        ("decided_by_rounding", json!([5]), "the number 5 where an object is expected"),
+        ("facts", json!([5]), "a list where an object is expected"),
+    ] {
+        let mut changed = recorded.clone();
+        let (outer, name) = pointer.rsplit_once('/').unwrap_or(("", pointer));
+        let outer = format!("/runs/stepped/{outer}");
+        let place = changed.pointer_mut(outer.trim_end_matches('/')).expect(pointer);
+        place[name] = wrong;
+        std::fs::write(&file, changed.to_string()).unwrap();
+        fails(
+            folder.path(),
+            &["snapshot", "diff", "s.json", "fig1"],
+            2,
+            &[words, ", line 1, column "],
+        );
+    }
+    let mut changed = recorded.clone();
+    changed["input"]["scene_sha256"] = json!("0".repeat(64));
+    std::fs::write(&file, changed.to_string()).unwrap();
+    fails(folder.path(), &["snapshot", "diff", "s.json", "fig1"], 2, &["was changed after it"]);
 }
 
 #[test]

@@ -55,6 +55,18 @@ fn the_printed_listings_run_as_their_mirror() {
     }
 }
 
+/// The limit of steps is one for all iterations: each of these is far below that of an execution.
+#[test]
+fn the_executions_of_a_run_have_one_limit() {
+    let slow = "c_cnt(node_n) :=\n  A[1000000] <- 1\n  for zz in 1 .. 20\n    B <- A + A";
+    let header = Which::CCnt.text().lines().find(|line| line.starts_with("c_cnt")).expect("one");
+    let folder = listings(&[(header, slow)]);
+    let args = ["fig1", "--variant", "tied", "--c-cnt", "c_cnt.txt", "--iterations"];
+    assert_eq!(solve(folder.path(), &[&args[..], &["1", "--no-pictures"]].concat()).0, 0);
+    let (status, _, why) = solve(folder.path(), &[&args[..], &["1000"]].concat());
+    assert!(status == 2 && why.contains("steps in all iterations"), "{status}: {why}");
+}
+
 /// Without its sign rule and with a box that has no direction, another `c_cnt` finds other nodes:
 /// the run follows, and says what changed.
 #[test]

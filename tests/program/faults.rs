@@ -355,6 +355,33 @@ fn a_poor_environment_changes_nothing_but_the_width() {
     assert_eq!(shell(folder.path(), "$P --help | true").status.code(), Some(0));
 }
 
+/// Whichever signal ends the program, CalculiX ends with it, and so does what it started.
+#[test]
+fn calculix_ends_with_the_program() {
+    let folder = TempDir::new().expect("a folder");
+    let ccx = "#!/bin/sh\nif [ $1 = -v ]; then echo Version 2.21; exit; fi\n\
+               sleep 300 &\necho $! > id.new\nmv id.new ../id\nwait\n";
+    let made = format!("mkdir t; printf '%s' '{ccx}' > ccx; chmod +x ccx");
+    assert!(shell(folder.path(), &made).status.success());
+    for signal in ["HUP", "INT", "QUIT", "TERM"] {
+        let mut child = Command::new("env")
+            .args(["--default-signal=INT,QUIT,HUP", env!("CARGO_BIN_EXE_plane-contact")])
+            .args(["compare", "fig1", "--ccx", "./ccx", "--out", "o"])
+            .env("TMPDIR", folder.path().join("t"))
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let started = "for i in $(seq 600); do test -s t/id && exit; sleep 0.05; done; exit 1";
+        assert!(shell(folder.path(), started).status.success(), "CalculiX starts");
+        assert!(kill(&mut child, signal).1.is_some(), "{signal}");
+        let left = "sleep 0.2; ps -o args= -p $(cat t/id); rm t/id; ls -A t";
+        let left = String::from_utf8(shell(folder.path(), left).stdout).expect("UTF-8");
+        assert!(!left.contains("300") && !left.contains("plane"), "{signal}: {left}");
+    }
+}
+
 /// Of several that read a file and replace it, one does; the others are told that it was changed.
 #[test]
 fn no_update_is_lost() {

@@ -5,13 +5,15 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use plane_contact::mathcad::observe::{Executed, Named};
 use plane_contact::mathcad::{self, Recorder};
 use plane_contact::paper::corrected::{self, program};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::Reading;
-use plane_contact::problem::scene::Scene;
+use plane_contact::problem::scene::{Scene, sha256_of};
 use plane_contact::studies::lesson::{self, Program, Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -239,6 +241,35 @@ fn a_page_is_the_same_on_every_run_and_has_nothing_from_outside() {
         for outside in ["http://", "https://", "src=", "@import", "url("] {
             assert!(!text.contains(outside), "{args:?}: {outside}");
         }
+    }
+}
+
+/// The policy of a page lets in its own script and style by their hashes, and nothing else.
+#[test]
+fn a_page_lets_in_no_other_script() {
+    let folder = TempDir::new().expect("a folder");
+    for args in [&["lesson", "two-blocks"][..], &["report", "two-blocks", "--no-audit"]] {
+        let page = std::fs::read_to_string(made(folder.path(), "a.html", args)).expect("UTF-8");
+        let between = |start: &str, end: &str| {
+            let (_, rest) = page.split_once(start).expect(start);
+            rest.split_once(end).expect(end).0
+        };
+        let policy = between("Content-Security-Policy\" content=\"", "\"");
+        let hash = |text: &str| {
+            let hexadecimal = sha256_of(text.as_bytes()).expect("memory can be read");
+            let bytes = (0..32).map(|k| u8::from_str_radix(&hexadecimal[2 * k..2 * k + 2], 16));
+            BASE64_STANDARD.encode(bytes.collect::<Result<Vec<u8>, _>>().expect("hexadecimal"))
+        };
+        let script = hash(between("<script type=\"module\">", "</script>"));
+        let style = hash(between("<style>", "</style>"));
+        assert_eq!(
+            policy,
+            format!(
+                "default-src 'none'; script-src 'sha256-{script}'; style-src 'sha256-{style}'; \
+                 img-src data: blob:; base-uri 'none'; form-action 'none'"
+            )
+        );
+        assert!(!page.contains(" style=") && !page.contains(" onclick="), "{args:?}");
     }
 }
 

@@ -105,6 +105,26 @@ fn tables_are_csv() {
     assert_eq!(report.csv(), files.map(|(name, csv)| (name.to_string(), csv.to_string())));
 }
 
+/// Words that a spreadsheet would take for a formula stand behind an apostrophe; numbers stay as they are.
+#[test]
+fn no_cell_of_csv_is_a_formula() {
+    let cells = ["=1+1", "+a", "-a", "@a", "\ta", "-1.5", "a=b", "\u{1b}a"];
+    let row = cells.map(Cell::from).into_iter().chain([Cell::from(-2.5)]).collect();
+    let csv = Table::new(["=h", "", "", "", "", "", "", "", ""], [row]).csv();
+    assert_eq!(csv, "'=h,,,,,,,,\r\n'=1+1,'+a,'-a,'@a,'\ta,-1.5,a=b,�a,-2.5\r\n");
+}
+
+/// `format!` has no width beyond 65,535.
+#[test]
+fn a_cell_may_have_any_length() {
+    let long = "x".repeat(70_000);
+    let table = Table::new([&long[..], "b"], [vec![1.0.into(), (&long[..]).into()]]);
+    let text = Report::default().table("", table.clone()).text(usize::MAX);
+    assert_eq!(text.lines().next().map(str::len), Some(2 + 70_000 + 2 + 1));
+    let narrow = Report::default().table("", table).text(80);
+    assert_eq!(narrow.matches('x').count(), 140_000);
+}
+
 #[test]
 fn a_report_is_markdown() {
     let page = "# A run

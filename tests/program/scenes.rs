@@ -101,7 +101,7 @@ fn fields() {
     let e = refused(|s| s["c_tol"] = json!(1.0));
     says(&e, "c_tol", &["unknown field `c_tol`", "expected one of `title`, `mesh`"]);
     let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
-    says(&e, "contact.c_tll", &["the text \"small\" where a number is expected", "line"]);
+    says(&e, "contact.c_tll, line 1", &["the text \"small\" where a number is expected"]);
     let e = refused(|s| s["plane"] = json!("strian"));
     says(&e, "plane", &["\"strian\" is none of strain, stress"]);
     let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
@@ -132,7 +132,7 @@ fn text_that_is_no_scene() {
         let error = Scene::build("test", text.as_bytes(), |_| Err("no".into()));
         error.expect_err("refused")
     };
-    says(&parse("{"), "the scene file", &["the text ends within an object", "line 1"]);
+    says(&parse("{"), "the scene file, line 1", &["the text ends within an object"]);
     says(&parse("[1]"), "the scene file", &["a list where an object is expected"]);
     let whole = scene_json("fig1").to_string();
     says(&parse(&(whole.clone() + "x")), "the end of the scene file", &["more follows"]);
@@ -144,7 +144,7 @@ fn text_that_is_no_scene() {
         ("None", "None where a value is expected"),
         ("null", "null where a number is expected"),
     ] {
-        says(&parse(&whole.replacen("0.001", value, 1)), "field contact.c_tll", &[words, "line 1"]);
+        says(&parse(&whole.replacen("0.001", value, 1)), "field contact.c_tll, line 1", &[words]);
     }
     let twice = r#"{"plane":"strain","materials":{"1":{"E":1,"nu":0},"1":{"E":2,"nu":0}}}"#;
     says(&parse(twice), "materials", &["\"1\" is given twice"]);
@@ -293,6 +293,33 @@ fn restraints_and_loads() {
     says(&e, "loads[0]", &["too large"]);
 }
 
+/// Two triangles on one side of an edge, a third at an edge, one of other nodes that shares no edge, and one of
+/// nodes of its own but one: each counts the stiffness of a place twice. Bodies may lie inside each other.
+#[test]
+fn triangles_of_one_body_that_lie_over_each_other() {
+    for (nodes, pair) in [([1, 10, 11], [10, 19]), ([1, 11, 4], [11, 19]), ([6, 13, 12], [15, 19])]
+    {
+        let e = refused(|s| {
+            let [a, b, c] = nodes;
+            push(&mut s["elem"], json!([19, 2, 2, 1, 1, a, b, c]));
+        });
+        says(&e, "the mesh's triangles", &["of one body lie over each other", "and 19"]);
+        assert!(pair.iter().any(|number| e.what.contains(&number.to_string())), "{e}");
+    }
+    let e = refused(|s| {
+        push(&mut s["node"], json!([14, 0.9, -0.9, 0.0]));
+        push(&mut s["node"], json!([15, 0.9, -0.8, 0.0]));
+        push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 14, 15]));
+    });
+    says(&e, "the mesh's triangles", &["triangles 11 and 19"]);
+    let mut scene = scene_json("fig1");
+    for n in 4..9 {
+        let y = scene["node"][n][2].as_f64().expect("a number") - 0.01;
+        scene["node"][n][2] = json!(y);
+    }
+    assert!(build(&scene).is_ok(), "the stamp lies 0.01 inside the base");
+}
+
 #[test]
 fn contact() {
     let e = refused(|s| s["contact"]["cnt"] = json!([5, 6, 2]));
@@ -303,6 +330,18 @@ fn contact() {
     says(&e, "contact.trg", &["elem 10 is no edge"]);
     let e = refused(|s| s["contact"]["trg"] = json!([]));
     says(&e, "contact.trg", &["the list is empty"]);
+    let e = refused(|s| s["contact"]["trg"] = json!([1, 2, 1]));
+    says(&e, "contact.trg", &["edge 1 is named twice"]);
+    for (place, edge, words) in [
+        ("trg", json!([19, 1, 2, 10, 10, 3, 2]), "edges 2 and 19 both join nodes 3 and 2"),
+        ("cnt", json!([19, 1, 2, 20, 20, 8, 9]), "edges 7 and 19 both join nodes 8 and 9"),
+    ] {
+        let e = refused(|s| {
+            push(&mut s["elem"], edge);
+            s["contact"] = json!({ "cnt": 20, "trg": 10, "c_tll": 0.001 });
+        });
+        says(&e, &format!("contact.{place}"), &[words]);
+    }
     let e = refused(|s| s["contact"]["c_tll"] = json!(-0.001));
     says(&e, "contact.c_tll", &["-0.001 is negative"]);
     let e = refused(|s| {
@@ -428,22 +467,18 @@ fn a_name_belongs_to_one_group() {
     read(mesh.replacen("top", "base", 1)).expect("each name once");
 }
 
-/// R8: c_tol in metres is 1,000 times as much in a scene in mm, 100 times in cm; where the unit is none that is
-/// known it is refused.
+/// R8: c_tol in metres is 1,000 times as much in a scene in mm, 100 times in one in cm; in a unit that
+/// is not known it is refused.
 #[test]
-fn r8_multiplies_the_tolerance() {
-    let scene = build(&scene_json("fig1")).unwrap();
-    let model = Request::new(&scene).reading("R8=m".parse().unwrap()).model().unwrap();
-    assert_eq!(door::worksheet(&model, |x| x).c_tll, 1.0);
-    let tolerance = |unit: &str| {
-        let mut json = scene_json("fig1");
-        json["units"]["length"] = unit.into();
-        let scene = build(&json).expect("any name of a unit is read");
-        let model = Request::new(&scene).reading("R8=m".parse().expect("a reading")).model();
-        model.map(|model| model.contact.tolerance)
+fn r8_multiplies_the_tolerance_by_the_units_of_a_metre() {
+    let under = |unit: &str| {
+        let mut scene = scene_json("fig1");
+        scene["units"]["length"] = json!(unit);
+        Request::new(&build(&scene).unwrap()).reading("R8=m".parse().unwrap()).model()
     };
-    assert_eq!([tolerance("cm"), tolerance("m")].map(Result::unwrap), [0.1, 0.001]);
-    for unit in ["in", ""] {
-        says(&tolerance(unit).expect_err("not known"), "R8", &["R8=m"]);
+    for (unit, expected) in [("m", 0.001), ("cm", 0.1), ("mm", 1.0), ("", 1.0), ("um", 1000.0)] {
+        let model = under(unit).expect("a unit that is known");
+        assert_eq!(door::worksheet(&model, |x| x).c_tll, expected, "{unit}");
     }
+    says(&under("inch").unwrap_err(), "R8", &["what a metre is", "inch"]);
 }

@@ -1,5 +1,6 @@
 //! Dense LU with partial pivoting, and Cholesky factors of what is left of a matrix, by the library faer.
 
+use super::rounding;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_scratch};
@@ -43,7 +44,7 @@ impl DenseLu {
             let sizes = entries.column(j).map(|(_, value)| value.abs());
             let largest = sizes.fold(0.0, f64::max);
             let pivot = factors[(j, j)];
-            pivot.is_nan() || pivot.abs() <= 16.0 * n as f64 * f64::EPSILON * largest
+            pivot.is_nan() || pivot.abs() <= rounding(n, f64::EPSILON) * largest
         });
         match singular {
             Some(column) => Err(Singular { column, pivot: factors[(column, column)] }),

@@ -1,6 +1,7 @@
 //! Elimination in numbers that no library factors: `f32`, double-doubles, rationals. Operands come by
 //! reference, as rational numbers are not `Copy`.
 
+use super::rounding;
 use dashu_ratio::RBig;
 use nalgebra::DMatrix;
 
@@ -85,7 +86,7 @@ pub fn solve_dense<F: Field>(
         let candidates = (k..n).filter(|&i| !rows[i][k].vanishes());
         let best = candidates.reduce(|a, i| if size(i, &rows) > size(a, &rows) { i } else { a });
         // Of exact numbers it is 0, also where the largest is beyond every f64.
-        let least = (16.0 * n as f64 * F::EPSILON * largest.column(k).max()).max(0.0);
+        let least = (rounding(n, F::EPSILON) * largest.column(k).max()).max(0.0);
         let pivot = best.map_or(0.0, |i| size(i, &rows));
         let Some(best) = best.filter(|_| pivot >= least) else {
             return Err(Singular { column: k, pivot });

@@ -7,6 +7,7 @@
 use super::elimination::Field;
 use super::factors::Singular;
 use super::ordering::{Tree, order, places};
+use super::rounding;
 use super::symmetric::SparseSymmetric;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.
@@ -40,7 +41,7 @@ impl<F: Field> Ldlt<F> {
             for (i, a) in column {
                 y[i] = a;
             }
-            let least = 16.0 * n as f64 * F::EPSILON * y[k].size();
+            let least = rounding(n, F::EPSILON) * y[k].size();
             let pivot = factors.row(k, &path, &mut y);
             if pivot.vanishes() || pivot.size().is_nan() || pivot.size() < least {
                 return Err(Singular { column: factors.order[k], pivot: pivot.size() });

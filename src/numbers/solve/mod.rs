@@ -42,3 +42,9 @@ pub use sparse::SparseCholesky;
 pub use sparse_lu::SparseLu;
 pub use square::SparseSquare;
 pub use symmetric::{Pattern, SparseSymmetric};
+
+/// Returns the size of a pivot, relative to what stood in its place before n equations were eliminated, below
+/// which it may be rounding alone; `epsilon` is the scalar's.
+fn rounding(n: usize, epsilon: f64) -> f64 {
+    16.0 * n as f64 * epsilon
+}

@@ -1,5 +1,6 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
+use super::rounding;
 use faer::Par;
 use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
@@ -79,7 +80,7 @@ impl Lu for SparseLu {
 
 /// Returns the motion under loads of 1 that a pivot of dense LU that counts as 0 would bring.
 fn farthest(n: usize) -> f64 {
-    1.0 / (16.0 * n as f64 * f64::EPSILON)
+    1.0 / rounding(n, f64::EPSILON)
 }
 
 /// Returns why a matrix is taken for singular that loads of 1 move by `motion`; None where it is not.

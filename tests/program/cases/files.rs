@@ -126,6 +126,23 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
+        command: "plane-contact lesson two-blocks --out -; plane-contact solve fig1 --out -; \
+                  plane-contact report fig1 --no-audit --format markdown --out figure-4.svg; s=$?; \
+                  ls; exit $s",
+        status: 2,
+        contains: &["a file of that name is ./-", "two files are named figure-4.svg"],
+        lacks: &["Written"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact snapshot record fig1 --out s.json >/dev/null; \
+                  plane-contact snapshot verify s.json --junit x --report x || ls",
+        status: 0,
+        contains: &["both --junit and --report write this file"],
+        lacks: &["\nx"],
+    },
+    Case {
+        input: "",
         command: "for i in 1 2 3 4 5; do \
                   plane-contact snapshot record fig1 --variant tied --out s.json >/dev/null 2>&1 & \
                   plane-contact snapshot record fig1 --variant printed --out s.json >/dev/null 2>&1; \
