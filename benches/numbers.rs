@@ -430,10 +430,8 @@ fn octave(folder: &Path) -> Table {
     let sheet = door::worksheet(&scene.model, |x| x);
     let (title, thickness) = ("strand", scene.model.thickness);
     let (sheet, reading, node_n) = (&sheet, &reading, &sheet.node);
-    let program = exports::octave::program(
-        &Export { title, sheet, reading, node_n, thickness, run: None },
-        title,
-    );
+    let export = Export { title, sheet, reading, node_n, thickness, run: None };
+    let program = exports::octave::program(&export);
     let timed = format!(
         "  started = tic();\n  for call = 1:{CALLS}\n    MJS = Km(c_cnt(node_n));\n  end\n  \
          show('seconds', toc(started) / {CALLS});\n  show('size', sum(sum(abs(MJS))));\n"

@@ -34,7 +34,7 @@
 //!
 //! | part | what it has |
 //! |---|---|
-//! | [`error`], [`files`], [`mod@choices`] | errors of the input, files, closed sets |
+//! | [`error`], [`files`], [`child`], [`mod@choices`] | errors of the input, files, other programs, closed sets |
 //! | [`numbers`] | kinds of numbers and solvers |
 //! | [`mathcad`] | Mathcad's notation, interpreter and worksheets |
 //! | [`problem`] | the finite element model, the element, scenes and their files |
@@ -84,7 +84,7 @@ pub mod guide {
     pub mod glossary {}
 }
 
-pub use base::{choices, error, files, limits, plain, suggestion, xml};
+pub use base::{child, choices, error, files, limits, plain, suggestion, xml};
 pub use {engine, mathcad, numbers, paper, problem, report, studies};
 
 #[doc(inline)]

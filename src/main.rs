@@ -4,6 +4,7 @@
 mod commands;
 
 use std::process::ExitCode;
+use std::thread::Builder;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
 use commands::Command;
@@ -51,7 +52,11 @@ struct Cli {
     command: Option<Command>,
 }
 
+/// Bytes of the stack of each thread, whatever the environment (RUST_MIN_STACK) says; the default of Rust.
+const STACK: usize = 1 << 21;
+
 fn main() -> ExitCode {
+    let _ = rayon::ThreadPoolBuilder::new().stack_size(STACK).build_global();
     #[cfg(unix)]
     heed_signals();
     // Every command that prints JSON has this option.
@@ -113,17 +118,20 @@ fn exit_code(result: Result<u8, Error>, json: bool) -> ExitCode {
     }
 }
 
-/// Has SIGHUP, SIGINT and SIGTERM end the process as they do by themselves, once nothing temporary is left;
+/// Has SIGHUP, SIGINT, SIGQUIT and SIGTERM end the process as they do by themselves, once nothing temporary and
+/// no program that it started is left;
 /// and has a file that may not grow further be an error of its writing, not the end of the process.
 #[cfg(unix)]
 fn heed_signals() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
     use signal_hook::{flag, iterator::Signals, low_level::emulate_default_handler};
     let _ = flag::register(SIGXFSZ, Default::default());
-    let ending = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
+    let ending =
+        [SIGHUP, SIGINT, SIGQUIT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     let Ok(mut signals) = Signals::new(ending) else { return };
     let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
-    std::thread::spawn(move || signals.forever().for_each(end));
+    let thread = Builder::new().stack_size(STACK);
+    let _ = thread.spawn(move || signals.forever().for_each(end));
 }
 
 /// Returns whether a signal is ignored from the start, as SIGINT is in the background of a shell's

@@ -1,6 +1,7 @@
 //! What every part of the program uses: errors of the input, files, closed sets of choices, and words.
 #![forbid(unsafe_code)]
 
+pub mod child;
 pub mod choices;
 pub mod error;
 pub mod files;

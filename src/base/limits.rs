@@ -30,13 +30,6 @@ pub const VALUES: Limit =
 pub const MESH: Limit =
     Limit { most: 60_000_000, of: "numbers in one mesh file", fix: "use a coarser mesh" };
 
-/// Numbers of arrays that are printed as JSON: 455 bytes each.
-pub const PRINTED: Limit = Limit {
-    most: 10_000_000,
-    of: "numbers to print as JSON",
-    fix: "leave out --json, or ask for a part",
-};
-
 /// Edges and nodes that are loaded, each counted once for every load: 100 bytes each.
 pub const LOADED: Limit = Limit {
     most: 10_000_000,

@@ -1,6 +1,12 @@
 //! Words for people: what serde says of a value of the wrong kind, and numbers in messages.
 
 use std::fmt::Display;
+use std::path::Path;
+
+/// Returns a path on one line: what would break it, or control a terminal, becomes U+FFFD.
+pub fn shown(path: &Path) -> String {
+    path.to_string_lossy().replace(char::is_control, "\u{fffd}")
+}
 
 /// What serde calls the kinds of values, found or expected.
 const KINDS: &[(&str, &str)] = &[
@@ -19,17 +25,18 @@ const KINDS: &[(&str, &str)] = &[
     ("length", "a list of"),
 ];
 
-/// Returns what `error` says, with the kinds of JSON in place of those of Rust.
+/// Returns what `error` says, with the kinds of JSON in place of those of Rust, and without the line.
 ///
 /// ```
 /// let error = serde_json::from_str::<Vec<f64>>(r#"["x"]"#).expect_err("no number");
-/// let words = "the text \"x\" where a number is expected, at line 1 column 4";
+/// let words = "the text \"x\" where a number is expected";
 /// assert_eq!(base::plain::plain(&error), words);
 /// ```
 pub fn plain(error: &impl Display) -> String {
     let text = error.to_string();
-    if let Some(at) = text.strip_prefix("trailing characters ") {
-        return format!("the list is too long, {at}");
+    let text = text.rsplit_once(" at line ").map_or(&*text, |(text, _)| text);
+    if text == "trailing characters" {
+        return "the list is too long".into();
     }
     if let Some(rest) = text.strip_prefix("EOF while parsing ") {
         return format!("the text ends within {rest}");
@@ -38,13 +45,11 @@ pub fn plain(error: &impl Display) -> String {
         return format!("unknown value {rest}");
     }
     let starts = ["invalid type: ", "invalid value: ", "invalid "];
-    let Some(rest) = starts.iter().find_map(|start| text.strip_prefix(start)) else { return text };
-    let Some((found, expected)) = rest.split_once(", expected ") else { return text };
-    let (expected, at) = match expected.rsplit_once(" at line ") {
-        Some((expected, at)) => (expected, format!(", at line {at}")),
-        None => (expected, String::new()),
+    let Some(rest) = starts.iter().find_map(|start| text.strip_prefix(start)) else {
+        return text.into();
     };
-    format!("{} where {} is expected{at}", of_json(found), of_json(expected))
+    let Some((found, expected)) = rest.split_once(", expected ") else { return text.into() };
+    format!("{} where {} is expected", of_json(found), of_json(expected))
 }
 
 /// Returns the words for a kind, and for a value whose kind comes first.

@@ -54,7 +54,7 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the
     /// finding's own].
     #[arg(value_name = "SCENE")]
-    scene: Option<String>,
+    scene: Option<PathBuf>,
     /// Explain one finding.
     #[arg(long, value_name = "ID")]
     finding: Option<String>,
@@ -99,7 +99,7 @@ pub fn run(args: &Args) -> Result<()> {
 fn prices(args: &Args) -> Result<()> {
     args.tables.check()?;
     let reading = args.reading.reading;
-    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
     let case = Case::within_memory(&scene, reading)?;
     let places = places(args)?;
     let compared = Compared::new(&case)?;
@@ -159,7 +159,7 @@ fn listed<T>(
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let reading = args.reading.reading;
-    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
     let case = Case::within_memory(&scene, reading)?;
     let (judged, by_reading) = waiting("judging", || {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
@@ -194,7 +194,7 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         files::check_folder(out, &["audit.txt", "audit.json"])?;
     }
-    let scene = Scene::open(args.scene.as_deref().unwrap_or("strand"))?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let places = places(args)?;

@@ -1,5 +1,7 @@
 //! What `plane-contact compare` and `plane-contact scene export` share.
 
+use std::path::Path;
+
 use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Solution};
 use plane_contact::problem::modelling::Variant;
@@ -44,7 +46,7 @@ fn penalty(text: &str) -> Result<f64, String> {
 
 impl DeckArgs {
     /// The run that is compared.
-    pub fn solve(&self, scene: &str) -> Result<Solution> {
+    pub fn solve(&self, scene: &Path) -> Result<Solution> {
         let scene = Scene::open(scene)?;
         let request = self.model.request(&scene, self.variant, &self.reading);
         if self.contact == ContactKind::Equation {

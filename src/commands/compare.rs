@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use plane_contact::engine::error::Result;
 use plane_contact::engine::estimates::certain;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::report::comparison::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
@@ -31,7 +32,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
-    scene: String,
+    scene: PathBuf,
     /// The code.
     #[arg(long, value_name = "CODE", default_value = "calculix")]
     with: Code,
@@ -86,6 +87,6 @@ pub fn run(args: &Args) -> Result<()> {
     if args.json {
         return print(&json);
     }
-    let report = report::report(&compared).line(format!("Written to {}", out.display()));
+    let report = report::report(&compared).line(format!("Written to {}", shown(&out)));
     args.tables.print(report)
 }

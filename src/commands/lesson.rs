@@ -6,6 +6,7 @@ use std::sync::Arc;
 use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::paper::edited::Edited;
+use plane_contact::plain::shown;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
@@ -35,13 +36,13 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: fig1].
     #[arg(value_name = "SCENE")]
-    scene: Option<String>,
+    scene: Option<PathBuf>,
     /// Show the turns of these contact nodes only, and the triangles at them.
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     nodes: Vec<usize>,
     /// An edited listing, offered beside the printed one.
     #[arg(long, value_name = "FILE")]
-    listing: Option<String>,
+    listing: Option<PathBuf>,
     /// The language of the page: en, ru; messages of the interpreter stay English.
     #[arg(long, default_value_t)]
     lang: Language,
@@ -53,15 +54,15 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
     files::write(&out, &lesson(args)?)?;
-    report_written(&out, true);
+    report_written(&out);
     Ok(())
 }
 
 fn lesson(args: &Args) -> Result<String> {
-    let scene = Scene::open(args.scene.as_deref().unwrap_or("fig1"))?;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("fig1")))?;
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
-        let edited = Edited::new(file, &read_listing(file)?)?;
+        let edited = Edited::new(&shown(file), &read_listing(file)?)?;
         asked.push(Switch::edited(edited.which, edited.listing()));
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {

@@ -30,6 +30,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::numbers::solve::Arithmetic;
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::shown;
 use plane_contact::plain::six_digits;
 use plane_contact::problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
@@ -112,7 +113,7 @@ pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
     if !is_unlike {
         return;
     }
-    let group = std::env::args()
+    let group = std::env::args_os()
         .skip(1)
         .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
     let names = group.get_subcommands().map(clap::Command::get_name);
@@ -257,11 +258,11 @@ impl SceneArgs {
 pub const LARGEST_LISTING: u64 = 1 << 24;
 
 /// Reads a file of listings.
-pub fn read_listing(place: &str) -> Result<String, InputError> {
-    let file = files::read_most(Path::new(place), LARGEST_LISTING);
+pub fn read_listing(path: &Path) -> Result<String, InputError> {
+    let file = files::read_most(path, LARGEST_LISTING);
     file.and_then(files::text).map_err(|why| {
         let what = format!("the listing cannot be read: {why}");
-        InputError::new(place, what, "give the path of a text file of listings")
+        InputError::new(shown(path), what, "give the path of a text file of listings")
     })
 }
 
@@ -316,14 +317,9 @@ pub fn within(error: Error, place: &str) -> Error {
     }
 }
 
-/// Prints to standard error that files were written to `folder`, or why not.
-pub fn report_written(folder: &Path, written: bool) {
-    print_stderr(&match written {
-        true => format!("Written to {}\n", folder.display()),
-        false => {
-            "No field is written: the two runs have no displacements of the same nodes\n".into()
-        }
-    });
+/// Prints to standard error that files were written to `folder`.
+pub fn report_written(folder: &Path) {
+    print_stderr(&format!("Written to {}\n", shown(folder)));
 }
 
 /// Prints to standard error, for people; where that cannot be written, results and exit status are as

@@ -10,6 +10,7 @@ use plane_contact::engine::{Assessment, Solution};
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, sha256_of};
 use plane_contact::report::comparison;
@@ -60,7 +61,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE", default_value = "strand")]
-    scene: String,
+    scene: PathBuf,
     /// html: one page that opens offline; markdown: figures are files of SVG beside it.
     #[arg(long, default_value_t)]
     format: Format,
@@ -102,7 +103,7 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
     waiting("auditing", || write(args, &case, charts, &out))?;
-    report_written(&out, true);
+    report_written(&out);
     Ok(())
 }
 
@@ -182,7 +183,8 @@ fn runs<'a>(args: &Args, case: &'a Case, audit: Option<&Audit>) -> Vec<Run<'a>> 
 
 /// Returns the command that makes the report again, but for the place of its file.
 fn command(args: &Args) -> String {
-    let mut command = format!("plane-contact report {} --format {}", args.scene, args.format);
+    let mut command =
+        format!("plane-contact report {} --format {}", shown(&args.scene), args.format);
     if !args.variant.is_empty() {
         command += &format!(" --variant {}", variants(args));
     }
@@ -196,7 +198,7 @@ fn command(args: &Args) -> String {
         command += &format!(" --ccx {program}");
     }
     if let Some(folder) = &args.charts {
-        command += &format!(" --charts {}", folder.display());
+        command += &format!(" --charts {}", shown(folder));
     }
     command
 }
@@ -267,7 +269,7 @@ fn calculix(program: &str, case: &Case) -> Result<Beside> {
 fn charts(folder: &Path) -> Result<Vec<(String, String)>> {
     let fault = |why: io::Error| {
         let what = format!("the charts cannot be read: {why}");
-        InputError::new(folder.display().to_string(), what, "give a folder that trade wrote")
+        InputError::new(shown(folder), what, "give a folder that trade wrote")
     };
     let read = |name: String| {
         let text = files::read_in(folder, Path::new(&name), CHART).and_then(files::text);

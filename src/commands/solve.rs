@@ -10,6 +10,7 @@ use plane_contact::files;
 use plane_contact::numbers::solve::Solver;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::Which;
+use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
@@ -43,7 +44,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
-    scene: String,
+    scene: PathBuf,
     #[command(flatten)]
     run: RunArgs,
     #[command(flatten)]
@@ -56,7 +57,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     km: Option<PathBuf>,
     /// Take the cheapest precision whose rounding changes displacements by at most this part of the
-    /// largest.
+    /// largest: from f64 on, as f32 is slower.
     #[arg(long, value_name = "A",
         conflicts_with_all = ["scalar", "solver", "inputs", "c_cnt", "km"])]
     accuracy: Option<f64>,
@@ -120,7 +121,7 @@ pub fn run(args: &Args) -> Result<u8> {
         .then(accuracy)
         .then(beside_the_print(&solution))
         .line(report::plan::line(&plan))
-        .line(format!("Written to {}", out.display()));
+        .line(format!("Written to {}", shown(&out)));
     args.tables.print(report)?;
     Ok(status(&solution))
 }
@@ -167,8 +168,8 @@ fn assess<'a>(args: &Args, solution: &'a Solution) -> Assessment<'a> {
 fn edited(args: &Args, mut request: Request) -> Result<Request> {
     for (which, file) in [(Which::CCnt, &args.c_cnt), (Which::Km, &args.km)] {
         let Some(file) = file else { continue };
-        let place = file.display().to_string();
-        let edited = Edited::new(&place, &read_listing(&place)?)?;
+        let place = shown(file);
+        let edited = Edited::new(&place, &read_listing(file)?)?;
         if edited.which != which {
             let what = format!("it is the listing {}, not {which}", edited.which);
             return Err(InputError::new(place, what, "give it to the other option").into());

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::report::sweep::{self as report, Engine};
 use plane_contact::studies::sweep::{Job, Jobs, Row};
 
@@ -88,7 +89,7 @@ impl SweepArgs {
     }
 
     fn jobs(&self) -> Result<Jobs> {
-        let place = self.file.display().to_string();
+        let place = shown(&self.file);
         let text = files::read_most(&self.file, MOST).map_err(|why| {
             let what = format!("the sweep cannot be read: {why}");
             InputError::new(&place, what, "see `plane-contact sweep --help`")
@@ -143,7 +144,7 @@ fn run_jobs(sweep: &SweepArgs, only: Option<usize>) -> Result<()> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let (all, out) = (chosen.len(), out.display());
+    let (all, out) = (chosen.len(), shown(&out));
     print_fitted(&format!("{all} jobs: {ran} ran, {failed} failed\nWritten to {out}\n"))
 }
 
@@ -156,7 +157,7 @@ fn result(out: &Path, job: &Job) -> Result<Option<Row>> {
     };
     let row = row.map_err(|why| {
         let what = format!("the result cannot be read: {why}");
-        InputError::new(out.join(name).display().to_string(), what, "move what is there")
+        InputError::new(shown(&out.join(name)), what, "move what is there")
     });
     Ok(Some(row?))
 }

@@ -16,7 +16,7 @@ use numbers::scalar::Scalar;
 use numbers::solve::{Precision, Singular, Solved, SparseSquare};
 use paper::door;
 use paper::edited::Interpreter;
-use paper::mirror::{self, Pairs, RestraintIndex, Schedule, Worksheet};
+use paper::mirror::{self, Pairs, Schedule, Worksheet};
 use problem::model::{Dof, Model};
 use problem::modelling::{Coupling, Variant};
 
@@ -234,8 +234,7 @@ impl<'a, T: Precision> Equations<'a, T> {
 /// Returns whether each degree of freedom is restrained: the model's restraints, or under reading
 /// R2 = printed, where `Km` reads the restraint of y in place of that of x, those of `Km`.
 fn restrained(model: &Model, request: &Request) -> Vec<bool> {
-    let by_km =
-        request.variant == Variant::Printed && request.reading.r2 == RestraintIndex::Printed;
+    let by_km = request.variant == Variant::Printed && request.reading.r2.takes_y_for_x();
     let read = |dof: Dof| if by_km { dof.node().y() } else { dof };
     model.all_dofs().map(|dof| model.is_restrained(read(dof))).collect()
 }

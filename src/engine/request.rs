@@ -155,7 +155,7 @@ impl Request {
     /// the variants that the paper describes visit them as listed.
     ///
     /// # Errors
-    /// The plane problem of R6 does not allow a Poisson's ratio, or under `unilateral` the nodes of
+    /// The plane problem of R6 does not allow a Poisson's ratio, R8 = m does not know the unit of length, or under `unilateral` the nodes of
     /// the contact surface make no chain.
     pub fn model(&self) -> Result<Arc<Model>, InputError> {
         // What changes nothing leaves it shared.
@@ -169,6 +169,6 @@ impl Request {
                 Arc::make_mut(&mut model).contact.nodes = nodes;
             }
         }
-        door::under(model, &self.reading)
+        door::under(model, &self.scene.units.length, &self.reading)
     }
 }

@@ -183,6 +183,9 @@ pub enum Start {
     Held,
     /// They do, once nodes that overlapped the target closed in a step of their own.
     Closed,
+    /// They overlapped, and contact alone holds them: they were moved apart as rigid ones, to where a vanishing
+    /// load holds them without friction, or by their only motion.
+    Released,
     /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
     /// changes the result.
     Loose,
@@ -392,6 +395,10 @@ pub struct Equilibrium {
     /// model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
+    /// The height of the arcs over the edges of curved surfaces, and the deepest overlap or the least gap before
+    /// any load, length; None where the height is a small part of this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,

@@ -42,6 +42,7 @@ impl<O: Observer> Run<'_, '_, O> {
             Meaning::Numbers(function) => function(arguments, name).map(Value::Number),
             Meaning::Values(function) => function(arguments),
             Meaning::Subscripts(function) => function(arguments, self.settings.origin),
+            Meaning::Vectorize => Err(Cause::Arguments { expected: 1, found: arguments.len() }),
             Meaning::Trace => {
                 let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
                 let value = Value::Text(line.as_str().into());

@@ -3,12 +3,12 @@
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::entry::entry_of;
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function};
+use super::function::{Builtin, FUNCTION, Function, Meaning};
 use super::matrices;
 use super::observe::{Observer, Operand};
 use super::settings::Conjunction;
 use super::state::Run;
-use super::syntax::{Comparison, Expr, Kind, Operation, Reference, Slot, Span};
+use super::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Slot, Span};
 use super::value::{Array, Grid, Value};
 
 /// The largest power of a matrix: numbers up to it are whole or not.
@@ -81,6 +81,10 @@ impl<O: Observer> Run<'_, '_, O> {
             Kind::Call(name, _) if self.functions[*name].is_none() => {
                 Err(self.undefined(*name, true, &expr.span))
             }
+            Kind::Call(name, arguments) if self.is_vectorize(*name) && arguments.len() == 1 => {
+                self.vectorized(&arguments[0])
+            }
+            Kind::Program(block) => self.inner(block, &expr.span),
             Kind::Call(name, arguments) => {
                 let arguments = self.arguments(arguments)?;
                 self.spend(FUNCTION)?;
@@ -165,9 +169,17 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Returns the values of arguments; each counts as stored while the next is evaluated.
     pub fn arguments(&mut self, arguments: &[Expr]) -> Fallible<Vec<Value>> {
+        self.held(arguments, Self::eval)
+    }
+
+    fn held<'e>(
+        &mut self,
+        exprs: impl IntoIterator<Item = &'e Expr>,
+        eval: fn(&mut Self, &Expr) -> Fallible<Value>,
+    ) -> Fallible<Vec<Value>> {
         let stored = self.stored;
-        let values = arguments.iter().map(|argument| {
-            let value = self.eval(argument)?;
+        let values = exprs.into_iter().map(|expr| {
+            let value = eval(self, expr)?;
             self.room(value.count())?;
             self.stored += value.count();
             Ok(value)
@@ -280,7 +292,7 @@ impl<O: Observer> Run<'_, '_, O> {
         &mut self,
         function: Slot,
         name: Slot,
-        parts: &[Expr; 3],
+        parts: &[Expr],
         span: &Span,
     ) -> Fallible<Value> {
         let operation = match &self.functions[function] {
@@ -288,10 +300,24 @@ impl<O: Observer> Run<'_, '_, O> {
             Some(Function::Builtin(Builtin { name: "∏", .. })) => Operation::Multiply,
             _ => return Err(self.undefined(function, true, span)),
         };
-        let [from, to, term] = parts;
-        let (from, to) = (self.number(from)?, self.number(to)?);
+        let numbers: Box<dyn Fn(usize) -> Option<Value>> = match parts {
+            [from, to, _] => {
+                let (from, to) = (self.number(from)?, self.number(to)?);
+                let number = move |turn: usize| from + turn as f64;
+                Box::new(move |turn| (number(turn) <= to).then(|| Value::Number(number(turn))))
+            }
+            [range, _] if self.range_variable(std::slice::from_ref(range)).is_some() => {
+                let turns = self.turns(&Range::Over(vec![range.clone()]))?;
+                Box::new(move |turn| turns.value(turn))
+            }
+            _ => {
+                let construct = "a series over what is no range variable".into();
+                return Err(self.fail(span, Cause::Unsupported { construct }));
+            }
+        };
+        let term = parts.last().expect("a series has a term");
         let outer = self.cells[name].value.take();
-        let series = self.terms(operation, name, (from, to), term, span);
+        let series = self.terms(operation, name, &*numbers, term, span);
         self.cells[name].value = outer;
         series.map(Value::Number)
     }
@@ -300,24 +326,101 @@ impl<O: Observer> Run<'_, '_, O> {
         &mut self,
         operation: Operation,
         name: Slot,
-        (from, to): (f64, f64),
+        numbers: &dyn Fn(usize) -> Option<Value>,
         term: &Expr,
         span: &Span,
     ) -> Fallible<f64> {
         let mut result = None;
-        let mut turn = 0.0;
-        while from + turn <= to {
+        let mut turn = 0;
+        while let Some(number) = numbers(turn) {
             self.spend(1)?;
-            self.cells[name].value = Some(Value::Number(from + turn));
+            self.cells[name].value = Some(number);
             let term = self.number(term)?;
             let next = match result {
                 None => Ok(term),
                 Some(result) => calculate(operation, result, term, self.settings),
             };
             result = Some(next.map_err(|cause| self.fail(span, cause))?);
-            turn += 1.0;
+            turn += 1;
         }
         Ok(result.unwrap_or(if operation == Operation::Add { 0.0 } else { 1.0 }))
+    }
+
+    fn is_vectorize(&self, name: Slot) -> bool {
+        let function = self.functions[name].as_ref();
+        matches!(function, Some(Function::Builtin(Builtin { meaning: Meaning::Vectorize, .. })))
+    }
+
+    /// Returns an expression's value where each operation and function takes its arrays entry by entry;
+    /// they must be of one size.
+    fn vectorized(&mut self, expr: &Expr) -> Fallible<Value> {
+        self.spend(1)?;
+        match &expr.kind {
+            Kind::Group(x) => return self.vectorized(x),
+            Kind::Number(_)
+            | Kind::Text(_)
+            | Kind::Read(_)
+            | Kind::Entry { .. }
+            | Kind::Array { .. }
+            | Kind::Column(..) => return self.eval(expr),
+            Kind::Call(name, _) if self.functions[*name].is_none() => {
+                return Err(self.undefined(*name, true, &expr.span));
+            }
+            Kind::Magnitude(_)
+            | Kind::Negative(_)
+            | Kind::Power(..)
+            | Kind::Arithmetic(..)
+            | Kind::Compare(..)
+            | Kind::Call(..) => {}
+            Kind::Not(_)
+            | Kind::Transpose(_)
+            | Kind::Chain(..)
+            | Kind::All(_)
+            | Kind::Any(_)
+            | Kind::If(_)
+            | Kind::Series { .. }
+            | Kind::Program(_) => {
+                let construct = format!("vectorize of `{}`", self.place(&expr.span).text);
+                return Err(self.fail(&expr.span, Cause::Unsupported { construct }));
+            }
+        }
+        let operands = self.held(expr.parts(), Self::vectorized)?;
+        let mut arrays = operands.iter().filter(|operand| operand.number().is_none());
+        let Some(first) = arrays.next() else { return self.applied(expr, &operands) };
+        if let Some(other) = arrays.find(|other| other.size() != first.size()) {
+            let size = |a: &Value| format!("{} x {}", a.size().0, a.size().1);
+            let (left, right) = (size(first), size(other));
+            return Err(self.fail(&expr.span, Cause::Sizes { operation: "→", left, right }));
+        }
+        let (rows, cols) = first.size();
+        self.afford(rows * cols)?;
+        let mut entries = Vec::with_capacity(rows * cols);
+        for (i, j) in (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j))) {
+            let at = operands.iter().map(|x| x.entry(i, j).unwrap_or_else(|| x.clone()));
+            let at: Vec<Value> = at.collect();
+            entries.push(self.applied(expr, &at)?);
+        }
+        Ok(Value::grid(Grid::from_rows(cols.max(1), entries)))
+    }
+
+    /// Returns what an operation or function that [`Self::vectorized`] takes makes of numbers.
+    fn applied(&mut self, expr: &Expr, operands: &[Value]) -> Fallible<Value> {
+        self.spend(FUNCTION)?;
+        let numbers: Option<Vec<f64>> = operands.iter().map(Value::number).collect();
+        let result = match (&expr.kind, numbers.as_deref()) {
+            (Kind::Call(name, _), _) => return self.call(*name, operands, &expr.span),
+            (Kind::Magnitude(_), Some([x])) => Ok(x.abs()),
+            (Kind::Negative(_), Some([x])) => Ok(-x),
+            (Kind::Power(..), Some([x, y])) => power(*x, *y),
+            (Kind::Arithmetic(operation, ..), Some([x, y])) => {
+                calculate(*operation, *x, *y, self.settings)
+            }
+            (Kind::Compare(comparison, ..), Some([x, y])) => {
+                return Ok(truth_value(compare(*comparison, *x, *y, self.settings)));
+            }
+            (_, _) => Err(kind("a number or an array of numbers", &operands[0])),
+        };
+        result.map(Value::Number).map_err(|cause| self.fail(&expr.span, cause))
     }
 
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of

@@ -29,7 +29,7 @@ impl fmt::Display for ParseError {
             f,
             "{listing}, line {line} (line {file_line} of the file), column {column}: {message}"
         )?;
-        write!(f, "    {text}\n    {:>column$}", "^")
+        write!(f, "    {text}\n    {}^", " ".repeat(column.saturating_sub(1)))
     }
 }
 

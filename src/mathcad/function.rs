@@ -37,6 +37,8 @@ pub enum Meaning {
     Values(fn(&[Value]) -> Result<Value, Cause>),
     /// A value of its arguments and `ORIGIN`.
     Subscripts(fn(&[Value], i32) -> Result<Value, Cause>),
+    /// `→(x)`: an expression of which each operation takes arrays entry by entry.
+    Vectorize,
     /// `trace(x, y, ...)`: a line of output, which is also its value.
     Trace,
 }
@@ -45,7 +47,7 @@ pub enum Meaning {
 pub const FUNCTION: u64 = 8;
 
 /// All built-in functions, each of which is known by this table alone.
-static BUILTINS: [Builtin; 42] = {
+static BUILTINS: [Builtin; 46] = {
     use Meaning::*;
     const fn row(
         name: &'static str,
@@ -113,6 +115,12 @@ static BUILTINS: [Builtin; 42] = {
         // Of a column; over a range they are series.
         row("∑", copied, Values(|v| one(v).and_then(total))),
         row("∏", copied, Values(|_| Err(only_a_series()))),
+        // ×(a, b), of columns of three.
+        row("×", free, Values(|ab| two(ab).and_then(|(a, b)| matrices::cross(a, b)))),
+        // Of a matrix whose eigenvalues are real, in ascending order.
+        row("eigenvals", eigen, Values(|m| one(m).and_then(matrices::eigenvals))),
+        row("eigenvecs", vectors, Values(|m| one(m).and_then(matrices::eigenvecs))),
+        row("→", free, Vectorize),
         row("trace", written, Trace),
     ]
 };
@@ -157,6 +165,18 @@ fn eliminated(arguments: &[Value]) -> (usize, u64) {
     let (numbers, steps) = copied(arguments);
     let matrix = arguments.first().filter(|matrix| matches!(matrix, Value::Array(_)));
     (numbers, steps.saturating_add(matrix.map_or(0, matrices::steps)))
+}
+
+/// Some ten eliminations.
+fn eigen(arguments: &[Value]) -> (usize, u64) {
+    let (numbers, steps) = eliminated(arguments);
+    (2 * numbers, steps.saturating_mul(10))
+}
+
+/// An elimination of another matrix for each.
+fn vectors(arguments: &[Value]) -> (usize, u64) {
+    let (numbers, steps) = eigen(arguments);
+    (numbers, steps.saturating_mul(size(arguments).isqrt() as u64))
 }
 
 /// The line is kept twice, as output and as a value; a number takes eight bytes.

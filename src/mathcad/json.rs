@@ -1,5 +1,6 @@
 //! Values as JSON: a number; a list of rows for an array; a string.
 
+use serde::ser::{Serialize, SerializeSeq, Serializer};
 use serde_json::Value as Json;
 
 use super::value::{Array, Grid, Value};
@@ -36,29 +37,36 @@ fn rows(list: &[Json]) -> Result<Value, String> {
     Ok(Value::grid(Grid::from_rows(cols, entries)))
 }
 
-/// Returns how many numbers and strings a value has.
-pub fn count(value: &Value) -> usize {
-    let (rows, cols) = value.size();
-    match value {
-        Value::Number(_) | Value::Text(_) => 1,
-        Value::Array(_) => rows * cols,
-        Value::Nested(_) => {
-            let places = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j)));
-            places.map(|(i, j)| count(&value.entry(i, j).unwrap_or_default())).sum()
+/// A value that is written as JSON which [`read`] reads, entry by entry.
+#[derive(Clone, Copy, Debug)]
+pub struct Written<'a>(pub &'a Value);
+
+impl Serialize for Written<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let (rows, _) = self.0.size();
+        match self.0 {
+            Value::Number(x) => to.serialize_f64(*x),
+            Value::Text(text) => to.serialize_str(text),
+            array @ (Value::Array(_) | Value::Nested(_)) => {
+                to.collect_seq((0..rows).map(|i| Row { array, i }))
+            }
         }
     }
 }
 
-/// Returns a value as JSON that [`read`] reads.
-pub fn write(value: &Value) -> Json {
-    let (rows, cols) = value.size();
-    match value {
-        Value::Number(x) => (*x).into(),
-        Value::Text(text) => (**text).into(),
-        array => {
-            let entry = |i, j| write(&array.entry(i, j).unwrap_or_default());
-            let row = |i| Json::Array((0..cols).map(|j| entry(i, j)).collect());
-            Json::Array((0..rows).map(row).collect())
+struct Row<'a> {
+    array: &'a Value,
+    i: usize,
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let (_, cols) = self.array.size();
+        let mut row = to.serialize_seq(Some(cols))?;
+        for j in 0..cols {
+            let entry = self.array.entry(self.i, j).unwrap_or_default();
+            row.serialize_element(&Written(&entry))?;
         }
+        row.end()
     }
 }

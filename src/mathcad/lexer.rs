@@ -51,8 +51,8 @@ impl fmt::Display for Token {
 }
 
 /// The signs that are no operators.
-const SIGNS: [&str; 16] =
-    [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩"];
+const SIGNS: [&str; 18] =
+    [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩", "{", "}"];
 
 /// The words that no name can be.
 const KEYWORDS: &str = "for while if otherwise try return break continue in and or not transpose";
@@ -200,8 +200,8 @@ impl Lexer<'_> {
             self.found.push((Token::Gap, span.start - spaces..span.start));
         }
         match token {
-            Token::Sign(bracket @ ("(" | "[" | "⟨" | "|")) => self.open.push(bracket),
-            Token::Sign(")" | "]" | "⟩") | Token::ClosingBar => drop(self.open.pop()),
+            Token::Sign(bracket @ ("(" | "[" | "⟨" | "|" | "{")) => self.open.push(bracket),
+            Token::Sign(")" | "]" | "⟩" | "}") | Token::ClosingBar => drop(self.open.pop()),
             _ => {}
         }
         if self.open.len() > self.depth {
@@ -234,9 +234,9 @@ pub fn name_length(rest: &str) -> usize {
     inside.map(|(c, _)| c.len_utf8()).sum()
 }
 
-/// The roots, sums and products are functions with names of one sign.
+/// The roots, sums, products, `×` and `→` are functions with names of one sign.
 fn is_letter(c: char) -> bool {
-    (c.is_alphabetic() || matches!(c, '_' | '√' | '∑' | '∏')) && c != 'ᵀ'
+    (c.is_alphabetic() || matches!(c, '_' | '√' | '∑' | '∏' | '×' | '→')) && c != 'ᵀ'
 }
 
 fn number(rest: &str) -> Result<(Token, usize), String> {
@@ -267,10 +267,10 @@ fn text(rest: &str) -> Result<(Token, usize), String> {
 fn starts_operand(token: &Token) -> bool {
     let operand = matches!(token, Token::Number(_) | Token::Text(_) | Token::Name(_));
     // Within brackets `if` is the function.
-    operand || matches!(token, Token::Function(_) | Token::Sign("(" | "|" | "if"))
+    operand || matches!(token, Token::Function(_) | Token::Sign("(" | "|" | "{" | "if"))
 }
 
 fn ends_operand(token: &Token) -> bool {
     let operand = matches!(token, Token::Number(_) | Token::Text(_) | Token::Name(_));
-    operand || matches!(token, Token::ClosingBar | Token::Sign(")" | "]" | "⟩" | "ᵀ"))
+    operand || matches!(token, Token::ClosingBar | Token::Sign(")" | "]" | "⟩" | "}" | "ᵀ"))
 }

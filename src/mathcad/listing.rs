@@ -40,7 +40,7 @@ pub struct Listing {
 }
 
 /// The line between the two blocks of `try`.
-const ON_ERROR: &str = "on error";
+pub const ON_ERROR: &str = "on error";
 
 /// Marks the names that statements read or call; the variable of a series is its own.
 fn uses(block: &[Statement], used: &mut [bool]) {
@@ -64,12 +64,21 @@ fn uses(block: &[Statement], used: &mut [bool]) {
     }
 }
 
+/// Hands over the names that programs within an expression write to.
+fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
+    match &expr.kind {
+        Kind::Program(block) => drop(survey(block, written)),
+        _ => expr.parts().into_iter().for_each(|part| within(part, written)),
+    }
+}
+
 /// Hands over the names that the statements write to; returns how deep they stand within each
 /// other.
-fn survey(block: &[Statement], written: &mut impl FnMut(Slot)) -> usize {
+fn survey(block: &[Statement], written: &mut dyn FnMut(Slot)) -> usize {
     let mut depth = 0;
     for Statement { step, .. } in block {
         step.written().into_iter().for_each(&mut *written);
+        step.expressions().into_iter().for_each(|expr| within(expr, written));
         let own = step.expressions().into_iter().map(|expr| expr.depth(usize::MAX)).max();
         let below = step.blocks().into_iter().map(|block| survey(block, written)).max();
         depth = depth.max(1 + own.max(below).unwrap_or(0));
@@ -214,9 +223,10 @@ impl<'a> Reader<'a> {
         let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
         self.check_depth(line, &body.step)?;
         match body.step {
-            Step::Assign { .. } | Step::Evaluate { .. } | Step::Return { .. } => {
-                Ok((parameters, Some(body)))
-            }
+            Step::Assign { .. }
+            | Step::Spread { .. }
+            | Step::Evaluate { .. }
+            | Step::Return { .. } => Ok((parameters, Some(body))),
             _ => self.refuse(line, "found a block behind `:=`, expected it indented below"),
         }
     }

@@ -4,7 +4,8 @@ use super::arithmetic::{finite, kind, sum};
 use super::entry::offset;
 use super::failure::Cause;
 use super::value::{Array, Grid, Value};
-use nalgebra::DVector;
+use nalgebra::linalg::{Schur, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 use numbers::solve::{Factors as _, SparseLu, SparseSquare};
 
 /// The numbers that an elimination works through in the time of a statement.
@@ -146,6 +147,98 @@ fn factor(a: &Array) -> Factors {
         }
     }
     (rows, order, sign)
+}
+
+/// Returns the entries row by row of a value that has so many rows and columns.
+pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cause> {
+    if value.size() != (rows, cols) {
+        let size = |(rows, cols)| format!("{rows} x {cols}");
+        let (left, right) = (size((rows, cols)), size(value.size()));
+        return Err(Cause::Sizes { operation: "←", left, right });
+    }
+    let places = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j)));
+    Ok(places.map(|(i, j)| value.entry(i, j).unwrap_or_else(|| value.clone())).collect())
+}
+
+/// Returns the entries of a column of three numbers.
+fn three(value: &Value) -> Result<&[f64], Cause> {
+    match value {
+        Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
+        other => Err(kind("a column of three numbers", other)),
+    }
+}
+
+/// Returns the cross product of two columns of three numbers.
+pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
+    let (a, b) = (three(a)?, three(b)?);
+    let entry = |k: usize| {
+        let (k, l) = ((k + 1) % 3, (k + 2) % 3);
+        finite(a[k] * b[l] - a[l] * b[k])
+    };
+    Ok(Array::column((0..3).map(entry).collect::<Result<_, _>>()?).into())
+}
+
+/// Returns the eigenvalues of a square matrix, in ascending order.
+///
+/// # Errors
+/// Some are complex.
+pub fn eigenvals(value: &Value) -> Result<Value, Cause> {
+    Ok(Array::column(eigen(value)?.0).into())
+}
+
+/// Returns the eigenvectors of a square matrix, of length 1, as columns in the order of [`eigenvals`].
+///
+/// # Errors
+/// Some are complex, or, of a matrix that is not symmetric, two eigenvalues are the same.
+pub fn eigenvecs(value: &Value) -> Result<Value, Cause> {
+    let (values, vectors) = eigen(value)?;
+    let vectors = match vectors {
+        Some(vectors) => vectors,
+        None => null_vectors(&dense(square(value)?), &values)?,
+    };
+    Ok(Array::from_fn(values.len(), values.len(), |i, j| vectors[(i, j)]).into())
+}
+
+fn dense(a: &Array) -> DMatrix<f64> {
+    DMatrix::from_row_slice(a.rows(), a.cols(), a.entries())
+}
+
+/// Returns the eigenvalues in ascending order and, of a symmetric matrix, the eigenvectors.
+fn eigen(value: &Value) -> Result<(Vec<f64>, Option<DMatrix<f64>>), Cause> {
+    /// The rounds of the QR algorithm; it takes two or three for each eigenvalue.
+    const ROUNDS: usize = 100_000;
+    let matrix = dense(square(value)?);
+    let no_end = || Cause::Function { name: "eigenvals".into(), message: "no convergence".into() };
+    if matrix == matrix.transpose() {
+        let found = SymmetricEigen::try_new(matrix, f64::EPSILON, ROUNDS).ok_or_else(no_end)?;
+        let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();
+        order.sort_by(|i, j| found.eigenvalues[*i].total_cmp(&found.eigenvalues[*j]));
+        let values = order.iter().map(|k| finite(found.eigenvalues[*k]));
+        let values = values.collect::<Result<_, _>>()?;
+        return Ok((values, Some(found.eigenvectors.select_columns(&order))));
+    }
+    let found = Schur::try_new(matrix, f64::EPSILON, ROUNDS).ok_or_else(no_end)?.eigenvalues();
+    let found = found.ok_or_else(|| Cause::Complex { name: "eigenvals".into() })?;
+    let mut values = found.iter().map(|x| finite(*x)).collect::<Result<Vec<_>, _>>()?;
+    values.sort_by(f64::total_cmp);
+    Ok((values, None))
+}
+
+/// Returns for each eigenvalue a column of length 1 that the matrix multiplies by it.
+fn null_vectors(matrix: &DMatrix<f64>, values: &[f64]) -> Result<DMatrix<f64>, Cause> {
+    // Rounding parts a double eigenvalue by some square root of the unit roundoff.
+    let apart = f64::EPSILON.sqrt() * matrix.norm();
+    if values.windows(2).any(|pair| pair[1] - pair[0] <= apart) {
+        let construct = "eigenvectors of an eigenvalue that occurs twice".into();
+        return Err(Cause::Unsupported { construct });
+    }
+    let n = values.len();
+    let columns = values.iter().map(|value| {
+        let shifted = matrix - DMatrix::identity(n, n) * *value;
+        // Singular values descend: the last row belongs to the least.
+        shifted.svd(false, true).v_t.expect("it was asked for").row(n - 1).transpose()
+    });
+    Ok(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
 }
 
 /// Returns the column `j` of an array, counted from `origin`.

@@ -23,6 +23,9 @@ pub trait Observer {
 
     /// An `∧` was evaluated: its operands.
     fn conjunction(&mut self, _place: Place<'_>, _operands: &[Operand<'_>]) {}
+
+    /// The run ended after so many steps.
+    fn end(&mut self, _steps: u64) {}
 }
 
 impl Observer for () {

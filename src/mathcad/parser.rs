@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 use super::lexer::{ARROW, Complaint, Spanned, Token};
 use super::syntax::{
-    Expr, Kind, Level, OPERATORS, Operator, Range, Reference, Slot, Span, Statement, Step,
+    Expr, Kind, Level, OPERATORS, Operator, Range, Reference, Slot, Span, Spread, Statement, Step,
 };
 
 type Parsed<T> = Result<T, Complaint>;
@@ -20,7 +20,7 @@ type Parsed<T> = Result<T, Complaint>;
 /// # Errors
 /// The first token that does not belong there, and what may stand there.
 pub fn header(tokens: &[Spanned]) -> Parsed<Vec<Slot>> {
-    let mut parser = Parser { tokens, next: 0, expected: vec![] };
+    let mut parser = Parser { tokens, line: 0, next: 0, expected: vec![] };
     parser.function()?;
     let parameters = parser.in_brackets(Parser::name)?;
     parser.need(":=")?;
@@ -34,14 +34,35 @@ pub fn header(tokens: &[Spanned]) -> Parsed<Vec<Slot>> {
 /// # Errors
 /// The first token that does not belong there, and what may stand there.
 pub fn statement(tokens: &[Spanned], line: usize) -> Parsed<Statement> {
-    let mut parser = Parser { tokens, next: 0, expected: vec![] };
-    let step = parser.step(line)?;
+    let mut parser = Parser { tokens, line, next: 0, expected: vec![] };
+    let step = parser.step()?;
     parser.end()?;
     Ok(Statement { line, step })
 }
 
+/// Returns what an expression to the left of `←` takes several entries to.
+fn spread(left: &Expr) -> Option<Spread> {
+    let name = |x: &Expr| match &x.kind {
+        Kind::Read(Reference { name, row: None, .. }) => Some(*name),
+        _ => None,
+    };
+    match &left.kind {
+        Kind::Array { entries, cols } => {
+            let names = entries.iter().map(name).collect::<Option<Vec<_>>>()?;
+            Some(Spread::Names { names, cols: *cols })
+        }
+        Kind::Column(of, column) => {
+            let (span, column) = (left.span.clone(), column.clone());
+            Some(Spread::Column { name: name(of)?, span, column })
+        }
+        _ => None,
+    }
+}
+
 struct Parser<'t> {
     tokens: &'t [Spanned],
+    /// The line's place in the listing, from 0.
+    line: usize,
     /// The place of the next token.
     next: usize,
     /// What has been looked for, and at which place.
@@ -119,7 +140,7 @@ impl<'t> Parser<'t> {
         Ok(*slot)
     }
 
-    fn step(&mut self, line: usize) -> Parsed<Step> {
+    fn step(&mut self) -> Parsed<Step> {
         let start = self.start();
         let word = match self.token() {
             Some(Token::Sign(word)) if !self.is_choice() => *word,
@@ -151,21 +172,56 @@ impl<'t> Parser<'t> {
         if step.condition().is_some() {
             return Err((start, "found `if` and `otherwise` on one line".into()));
         }
-        Ok(Step::Otherwise { body: vec![Statement { line, step }] })
+        Ok(Step::Otherwise { body: vec![Statement { line: self.line, step }] })
     }
 
     /// Reads an assignment, or a value alone.
     fn assignment(&mut self) -> Parsed<Step> {
         let value = self.expression()?;
-        if let Kind::Read(target) = &value.kind {
-            self.expect(Token::Sign("←"));
-            if let Some(Token::Sign("←" | "<-" | ":=")) = self.token() {
-                self.next += 1;
-                let (target, value) = (target.clone(), self.expression()?);
-                return Ok(Step::Assign { target, value, guard: self.guard()? });
-            }
+        let spread = spread(&value);
+        if !matches!(value.kind, Kind::Read(_)) && spread.is_none() {
+            return Ok(Step::Evaluate { value, guard: self.guard()? });
         }
-        Ok(Step::Evaluate { value, guard: self.guard()? })
+        self.expect(Token::Sign("←"));
+        if !matches!(self.token(), Some(Token::Sign("←" | "<-" | ":="))) {
+            return Ok(Step::Evaluate { value, guard: self.guard()? });
+        }
+        self.next += 1;
+        let (assigned, guard) = (self.expression()?, self.guard()?);
+        Ok(match (value.kind, spread) {
+            (Kind::Read(target), _) => Step::Assign { target, value: assigned, guard },
+            (_, Some(to)) => Step::Spread { to, value: assigned, guard },
+            (_, None) => unreachable!("it is one of the two"),
+        })
+    }
+
+    /// Reads a program within an expression, the bracket of which is taken.
+    fn program(&mut self) -> Parsed<Vec<Statement>> {
+        let mut block = vec![];
+        loop {
+            let mut step = self.step()?;
+            match &mut step {
+                Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
+                    *body = self.inner()?;
+                }
+                Step::Otherwise { body } if body.is_empty() => *body = self.inner()?,
+                Step::Try { body, fallback } => {
+                    *body = self.inner()?;
+                    *fallback = self.inner()?;
+                }
+                _ => {}
+            }
+            block.push(Statement { line: self.line, step });
+            if self.takes("}") {
+                return Ok(block);
+            }
+            self.need(";")?;
+        }
+    }
+
+    fn inner(&mut self) -> Parsed<Vec<Statement>> {
+        self.need("{")?;
+        self.program()
     }
 
     fn guard(&mut self) -> Parsed<Option<Expr>> {
@@ -377,6 +433,7 @@ impl<'t> Parser<'t> {
                 }
             }
             Some(Token::Sign("(")) => self.rows()?,
+            Some(Token::Sign("{")) => Kind::Program(self.program()?),
             Some(Token::Sign("|")) => {
                 let inside = self.expression()?;
                 if !self.takes_token(Token::ClosingBar) {
@@ -401,17 +458,18 @@ impl<'t> Parser<'t> {
         self.need("(")?;
         let name = self.name()?;
         self.need("∈")?;
-        let from = self.expression()?;
-        self.need("..")?;
-        let to = self.expression()?;
+        let mut parts = vec![self.expression()?];
+        if self.takes("..") {
+            parts.push(self.expression()?);
+        }
         self.need(",")?;
-        let term = self.expression()?;
+        parts.push(self.expression()?);
         self.need(")")?;
-        Ok(Kind::Series { function, name, parts: Box::new([from, to, term]) })
+        Ok(Kind::Series { function, name, parts })
     }
 
     /// Reads what stands in round brackets, the first of which is taken: one expression is that
-    /// expression, several are an array.
+    /// expression, several are an array, and so is one with `;` behind it.
     fn rows(&mut self) -> Parsed<Kind> {
         let start = self.tokens[self.next - 1].1.start;
         let mut entries = vec![self.expression()?];
@@ -421,6 +479,9 @@ impl<'t> Parser<'t> {
             if !self.takes_token(Token::Gap) {
                 self.need(";")?;
                 ends.push(entries.len());
+                if entries.len() == 1 && self.takes(")") {
+                    return Ok(Kind::Array { entries, cols: 1 });
+                }
             }
             entries.push(self.expression()?);
         }

@@ -3,14 +3,15 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::failure::{Cause, Fallible};
+use super::failure::{Cause, Fallible, Subscripts};
 use super::function::{FUNCTION, Function};
 use super::listing::Listing;
+use super::matrices;
 use super::observe::Observer;
 use super::settings::{Limits, Settings};
 use super::sheet::{Numbers, Sheet};
 use super::state::{Run, Variable};
-use super::syntax::{Expr, Kind, Range, Reference, Slot, Statement, Step};
+use super::syntax::{Expr, Kind, Range, Reference, Slot, Span, Spread, Statement, Step};
 use super::value::{Grid, Value};
 
 /// A listing in a worksheet: what is defined above it, and the settings.
@@ -124,7 +125,7 @@ impl<'l> Runner<'l> {
             limits,
             cells: values.iter().map(cell).collect(),
             functions,
-            observer,
+            observer: &mut *observer,
             line: 0,
             spent,
             stored: 0,
@@ -132,7 +133,9 @@ impl<'l> Runner<'l> {
             last: None,
             trace: vec![],
         };
-        run.run(arguments)?.outcome()
+        let outcome = run.run(arguments).and_then(Run::outcome);
+        observer.end(spent.get());
+        outcome
     }
 }
 
@@ -146,7 +149,7 @@ enum Flow {
 }
 
 /// The values that a loop gives its variable.
-enum Turns {
+pub(super) enum Turns {
     /// From the first number by the step, up or down to the last.
     Span {
         from: f64,
@@ -161,7 +164,7 @@ enum Turns {
 const RANGE_END: f64 = 1e-12;
 
 impl Turns {
-    fn value(&self, turn: usize) -> Option<Value> {
+    pub(super) fn value(&self, turn: usize) -> Option<Value> {
         match self {
             Turns::Span { from, step, to } => {
                 let x = from + step * turn as f64;
@@ -213,6 +216,22 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(Outcome { value, locals, trace_output: self.trace })
     }
 
+    /// Returns the value of a program within an expression, whose names are those of the program around
+    /// it.
+    pub fn inner(&mut self, block: &[Statement], span: &Span) -> Fallible<Value> {
+        let outer = self.last.take();
+        let flow = self.block(block);
+        let value = std::mem::replace(&mut self.last, outer);
+        match (flow?, value) {
+            (Flow::Next, Some(value)) => Ok(value),
+            (Flow::Next, None) => Err(self.fail(span, Cause::NoValue)),
+            (Flow::Break | Flow::Continue | Flow::Return, _) => {
+                let construct = "break, continue or return in a program within an expression";
+                Err(self.fail(span, Cause::Unsupported { construct: construct.into() }))
+            }
+        }
+    }
+
     fn block(&mut self, block: &[Statement]) -> Fallible<Flow> {
         // Whether an `if` was true since the block's last `otherwise`.
         let mut held = false;
@@ -245,6 +264,12 @@ impl<O: Observer> Run<'_, '_, O> {
             Step::Assign { target, value, .. } => {
                 let value = self.eval(value)?;
                 self.assign(target, value)?;
+            }
+            Step::Spread { to, value, .. } => {
+                let span = value.span.clone();
+                let value = self.eval(value)?;
+                self.spread(to, &value, &span)?;
+                self.last = Some(value);
             }
             Step::Evaluate { value, .. } => self.last = Some(self.eval(value)?),
             Step::Return { value, .. } => {
@@ -324,7 +349,7 @@ impl<O: Observer> Run<'_, '_, O> {
     ///
     /// # Errors
     /// The step of a range leads away from its end.
-    fn turns(&mut self, range: &Range) -> Fallible<Turns> {
+    pub(super) fn turns(&mut self, range: &Range) -> Fallible<Turns> {
         let (from, second, to) = match range {
             Range::Over(values) => match self.range_variable(values) {
                 Some(numbers) => numbers,
@@ -348,7 +373,7 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Returns the numbers of the worksheet's range variable, if a loop runs over one.
-    fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
+    pub fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
         let [Expr { kind: Kind::Read(Reference { name, row: None, .. }), .. }] = values else {
             return None;
         };
@@ -370,6 +395,35 @@ impl<O: Observer> Run<'_, '_, O> {
         let entries: Vec<Value> = entries.collect();
         self.check_nesting(entries.iter().map(Value::depth).max().unwrap_or(0))?;
         Ok(Value::grid(Grid::column(entries)))
+    }
+
+    /// Assigns the entries of a value to names that stand as they do, or to a column of an array.
+    fn spread(&mut self, to: &Spread, value: &Value, span: &Span) -> Fallible<()> {
+        self.last = None;
+        let rows = match to {
+            Spread::Names { names, cols } => names.len() / cols,
+            Spread::Column { name, .. } => {
+                let held = self.cells[*name].value.as_ref();
+                held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)))
+                    .map_or(value.size().0, |held| held.size().0)
+            }
+        };
+        let cols = if let Spread::Names { cols, .. } = to { *cols } else { 1 };
+        let entries = matrices::spread(value, rows, cols).map_err(|why| self.fail(span, why))?;
+        self.afford(value.count())?;
+        match to {
+            Spread::Names { names, .. } => {
+                names.iter().zip(entries).try_for_each(|(name, entry)| self.store(*name, entry))
+            }
+            Spread::Column { name, span, column } => {
+                let col = Some(self.number(column)?);
+                let target = Reference { name: *name, row: None, col: None, span: span.clone() };
+                let origin = f64::from(self.settings.origin);
+                entries.into_iter().enumerate().try_for_each(|(k, entry)| {
+                    self.write(&target, Subscripts { row: origin + k as f64, col }, entry)
+                })
+            }
+        }
     }
 
     /// Writes a value to a name or entry. The value of the statement is what was written.

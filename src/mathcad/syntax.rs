@@ -36,6 +36,8 @@ pub enum Step {
     Try { body: Vec<Statement>, fallback: Vec<Statement> },
     /// `target ← value`.
     Assign { target: Reference, value: Expr, guard: Option<Expr> },
+    /// `(a   b) ← value` or `A⟨j⟩ ← value`.
+    Spread { to: Spread, value: Expr, guard: Option<Expr> },
     /// An expression alone.
     Evaluate { value: Expr, guard: Option<Expr> },
     /// `return value`, which ends the program.
@@ -54,6 +56,16 @@ pub enum Range {
     Span { from: Expr, second: Option<Expr>, to: Expr },
     /// The values one after another, of an array its entries, column by column: `v`, or `1, 5, 9`.
     Over(Vec<Expr>),
+}
+
+/// What several entries of a value are assigned to.
+#[derive(Clone, Debug)]
+#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
+pub enum Spread {
+    /// `(a   b; c   d)`: the names row by row, and how many columns they stand in.
+    Names { names: Vec<Slot>, cols: usize },
+    /// `A⟨j⟩`: the name, where it stands, and the column.
+    Column { name: Slot, span: Span, column: Box<Expr> },
 }
 
 /// A name, or an entry of the array of that name.
@@ -127,13 +139,15 @@ pub enum Kind {
     Call(Slot, Vec<Expr>),
     /// Mathcad's function `if(condition, x, y)`, which evaluates one of the two.
     If(Box<[Expr; 3]>),
-    /// A sum or product over a range, `∑(i ∈ from .. to, term)`: the function, the variable, and
-    /// the expressions from, to and term.
+    /// A sum or product over a range, `∑(i ∈ from .. to, term)` or `∑(i ∈ range, term)`: the function,
+    /// the variable, and the expressions in their order.
     Series {
         function: Slot,
         name: Slot,
-        parts: Box<[Expr; 3]>,
+        parts: Vec<Expr>,
     },
+    /// A program within an expression, `{x ← 1; if c {x ← 2}; x}`.
+    Program(Vec<Statement>),
 }
 
 /// The four operations of arithmetic.
@@ -230,6 +244,20 @@ pub const OPERATORS: [Spelling; 13] = {
     ]
 };
 
+impl Statement {
+    /// Returns the expressions of the statement, and of those below it.
+    fn expressions(&self) -> Vec<&Expr> {
+        let below = self.step.blocks().into_iter().flatten().flat_map(Statement::expressions);
+        self.step.expressions().into_iter().chain(below).collect()
+    }
+
+    /// Returns how deep statements stand below it, itself included.
+    fn levels(&self) -> usize {
+        let below = self.step.blocks().into_iter().flatten().map(Statement::levels);
+        1 + below.max().unwrap_or(0)
+    }
+}
+
 impl Step {
     /// Returns the expressions on the statement's own line, in the order of the text.
     pub fn expressions(&self) -> Vec<&Expr> {
@@ -239,6 +267,8 @@ impl Step {
             }
             Step::For { range: Range::Over(values), .. } => values.iter().collect(),
             Step::Assign { target, value, .. } => target.subscripts().chain([value]).collect(),
+            Step::Spread { to: Spread::Column { column, .. }, value, .. } => vec![column, value],
+            Step::Spread { to: Spread::Names { .. }, value, .. } => vec![value],
             Step::Evaluate { value, .. } | Step::Return { value, .. } => vec![value],
             _ => vec![],
         };
@@ -251,6 +281,7 @@ impl Step {
             Step::If { condition, .. } | Step::While { condition, .. } => Some(condition),
             Step::For { guard, .. }
             | Step::Assign { guard, .. }
+            | Step::Spread { guard, .. }
             | Step::Evaluate { guard, .. }
             | Step::Return { guard, .. }
             | Step::Break { guard }
@@ -271,12 +302,15 @@ impl Step {
         }
     }
 
-    /// Returns the name that the statement writes to, if it writes to one.
-    pub fn written(&self) -> Option<Slot> {
+    /// Returns the names that the statement itself writes to.
+    pub fn written(&self) -> Vec<Slot> {
         match self {
-            Step::For { name, .. } => Some(*name),
-            Step::Assign { target, .. } => Some(target.name),
-            _ => None,
+            Step::For { name, .. } | Step::Spread { to: Spread::Column { name, .. }, .. } => {
+                vec![*name]
+            }
+            Step::Assign { target, .. } => vec![target.name],
+            Step::Spread { to: Spread::Names { names, .. }, .. } => names.clone(),
+            _ => vec![],
         }
     }
 }
@@ -341,7 +375,9 @@ impl Expr {
                 xs.iter().collect()
             }
             Kind::Chain(x, rest) => [&**x].into_iter().chain(rest.iter().map(|(_, y)| y)).collect(),
-            Kind::Series { parts, .. } | Kind::If(parts) => parts.iter().collect(),
+            Kind::Series { parts, .. } => parts.iter().collect(),
+            Kind::If(parts) => parts.iter().collect(),
+            Kind::Program(block) => block.iter().flat_map(Statement::expressions).collect(),
         }
     }
 
@@ -350,6 +386,11 @@ impl Expr {
         if limit == 0 {
             return 0;
         }
-        1 + self.parts().into_iter().map(|part| part.depth(limit - 1)).max().unwrap_or(0)
+        let own = match &self.kind {
+            Kind::Program(block) => block.iter().map(Statement::levels).max().unwrap_or(0),
+            _ => 0,
+        };
+        let inside = self.parts().into_iter().map(|part| part.depth(limit - 1)).max();
+        1 + own + inside.unwrap_or(0)
     }
 }

@@ -7,7 +7,7 @@ pub const FUNCTIONS: &str = "
     bulstoer Bvalfit bvalfit Ceil ceiling CFFT cfft cholesky combin concat cond1 cond2 conde condi
     corr correl correlogram coth CreateMesh CreateSpace csch csgn csort cspline cvar cwt cyl2xyz
     dbeta dbinom dcauchy dchisq depc dexp dF dgamma dgeom dhypergeom diag dlnorm dlogis dnbinom
-    dnorm dpois dt dunif dweibull eff eigenvals eigenvec eigenvecs erf erfc error expfit expm1 FFT
+    dnorm dpois dt dunif dweibull eff eigenvec erf erfc error expfit expm1 FFT
     fft fhyper Find Floor fv fvadj fvc Gamma gcd genfit geninv genvals genvecs GETWAVINFO gmean
     GREEN Her hist histogram hlookup hmean I0 I1 ibeta ICFFT icfft icwt IFFT ifft Im In intercept
     interp invsum ipmt irr IsArray IsFunction IsNaN IsPrime IsScalar IsString iwave J0 J1 Jac Jn js

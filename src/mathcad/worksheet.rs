@@ -7,10 +7,11 @@ use std::rc::Rc;
 use super::failure::{Cause, Fallible};
 use super::function::Function;
 use super::listing::Listing;
+use super::matrices;
 use super::settings::{Limits, Settings};
 use super::sheet::{Numbers, Sheet};
 use super::unsupported;
-use super::value::Value;
+use super::value::{Array, Value};
 use super::words;
 use super::xmcd::document::{Content, Region, Saved, Worksheet};
 
@@ -82,13 +83,18 @@ pub fn execute_watched(
         settings: worksheet.settings.clone(),
         limits,
         steps: Cell::new(limits.steps),
+        eigen: Cell::new(false),
         sheet: Sheet::default(),
         unsupported: BTreeMap::new(),
         inputs: BTreeMap::new(),
     };
     run.sheet.define(ORIGIN, f64::from(run.settings.origin));
-    let is_global =
-        |region: &&Region| matches!(region.content, Content::Definition { global: true, .. });
+    let is_global = |region: &&Region| {
+        matches!(
+            region.content,
+            Content::Definition { global: true, .. } | Content::Names { global: true, .. }
+        )
+    };
     for region in worksheet.regions.iter().filter(is_global) {
         run.region(region);
     }
@@ -108,6 +114,8 @@ struct Execution<'a> {
     limits: &'a Limits,
     /// The steps that are left.
     steps: Cell<u64>,
+    /// Whether eigenvalues were computed, whose order is Mathcad's own.
+    eigen: Cell<bool>,
     sheet: Sheet,
     /// Names that the interpreter cannot know, and why.
     unsupported: BTreeMap<String, String>,
@@ -151,6 +159,12 @@ impl Execution<'_> {
                 };
                 (text, self.definition(name, entry.as_deref(), lines, &mut inputs))
             }
+            Content::Names { names, cols, lines, .. } => {
+                let rows: Vec<_> = names.chunks(*cols).map(|row| row.join("   ")).collect();
+                let text = format!("({}) := {}", rows.join("; "), lines.join("; "));
+                let outcome = self.run(&indented(lines, 1), &mut inputs);
+                (text, self.define_all(names, *cols, outcome, &inputs))
+            }
             Content::Evaluation(expression) => {
                 let outcome = self.evaluation(expression, &mut inputs);
                 (format!("{expression} ="), outcome)
@@ -163,7 +177,15 @@ impl Execution<'_> {
             }
             (_, _, outcome) => outcome,
         };
-        let verdict = verdict(&outcome, region.saved.as_ref());
+        let mut verdict = verdict(&outcome, region.saved.as_ref());
+        if let (Verdict::Differs { .. }, true) = (&verdict, self.eigen.get())
+            && let (Outcome::Value(ours), Some(Saved::Value(saved))) = (&outcome, &region.saved)
+            && digits(&unordered(saved), &unordered(ours)) >= Some(LEAST_DIGITS)
+        {
+            let construct =
+                "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
+            verdict = Verdict::Unsupported(construct.into());
+        }
         if let (false, Some(Saved::Value(value))) = (verdict == Verdict::Same, &region.saved) {
             self.take_saved(region, value);
         }
@@ -183,6 +205,11 @@ impl Execution<'_> {
 
     /// Lets the saved value of a name go on as input, so that what follows is judged for itself.
     fn take_saved(&mut self, region: &Region, value: &Value) {
+        if let Content::Names { names, cols, .. } = &region.content {
+            let inputs = BTreeSet::from([region.id.clone()]);
+            self.define_all(names, *cols, Outcome::Value(value.clone()), &inputs);
+            return;
+        }
         let is_known = |name: &String| self.sheet.value(name).is_some();
         let name = match &region.content {
             Content::Evaluation(name) if self.unsupported.contains_key(name) || is_known(name) => {
@@ -193,6 +220,32 @@ impl Execution<'_> {
             _ => return,
         };
         self.keep(&name, value.clone(), BTreeSet::from([region.id.clone()]));
+    }
+
+    /// Gives each name its entry of a value that stands as they do.
+    fn define_all(
+        &mut self,
+        names: &[String],
+        cols: usize,
+        outcome: Outcome,
+        inputs: &BTreeSet<String>,
+    ) -> Outcome {
+        let value = match outcome {
+            Outcome::Value(value) => value,
+            outcome => {
+                let lost = names.iter().fold(outcome, |o, name| self.lose_outcome(name, o));
+                return lost;
+            }
+        };
+        match matrices::spread(&value, names.len() / cols, cols) {
+            Ok(entries) => {
+                for (name, entry) in names.iter().zip(entries) {
+                    self.keep(name, entry, inputs.clone());
+                }
+                Outcome::Value(value)
+            }
+            Err(cause) => self.define_all(names, cols, Outcome::Failed(cause), inputs),
+        }
     }
 
     /// Defines a name, whatever it was before.
@@ -214,6 +267,7 @@ impl Execution<'_> {
     }
 
     fn parse(&self, text: &str) -> Result<Listing, Outcome> {
+        self.eigen.set(self.eigen.get() || text.contains("eigenv"));
         let listing = Listing::parse_within("region", text, self.limits);
         listing
             .map_err(|error| Outcome::Unsupported(format!("its size or form: {}", error.message)))
@@ -318,21 +372,19 @@ impl Execution<'_> {
         }
     }
 
-    /// Evaluates an expression: over a range variable, for each of its numbers.
+    /// Evaluates an expression: over range variables, for each of their numbers, those of the last named
+    /// changing first.
     fn evaluation(&mut self, expression: &str, inputs: &mut BTreeSet<String>) -> Outcome {
         let (mut program, level) = self.loops(expression);
-        match level {
-            1 => self.run(&[format!("  {expression}")], inputs),
-            2 => {
-                let origin = self.settings.origin;
-                program.insert(0, format!("  _k ← {}", origin.saturating_sub(1)).replace('-', "−"));
-                program.push("    _k ← _k + 1".into());
-                program.push(format!("    _values[_k] ← {expression}"));
-                program.push("  _values".into());
-                self.run(&program, inputs)
-            }
-            _ => Outcome::Unsupported("a table over several range variables".into()),
+        if level == 1 {
+            return self.run(&[format!("  {expression}")], inputs);
         }
+        let origin = self.settings.origin;
+        program.insert(0, format!("  _k ← {}", origin.saturating_sub(1)).replace('-', "−"));
+        program.push(format!("{:1$}_k ← _k + 1", "", 2 * level));
+        program.push(format!("{:1$}_values[_k] ← {expression}", "", 2 * level));
+        program.push("  _values".into());
+        self.run(&program, inputs)
     }
 
     /// Returns the loops over the range variables of a line, and how deep they leave it.
@@ -448,6 +500,29 @@ fn compare(saved: &Value, ours: &Value) -> Verdict {
         Some(digits) if digits >= LEAST_DIGITS => Verdict::Digits(digits),
         _ => Verdict::Differs { saved: saved.to_string(), ours: ours.to_string() },
     }
+}
+
+/// Returns the columns of an array, or the entries of one column, in ascending order, each column with
+/// its first entry that is not 0 positive: what Mathcad chooses of eigenvectors is gone.
+fn unordered(value: &Value) -> Value {
+    let Value::Array(array) = value else { return value.clone() };
+    let (rows, cols) = value.size();
+    let signed = |column: Vec<f64>| {
+        let first = column.iter().find(|x| x.abs() > 1e-8);
+        let sign = first.map_or(1.0, |x| x.signum());
+        column.into_iter().map(|x| sign * x).collect::<Vec<_>>()
+    };
+    let mut columns: Vec<Vec<f64>> = match cols {
+        1 => array.entries().iter().map(|x| vec![*x]).collect(),
+        _ => (0..cols)
+            .map(|j| signed((0..rows).map(|i| array.entries()[i * cols + j]).collect()))
+            .collect(),
+    };
+    columns.sort_by(|a, b| {
+        let orders = a.iter().zip(b).map(|(x, y)| x.total_cmp(y));
+        orders.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+    });
+    Array::from_rows(columns.first().map_or(1, Vec::len), columns.concat()).into()
 }
 
 /// Returns how many digits the values have in common, `u32::MAX` for the same bits; none if they

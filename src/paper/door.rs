@@ -23,22 +23,44 @@ use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
 
-/// Returns `model` under a reading: R6 sets the plane problem, R8 the unit of the tolerance. A model
-/// that the reading changes is no longer shared.
+/// Returns `model`, whose lengths are in `unit`, under a reading: R6 sets the plane problem, R8 the unit of
+/// the tolerance. A model that the reading changes is no longer shared.
 ///
 /// # Errors
-/// The plane problem of R6 does not allow a Poisson's ratio.
-pub fn under(mut model: Arc<Model>, reading: &Reading) -> Result<Arc<Model>, InputError> {
+/// The plane problem of R6 does not allow a Poisson's ratio, or R8 = m is asked for where `unit` is no
+/// unit of length that is known here.
+pub fn under(
+    mut model: Arc<Model>,
+    unit: &str,
+    reading: &Reading,
+) -> Result<Arc<Model>, InputError> {
     if let Some(plane) = reading.r6 {
         Arc::make_mut(&mut model).plane = plane;
         for triangle in &model.triangles {
             plane.check_poisson(triangle.material.nu, "reading R6")?;
         }
     }
-    if reading.r8 == ToleranceUnit::Metre {
-        Arc::make_mut(&mut model).contact.tolerance *= 1000.0;
+    match reading.r8 {
+        ToleranceUnit::Millimetre => (),
+        ToleranceUnit::Metre => Arc::make_mut(&mut model).contact.tolerance *= in_a_metre(unit)?,
     }
     Ok(model)
+}
+
+/// Returns how many of a unit of length are in a metre.
+fn in_a_metre(unit: &str) -> Result<f64, InputError> {
+    match unit {
+        "mm" => Ok(1000.0),
+        "cm" => Ok(100.0),
+        "m" => Ok(1.0),
+        other => Err(InputError::new(
+            "reading R8",
+            format!(
+                "R8=m takes c_tll to be in metres, and the scene's unit of length is \"{other}\""
+            ),
+            "name it in units.length, one of mm, cm, m, or give c_tll in the scene's own unit",
+        )),
+    }
 }
 
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are

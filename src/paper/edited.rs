@@ -1,11 +1,14 @@
 //! Edited listings, executed in a run in place of the mirror.
 
 use super::door;
-use super::listings::{self, Which, settings};
+use super::listings::{self, Which, settings, steps};
 use super::mirror::{Pairs, Reading, Worksheet};
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
+
 use base::error::{InputError, Result};
 use mathcad::array::{Column, Table};
-use mathcad::{Listing, Settings};
+use mathcad::{Listing, Observer, Settings};
 use numbers::scalar::Scalar;
 use problem::model::Model;
 use serde::Serialize;
@@ -50,13 +53,33 @@ pub struct Interpreter {
     sheet: Worksheet<f64>,
     settings: Settings,
     listings: Vec<(Edited, Listing)>,
+    steps: Steps,
+}
+
+/// How often the limit of one execution all executions of a run may take: some 8 s on small meshes.
+const EXECUTIONS: u64 = 8;
+
+/// The steps that the executions of a run took.
+struct Steps(AtomicU64);
+
+impl Observer for &Steps {
+    const ACTIVE: bool = false;
+
+    fn end(&mut self, steps: u64) {
+        self.0.fetch_add(steps, Relaxed);
+    }
 }
 
 impl Interpreter {
     /// Returns the interpreter of `edited` on the tables of a model.
     pub fn new(model: &Model, reading: &Reading, edited: &[Edited]) -> Self {
         let listings = edited.iter().map(|edited| (edited.clone(), edited.listing())).collect();
-        Interpreter { sheet: door::worksheet(model, |x| x), settings: settings(reading), listings }
+        Interpreter {
+            sheet: door::worksheet(model, |x| x),
+            settings: settings(reading),
+            listings,
+            steps: Steps(AtomicU64::new(0)),
+        }
     }
 
     fn listing(&self, which: Which) -> Option<&(Edited, Listing)> {
@@ -70,8 +93,9 @@ impl Interpreter {
     pub fn c_cnt<T: Scalar>(&self, node_n: &Table<T>) -> Option<Result<Pairs<T>>> {
         let (edited, listing) = self.listing(Which::CCnt)?;
         let node_n = Table::from_fn(node_n.rows(), 4, |i, j| node_n[(i, j)].to_f64());
-        let done = listings::c_cnt(listing, &self.settings, &self.sheet, &node_n, &mut ());
-        Some(done.map_err(|why| wrong(edited, why.to_string())).and_then(|(pairs, _)| {
+        let done = listings::c_cnt(listing, &self.settings, &self.sheet, &node_n, &mut &self.steps);
+        let done = done.map_err(|why| wrong(edited, why.to_string()));
+        Some(self.within_limit(edited).and(done).and_then(|(pairs, _)| {
             self.check(&pairs).map_err(|what| wrong(edited, what))?;
             Ok(pairs.map(T::from_f64))
         }))
@@ -99,8 +123,9 @@ impl Interpreter {
     ) -> Option<Result<Table<T>>> {
         let (edited, listing) = self.listing(Which::Km)?;
         let k_cnt = Table::from_fn(k_cnt.rows(), 4, |i, j| k_cnt[(i, j)].to_f64());
-        let done = listings::km(listing, &self.settings, sheet, &k_cnt, &mut ());
-        Some(done.map_err(|why| wrong(edited, why.to_string())).and_then(|(matrix, _)| {
+        let done = listings::km(listing, &self.settings, sheet, &k_cnt, &mut &self.steps);
+        let done = done.map_err(|why| wrong(edited, why.to_string()));
+        Some(self.within_limit(edited).and(done).and_then(|(matrix, _)| {
             let n = 2 * sheet.R();
             if (matrix.rows(), matrix.cols()) != (n, n) {
                 let (rows, cols) = (matrix.rows(), matrix.cols());
@@ -108,6 +133,16 @@ impl Interpreter {
             }
             Ok(Table::from_fn(n, n, |i, j| T::from_f64(matrix[(i, j)])))
         }))
+    }
+
+    /// Checks that the executions of the run took no more steps than they may.
+    fn within_limit(&self, edited: &Edited) -> Result<()> {
+        let (steps, most) = (self.steps.0.load(Relaxed), EXECUTIONS * steps(&self.sheet));
+        if steps <= most {
+            return Ok(());
+        }
+        let what = format!("it takes more than {most} steps in all iterations");
+        Err(InputError::new(&edited.place, what, "ask for fewer iterations, or a shorter listing"))
     }
 
     /// Checks that what an edited `c_cnt` leaves are contact pairs.

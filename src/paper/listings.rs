@@ -19,11 +19,15 @@ choices! {
     }
 }
 
-/// Returns the limits of an execution: 67 million steps, and the demand of arrays of the size of
-/// MJS (a step for each entry, and its operations).
-fn limits(sheet: &Worksheet<f64>) -> Limits {
+/// Returns the most steps of an execution: 67 million, and the demand of arrays of the size of MJS (a
+/// step for each entry, and its operations).
+pub(crate) fn steps(sheet: &Worksheet<f64>) -> u64 {
     let matrix = 4 * sheet.R() as u64 * sheet.R() as u64;
-    Limits { steps: (1 << 26) + 32 * matrix, entries: 1 << 27, ..Limits::default() }
+    (1 << 26) + 32 * matrix
+}
+
+fn limits(sheet: &Worksheet<f64>) -> Limits {
+    Limits { steps: steps(sheet), entries: 1 << 27, ..Limits::default() }
 }
 
 /// The result of an execution: its values, and the lines that `trace` wrote.

@@ -1,6 +1,7 @@
 //! The tables of a report as CSV (RFC 4180).
 
-use super::model::{Block, Report, Table};
+use super::model::{Block, Cell, Report, Table};
+use super::text::controls_a_terminal;
 
 impl Report {
     /// Returns each table as CSV, with the name of its file: the first words of its title.
@@ -36,9 +37,27 @@ pub fn file_name(title: &str) -> String {
 impl<R> Table<R> {
     /// Writes the headings and the rows, numbers with all their digits.
     pub fn csv(&self) -> String {
-        let rows = self.cells.iter().map(|row| row.iter().map(|cell| cell.exact()).collect());
-        std::iter::once(self.headings.clone()).chain(rows).map(line).collect()
+        let field = |cell: &Cell| match cell {
+            Cell::Text(text) => words(text),
+            Cell::Empty
+            | Cell::Missing(_)
+            | Cell::Integer(_)
+            | Cell::Number { .. }
+            | Cell::Percent { .. } => cell.exact(),
+        };
+        let rows = self.cells.iter().map(|row| row.iter().map(field).collect());
+        let headings = self.headings.iter().map(|heading| words(heading)).collect();
+        std::iter::once(headings).chain(rows).map(line).collect()
     }
+}
+
+/// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
+/// a formula, U+FFFD in place of what controls a terminal.
+fn words(text: &str) -> String {
+    let text = text.replace(controls_a_terminal, "\u{fffd}");
+    let is_number = text.parse::<f64>().is_ok();
+    let is_formula = !is_number && text.starts_with(['=', '+', '-', '@', '\t', '\n']);
+    if is_formula { format!("'{text}") } else { text }
 }
 
 fn line(cells: Vec<String>) -> String {

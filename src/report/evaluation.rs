@@ -1,10 +1,10 @@
 //! What came of a program in the notation of the listings, as JSON.
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::json;
-use mathcad::{self, Failure, Outcome};
+use mathcad::json::Written;
+use mathcad::{Failure, Outcome};
 
 /// What came of a program.
 #[derive(Serialize)]
@@ -13,7 +13,7 @@ use mathcad::{self, Failure, Outcome};
 pub enum Document<'a> {
     Result {
         /// A number, words, or a list of rows.
-        value: Value,
+        value: Written<'a>,
         /// What the program's own `trace` wrote.
         trace: &'a [String],
     },
@@ -41,8 +41,8 @@ pub struct ErrorRow<'a> {
 
 /// Returns what a program computed.
 pub fn json(outcome: &Outcome) -> String {
-    let value = mathcad::json::write(&outcome.value);
-    json::line(None, &Document::Result { value, trace: &outcome.trace_output })
+    let value = Written(&outcome.value);
+    json::streamed(&Document::Result { value, trace: &outcome.trace_output })
 }
 
 /// Returns why a program failed.

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::json;
 use super::model::{Cell, Report, Table};
-use super::picture::{Axis, SERIES, Series, Style, chart};
-use studies::extremes::{Break, Column, Generator, SweepTable, Verdict};
+use super::picture::{Axis, Series, Style, chart};
+use studies::extremes::{Break, Column, SweepTable, Verdict};
 
 /// The content of `extremes.json`: a row for each generator.
 #[derive(Serialize)]
@@ -18,52 +18,25 @@ pub fn json(measured: &[SweepTable]) -> String {
     json::line(None, &Document { rows: measured })
 }
 
-/// Lists the generators with what they try.
-pub fn list(generators: &[&Generator]) -> Report {
-    let table = Table::from_rows(generators)
-        .column("generator", |generator| generator.name)
-        .column("what is swept", |generator| generator.magnitude)
-        .column("title", |generator| generator.title);
-    Report::default().table("", table)
-}
-
 /// Reports for each generator where its methods break down, then what came of every magnitude.
 pub fn report(measured: &[SweepTable]) -> Report {
     measured.iter().fold(Report::default(), |report, measured| {
-        let report = report.heading(format!("{}: {}", measured.name, measured.title));
-        let report = match measured.logarithmic {
-            true => report.table(format!("Limits of {}", measured.name), breaks(measured)),
-            false => report,
-        };
-        report.then(sweep(measured))
+        report
+            .heading(format!("{}: {}", measured.name, measured.title))
+            .table(format!("Limits of {}", measured.name), breaks(measured))
+            .then(sweep(measured))
     })
 }
 
-/// Draws the digits that each method keeps against the magnitude, in as many pictures as its curves
-/// need.
-pub fn pictures(measured: &SweepTable) -> Vec<String> {
-    measured.columns.chunks(SERIES).map(|columns| picture(measured, columns)).collect()
-}
-
-fn picture(measured: &SweepTable, columns: &[Column]) -> String {
-    let series: Vec<Series> = columns.iter().map(|column| curve(measured, column)).collect();
-    let (label, magnitudes) = match measured.logarithmic {
-        true => (measured.magnitude, measured.magnitude.into()),
-        false => {
-            let names = measured.labels.iter().enumerate();
-            let names = names.map(|(k, name)| format!("{}: {name}", k + 1));
-            ("case", names.collect::<Vec<_>>().join("; "))
-        }
-    };
+/// Draws the digits that each method keeps against the magnitude.
+pub fn picture(measured: &SweepTable) -> String {
+    let series: Vec<Series> = measured.columns.iter().map(|of| curve(measured, of)).collect();
     let axes = [
-        Axis { label, logarithmic: measured.logarithmic },
+        Axis { label: measured.magnitude, logarithmic: true },
         Axis { label: "digits kept", logarithmic: false },
     ];
-    let captions = [
-        "A curve has a gap where a run is refused; 0 is an answer without a right digit.".into(),
-        magnitudes,
-    ];
-    chart(measured.title, axes, &series, &captions)
+    let caption = "A curve has a gap where a run is refused; 0 is an answer without a right digit.";
+    chart(measured.title, axes, &series, &[caption.into()])
 }
 
 fn curve(measured: &SweepTable, column: &Column) -> Series {
@@ -92,14 +65,15 @@ fn breaks(measured: &SweepTable) -> Table<Vec<&Column>> {
 
 /// Reports a row for each magnitude and a column for each method.
 fn sweep(measured: &SweepTable) -> Report {
-    let rows = measured.labels.iter().enumerate().map(|(k, label)| {
-        let cell = |column: &Column| match (&column.verdicts[k], measured.logarithmic) {
+    let rows = measured.magnitudes.iter().enumerate().map(|(k, magnitude)| {
+        let cell = |column: &Column| match &column.verdicts[k] {
             // The table above says what was refused or wrong.
-            (Verdict::Refused(_), true) => "refused".into(),
-            (Verdict::Wrong(_), true) => "WRONG".into(),
-            (verdict, _) => verdict.to_string().into(),
+            Verdict::Refused(_) => "refused".into(),
+            Verdict::Wrong(_) => "WRONG".into(),
+            verdict => verdict.to_string().into(),
         };
-        std::iter::once(label.clone().into()).chain(measured.columns.iter().map(cell)).collect()
+        let label = format!("{magnitude:e}").into();
+        std::iter::once(label).chain(measured.columns.iter().map(cell)).collect()
     });
     let numbers = (1..=measured.columns.len()).map(|k| format!("({k})"));
     let head = std::iter::once(measured.magnitude.to_string()).chain(numbers);

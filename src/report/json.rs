@@ -62,6 +62,14 @@ pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
     document(scene, own).to_string() + "\n"
 }
 
+/// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than its
+/// digits.
+pub fn streamed(own: &impl Serialize) -> String {
+    let document =
+        Document { format: FORMAT, version: VERSION, scene: None, own, nulls: BTreeMap::new() };
+    serde_json::to_string(&document).expect("a document has string keys only") + "\n"
+}
+
 fn value(document: &impl Serialize) -> Value {
     serde_json::to_value(document).expect("a document has string keys only")
 }

@@ -76,6 +76,9 @@ pub struct ResultFile {
     pub load: [f64; 2],
     /// The numbers, in the mesh file, of the nodes that belong to no triangle and were dropped.
     pub dropped: Vec<NodeId>,
+    /// What the mesh file has in another form, such as node numbers with gaps, in sentences.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub adapted: Vec<String>,
     /// Whether contact passes no load on at the end, beyond rounding, though there is a load: an audit
     /// result; absent where it is not so.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -176,6 +179,7 @@ impl ResultFile {
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
+            adapted: solution.request.scene.adapted().to_vec(),
             transmits_nothing: solution.transmits_nothing(),
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),

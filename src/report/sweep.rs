@@ -13,6 +13,7 @@ use super::json;
 use super::model::{Cell, Table};
 use base::choices;
 use base::error::{InputError, Result};
+use base::plain::shown;
 use problem::scene::sha256;
 use studies::sweep::{Job, Row};
 
@@ -55,7 +56,7 @@ pub fn read_result(job: &Job, text: &[u8]) -> io::Result<Row> {
 /// # Errors
 /// A name cannot stand in the file.
 pub fn job_file(engine: Engine, jobs: &[Job], words: [&Path; 3]) -> Result<String> {
-    let fault = |path: &Path, what| InputError::new(path.display().to_string(), what, "rename it");
+    let fault = |path: &Path, what| InputError::new(shown(path), what, "rename it");
     let mut names = Vec::new();
     for path in words {
         let name = path.to_str().ok_or_else(|| fault(path, "its name is not in UTF-8"))?;
@@ -81,45 +82,10 @@ pub fn job_file(engine: Engine, jobs: &[Job], words: [&Path; 3]) -> Result<Strin
     })
 }
 
-const HYPERQUEUE: &str = "\
-# HyperQueue (PyPI: hyperqueue): python this file, with a server and workers running; the server's
-# folder is HQ_SERVER_DIR, or HyperQueue's own. Started again, it runs what is missing.
-import os
-from hyperqueue import Client, Job
-
-HEAD
-os.makedirs(OUT, exist_ok=True)
-job = Job(max_fails=len(JOBS))
-missing = [k for key, k in JOBS.items() if not os.path.exists(f\"{OUT}/{key}.json\")]
-for k in missing:
-    command = [PROGRAM, \"sweep\", \"run\", SWEEP, \"--out\", OUT, \"--only\", str(k)]
-    job.program(command, stdout=None, stderr=None, crash_limit=5)
-if missing:
-    client = Client(os.environ.get(\"HQ_SERVER_DIR\"))
-    client.wait_for_jobs([client.submit(job)], raise_on_error=True)
-";
+const HYPERQUEUE: &str = include_str!("engines/hyperqueue.py");
 
 /// The folder of the results is named by a link: Snakemake takes braces in a name for wildcards.
-const SNAKEMAKE: &str = "\
-# Snakemake: snakemake -s this file --cores all. Results that are there are not made again.
-import os
-
-HEAD
-os.environ.update(PROGRAM=PROGRAM, SWEEP=SWEEP, OUT=OUT)
-os.makedirs(OUT, exist_ok=True)
-if not os.path.islink(\"LINK\"):
-    os.symlink(os.path.abspath(OUT), \"LINK\")
-
-rule all:
-    input: expand(\"LINK/{key}.json\", key=JOBS)
-
-rule job:
-    output: \"LINK/{key}.json\"
-    wildcard_constraints: key=\"[0-9a-f]+\"
-    params: number=lambda wildcards: JOBS[wildcards.key]
-    retries: 2
-    shell: '\"$PROGRAM\" sweep run \"$SWEEP\" --out \"$OUT\" --only {params.number}'
-";
+const SNAKEMAKE: &str = include_str!("engines/Snakefile");
 
 /// A target is a number, as no name with a blank or a colon can be one.
 fn make(jobs: usize, names: &[String]) -> String {

@@ -53,7 +53,7 @@ pub fn fitted(text: &str, width: usize) -> String {
 
 /// Whether a character is a control character other than a line feed or a tab, or changes the
 /// direction of the text behind it.
-fn controls_a_terminal(c: char) -> bool {
+pub(super) fn controls_a_terminal(c: char) -> bool {
     let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     turns || c.is_control() && !['\n', '\t'].contains(&c)
 }
@@ -111,7 +111,9 @@ impl Table {
         let numeric: Vec<bool> = columns.map(|j| self.is_numeric(j)).collect();
         let line = |cells: &Vec<String>| {
             let cells = cells.iter().zip(&widths).zip(&numeric).map(|((cell, &width), numeric)| {
-                if *numeric { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+                // A width of `format!` ends at 65,535.
+                let blanks = " ".repeat(width - length(cell));
+                if *numeric { blanks + cell } else { cell.clone() + &blanks }
             });
             format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
         };
@@ -126,7 +128,8 @@ impl Table {
         let headings = self.headings.iter().skip(1).map(|heading| length(heading)).max();
         let headings = headings.unwrap_or(0);
         let beside = self.records_by(rows, width, |heading, cell| {
-            let start = format!("    {heading:<headings$}  ");
+            let blanks = " ".repeat(headings - length(heading));
+            let start = format!("    {heading}{blanks}  ");
             filled(&start, headings + 6, width, cell.split(' '), " ")
         });
         if beside.lines().all(|line| length(line) <= width) {

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::json;
 use super::model::{Report, Table};
+use mathcad::json::Written;
 use mathcad::worksheet::{ExecutedRegion, Verdict};
 
 /// Reports each region with what came of it, and how many regions came out how.
@@ -57,10 +57,11 @@ fn summary(regions: &[ExecutedRegion]) -> String {
     let digits = count(&|v| matches!(v, Verdict::Digits(_)));
     let failures = count(&|v| matches!(v, Verdict::SameFailure { .. }));
     let differ = count(&|v| matches!(v, Verdict::Differs { .. }));
+    let fail = count(&|v| matches!(v, Verdict::Fails(_)));
     let unsupported = count(&|v| matches!(v, Verdict::Unsupported(_)));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
-         both, {differ} differ, {unsupported} regions unsupported"
+         both, {differ} differ, {fail} regions fail here alone, {unsupported} are unsupported"
     )
 }
 
@@ -84,7 +85,7 @@ struct RegionRow<'a> {
     inputs: &'a BTreeSet<String>,
     /// The region's value: a number, words, or a list of rows; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Value>,
+    value: Option<Written<'a>>,
 }
 
 /// How a region compares with what Mathcad saved.
@@ -126,9 +127,9 @@ pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
         text: &region.text,
         verdict: verdict(&region.verdict),
         inputs: &region.inputs,
-        value: region.value.as_ref().map(mathcad::json::write),
+        value: region.value.as_ref().map(Written),
     });
-    json::line(None, &Document { file, regions: regions.collect() })
+    json::streamed(&Document { file, regions: regions.collect() })
 }
 
 fn verdict(verdict: &Verdict) -> VerdictRow<'_> {

@@ -101,7 +101,6 @@ impl Jobs {
         if all.len() > MOST_JOBS {
             return Err(too_many());
         }
-        all.iter().flat_map(Map::keys).chain(sweep.grid.keys()).try_for_each(check_pointer)?;
         for (pointer, values) in sweep.grid {
             let values = listed(&pointer, values)?;
             if all.len().saturating_mul(values.len()) > MOST_JOBS {
@@ -116,8 +115,8 @@ impl Jobs {
         }
         let mut jobs = Jobs { scene, base, list: Vec::new() };
         let mut meshes = HashMap::new();
-        let of = |values| Job { key: jobs.key(&values, &mut meshes), values };
-        jobs.list = all.into_iter().map(of).collect();
+        let of = |values| Ok(Job { key: jobs.key(&values, &mut meshes)?, values });
+        jobs.list = all.into_iter().map(of).collect::<Result<_>>()?;
         Ok(jobs)
     }
 
@@ -125,8 +124,10 @@ impl Jobs {
     fn document(&self, values: &Map<String, Value>) -> Result<Value> {
         let mut document = self.base.clone();
         for (pointer, value) in values {
-            set(&mut document, pointer, value).ok_or_else(|| {
-                let what = format!("the pointer {pointer:?} leads nowhere");
+            let is_inside = ["/scene/", "/options/"].iter().any(|part| pointer.starts_with(part));
+            let is_set = is_inside && set(&mut document, pointer, value).is_some();
+            is_set.then_some(()).ok_or_else(|| {
+                let what = format!("the pointer {pointer:?} leads into no part of a job");
                 let fix = "point into /scene or /options, such as /scene/contact/c_tll";
                 InputError::new("grid and list", what, fix)
             })?;
@@ -139,21 +140,19 @@ impl Jobs {
         &self,
         values: &Map<String, Value>,
         meshes: &mut HashMap<String, Result<String, String>>,
-    ) -> String {
-        let Ok(document) = self.document(values) else {
-            return sha256(&json!([VERSION, self.base, values]));
-        };
+    ) -> Result<String> {
+        let document = self.document(values)?;
         let hash =
             |name: &str| sha256_of(&*self.scene.beside(name)?).map_err(|why| why.to_string());
         let mesh = document["scene"]["mesh"].as_str();
         let mesh = mesh.map(|name| meshes.entry(name.into()).or_insert_with(|| hash(name)).clone());
-        sha256(&json!([VERSION, document, mesh]))
+        Ok(sha256(&json!([VERSION, document, mesh])))
     }
 
     /// Returns what a job asks for.
     ///
     /// # Errors
-    /// A pointer leads nowhere, or the scene or the options are at fault.
+    /// The scene or the options are at fault.
     pub fn request(&self, job: &Job) -> Result<Request> {
         let document = self.document(&job.values)?;
         let text = document["scene"].to_string();
@@ -170,7 +169,7 @@ impl Jobs {
     pub fn run(&self, job: &Job) -> Result<Row> {
         let request = self.request(job).map_err(Error::Input);
         let solved = request.and_then(|request| solve(&request, &mut |_| ()));
-        if self.key(&job.values, &mut HashMap::new()) != job.key {
+        if self.key(&job.values, &mut HashMap::new())? != job.key {
             let what = "a mesh was changed while the sweep ran";
             return Err(InputError::new("field mesh", what, "run the sweep again"));
         }
@@ -182,16 +181,6 @@ impl Jobs {
             }
         })
     }
-}
-
-/// Checks that a pointer leads into one of the parts of a job's document.
-fn check_pointer(pointer: &String) -> Result<()> {
-    if ["/scene/", "/options/"].iter().any(|part| pointer.starts_with(part)) {
-        return Ok(());
-    }
-    let what = format!("the pointer {pointer:?} leads into no part of a job");
-    let fix = "begin it with /scene/ or /options/, such as /scene/contact/c_tll";
-    Err(InputError::new("grid and list", what, fix))
 }
 
 fn too_many() -> InputError {

@@ -11,13 +11,13 @@
 //!
 //! Measured where the quarter's diagonal meets the bore. Stress: extrapolated (`common::recovery`).
 
+use crate::common::annulus::annulus as plate;
 use crate::common::recovery::{extrapolated, node_at, order, solved};
 use crate::common::tolerances::{LAME_DISPLACEMENT, LAME_ORDER, LAME_STRESS, assert_near};
 use plane_contact::engine::Solution;
-use plane_contact::studies::benchmark::Annulus;
 
 pub fn annulus(n: usize) -> Solution {
-    solved(Annulus { radial: n, around: 2 * n }.generate().expect("in range"))
+    solved(plate(n, 2 * n))
 }
 
 /// The closed form's radial displacement, mm.

@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod annulus;
     pub mod conforming;
     pub mod fitted_hertz;
     pub mod golden_file;

@@ -9,6 +9,7 @@
 
 use std::f64::consts::PI;
 
+use crate::common::annulus::annulus;
 use crate::common::json::build;
 use crate::common::recovery::solved;
 use crate::common::tolerances::{FLAMANT, assert_near};
@@ -19,7 +20,6 @@ use plane_contact::engine::{Assessment, Solution, max_displacement};
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::tables::error_estimates;
-use plane_contact::studies::benchmark::Annulus;
 use plane_contact::{Request, solve};
 use serde_json::json;
 
@@ -122,8 +122,7 @@ fn a_held_side_has_a_limit_only_where_its_corner_is_sharp() {
 /// Symmetry and a circle of chords make no corner.
 #[test]
 fn what_is_smooth_has_a_limit() {
-    for smooth in [Annulus { radial: 8, around: 16 }.generate().expect("in range"), sheet(16, 5.0)]
-    {
+    for smooth in [annulus(8, 16), sheet(16, 5.0)] {
         assert_eq!(limits(&solved(smooth)), [None]);
     }
 }

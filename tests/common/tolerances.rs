@@ -101,6 +101,9 @@ tolerances! {
     /// the size of the scene.
     HARD = 1e-8, "the shape may change by 1e-8 of the displacements after contact was measured in it";
 
+    /// Displacements of a scene that is hard to solve in two numberings, over the largest.
+    RENUMBERED = 1e-7, "thin and loosely held bodies amplify rounding by up to 1e8";
+
     /// The slip of a pulled strip beside that of a bar, in heights over the length of the slip for its
     /// end, in heights for its edge.
     SHEAR_LAG = 1.2, "a strip is no bar over one height, and slip ends at a node";

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use crate::common::annulus::annulus;
 use crate::common::tolerances::{CORRECTED, CORRECTED_CONDITIONS, assert_near};
 use crate::corners::Writing;
 use crate::drawn::{Drawn, Kind, Support, scenes};
@@ -20,7 +21,7 @@ use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
 use plane_contact::studies::audit::range::{Parameter, ParameterValue};
-use plane_contact::studies::benchmark::{Annulus, Hertz};
+use plane_contact::studies::benchmark::Hertz;
 
 /// The iterations of the paper.
 const STEPS: usize = 20;
@@ -230,8 +231,8 @@ fn where_it_does_not_hold_the_prices_say_so() {
     };
     let report = report::prices::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
-    let plate = Annulus { radial: 2, around: 4 }.generate().unwrap().build().unwrap();
-    let refused = Compared::new(&Case::new(plate)).err().expect("no contact").to_string();
+    let plate = annulus(2, 4).build().unwrap();
+    let refused = Compared::new(&Case::new(plate.clone())).err().expect("no contact").to_string();
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }
 

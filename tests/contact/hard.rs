@@ -19,7 +19,7 @@ use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geomet
 use plane_contact::problem::scene::Axis;
 
 use crate::common::draws::one_of;
-use crate::common::tolerances::{HARD, assert_near};
+use crate::common::tolerances::{HARD, RENUMBERED, assert_near};
 use crate::corners::{Bodies, Writing};
 
 /// The number of scenes of each kind. `PLANE_CONTACT_HARD` gives another.
@@ -33,7 +33,8 @@ const COUNTS: &str = "\
     rough [40, 0, 0, 0]\n\
     arc [40, 0, 0, 0]\n\
     ring [39, 0, 0, 1]\n\
-    arm [38, 2, 0, 0]\n";
+    arm [38, 2, 0, 0]\n\
+    thin [40, 0, 0, 0]\n";
 
 fn between(rng: &mut Rng, least: f64, most: f64) -> f64 {
     least + (most - least) * rng.f64()
@@ -258,6 +259,52 @@ fn arm(rng: &mut Rng, coupling: Coupling) -> Hard {
     }
 }
 
+/// A thin arch, clamped at its left side and pressed on a block: most states of its nodes bend it through the
+/// block.
+fn thin(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let (n, span) = (rng.usize(6..=9), between(rng, 2.0, 4.0));
+    let (thick, rise) = (between(rng, 0.05, 0.2), one_of(rng, &[0.0, 0.01, 0.02, 0.05]));
+    let wide = span / 2.0 + 0.5;
+    let ground = |y: f64| line(4, [-wide, wide], |_| y);
+    let lower = all.body(&[ground(-1.0), ground(0.0)], false);
+    let arch = |x: f64| rise * (1.0 - (2.0 * x / span).powi(2));
+    let ends = [-span / 2.0, span / 2.0];
+    let (bottom, top) = (line(n, ends, arch), line(n, ends, |x| arch(x) + thick));
+    let upper = all.body(&[bottom, top], false);
+    let mut bodies = all.finish(rng, &upper[0][1..], &lower[1], false);
+    bodies.hold(&lower[0], &BOTH);
+    bodies.hold(&[upper[0][0], upper[1][0]], &BOTH);
+    let press = bodies.moduli[1].0 * magnitude(rng, 1e-4, 1e-2) * thick;
+    bodies.load(&upper[1][1..], [press * between(rng, -0.3, 0.3), -press]);
+    let (mu, geometry) = (one_of(rng, &[0.1, 0.3, 0.6]), Geometry::Initial);
+    Hard { bodies, degrees: 0.0, mu, steps: one_of(rng, &[1, 4]), geometry, coupling }
+}
+
+/// A round disc in a groove, on a plate or in a ring, held so that it can turn in its place.
+fn disc(rng: &mut Rng, coupling: Coupling) -> Hard {
+    let mut all = Rows::default();
+    let (radius, n) = (between(rng, 1.0, 3.0), 2 * rng.usize(8..=20));
+    let around = |radius: f64| along_ring(n, radius, 0.0, radius);
+    let upper_middle = |r: f64| along_ring(n, r, 0.0, radius);
+    let bed = match rng.bool() {
+        true => line(9, [-1.5 * radius, 1.5 * radius], |_| 0.0),
+        false => along_arc(13, 1.0, 1.2 * radius, 1.2 * radius),
+    };
+    let ground = line(bed.len(), [-1.5 * radius, 1.5 * radius], |_| -radius);
+    let lower = all.body(&rows(3, &ground, &bed), false);
+    let upper =
+        all.body(&[upper_middle(0.3 * radius), upper_middle(0.6 * radius), around(radius)], true);
+    let mut bodies = all.finish(rng, &upper[2], &lower[2], false);
+    bodies.hold(&lower[0], &BOTH);
+    // A node as high as the middle moves up and down as the disc turns.
+    bodies.hold(&[upper[0][0]], &[Axis::X]);
+    let press = bodies.softest() * magnitude(rng, 1e-5, 1e-3) * radius;
+    bodies.load(&upper[0], [0.0, -press]);
+    let geometry = one_of(rng, &[Geometry::Initial, Geometry::Current]);
+    Hard { bodies, degrees: 0.0, mu: 0.0, steps: 1, geometry, coupling }
+}
+
 type Draw = fn(&mut Rng, Coupling) -> Hard;
 
 struct Hard {
@@ -271,6 +318,10 @@ struct Hard {
 
 impl Hard {
     fn solve(&self) -> Result<Solution, Error> {
+        self.written(&Writing { degrees: self.degrees, ..Default::default() })
+    }
+
+    fn written(&self, writing: &Writing) -> Result<Solution, Error> {
         let model = ContactModel {
             coupling: self.coupling,
             geometry: self.geometry,
@@ -278,8 +329,7 @@ impl Hard {
             load_steps: self.steps,
             ..Default::default()
         };
-        let writing = Writing { degrees: self.degrees, ..Default::default() };
-        let scene = self.bodies.modelled(&writing, model).build().expect("a sound scene");
+        let scene = self.bodies.modelled(writing, model).build().expect("a sound scene");
         solve(&Request::new(&scene), &mut |_| ())
     }
 
@@ -339,7 +389,8 @@ fn stiffness_times(model: &Model, u: &DVector<f64>) -> DVector<f64> {
 
 #[test]
 fn equilibria_are_found_where_they_are_hard_to_find() {
-    let kinds: [(&str, Draw); 4] = [("rough", rough), ("arc", arc), ("ring", ring), ("arm", arm)];
+    let kinds: [(&str, Draw); 5] =
+        [("rough", rough), ("arc", arc), ("ring", ring), ("arm", arm), ("thin", thin)];
     let count =
         std::env::var("PLANE_CONTACT_HARD").map_or(SCENES, |n| n.parse().expect("a number"));
     let mut text = String::new();
@@ -372,4 +423,75 @@ fn equilibria_are_found_where_they_are_hard_to_find() {
         assert_eq!(text, COUNTS);
     }
     println!("{text}");
+}
+
+/// Other numbers of nodes, triangles and bodies, and surfaces listed in another order.
+#[test]
+fn numbers_and_lists_change_no_answer() {
+    let kinds: [Draw; 5] = [rough, arc, ring, arm, thin];
+    for (kind, draw) in kinds.into_iter().enumerate() {
+        for seed in 0..6 {
+            let coupling = [Coupling::Mortar, Coupling::Nts][seed % 2];
+            let hard = draw(&mut Rng::with_seed(seed as u64), coupling);
+            let writing = Writing {
+                degrees: hard.degrees,
+                numbers: 1 + seed as u64,
+                target_reversed: true,
+                contact_reversed: seed % 3 == 0,
+                edges_turned: seed % 3 == 1,
+                ..Default::default()
+            };
+            let what = format!("kind {kind}, {seed}");
+            match (hard.solve(), hard.written(&writing)) {
+                (Ok(one), Ok(other)) => {
+                    let places = writing.places(one.model.nodes.len()).into_iter().enumerate();
+                    let places: Vec<_> =
+                        places.map(|(n, place)| [n, place].map(NodeId::new)).collect();
+                    for [n, place] in places {
+                        let ([x, y], [a, b]) = (n.components(&one.u), place.components(&other.u));
+                        let most = one.u.amax();
+                        assert_near(&format!("{what}: x of {n}"), a, x, most, &RENUMBERED);
+                        assert_near(&format!("{what}: y of {n}"), b, y, most, &RENUMBERED);
+                    }
+                }
+                (Err(one), Err(other)) => assert_eq!(one.exit_status(), other.exit_status()),
+                (one, other) => panic!("{what}: {:?}, {:?}", one.err(), other.err()),
+            }
+        }
+    }
+}
+
+/// A disc that can turn in its place is named, whatever the load, the geometry and the mesh.
+#[test]
+fn a_disc_that_can_turn_is_named() {
+    for seed in 0..24 {
+        let coupling = [Coupling::Mortar, Coupling::Nts][seed % 2];
+        let mut hard = disc(&mut Rng::with_seed(seed as u64), coupling);
+        let words = hard.solve().expect_err("it can turn").to_string();
+        assert!(words.contains("can turn about (0"), "{seed}: {words}");
+        // Two nodes across hold it, and so does friction, on its own mesh.
+        let held = hard.bodies.restrained.pop().expect("it is held");
+        hard.bodies.restrained.extend([held.clone(), (held.0 + 3, held.1)]);
+        if let Err(why) = hard.solve() {
+            assert!(!why.to_string().contains("can turn"), "{seed}: {why}");
+        }
+    }
+}
+
+/// Bodies that overlap and are held by contact alone start where a vanishing load brings them; where it holds them
+/// in no place without friction, there is none.
+#[test]
+fn an_overlap_that_comes_apart_in_many_ways_has_no_start() {
+    for seed in 0..40 {
+        let coupling = [Coupling::Mortar, Coupling::Nts][seed % 2];
+        let mut hard = rough(&mut Rng::with_seed(seed as u64), coupling);
+        let first = hard.bodies.triangles[1].iter().flatten().min().copied().expect("a body");
+        let overlaps = |why: &Error| why.to_string().contains("the start is not determined");
+        assert!(!hard.solve().err().as_ref().is_some_and(overlaps), "{seed}: the load holds it");
+        hard.bodies.restrained.retain(|(node, _)| *node < first);
+        hard.bodies.nodes[first..].iter_mut().for_each(|[_, y]| *y -= 0.01);
+        hard.bodies.loads.iter_mut().for_each(|(_, force)| *force = [1.0, 0.0]);
+        let why = hard.solve().expect_err("nothing holds it");
+        assert!(overlaps(&why) && why.exit_status() == 4, "{seed}: {why}");
+    }
 }

@@ -26,11 +26,10 @@ const RUBBING_IMAGES: usize = 3;
 const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
-    mortar 0.3 Same 214\n\
-    mortar 0.3 OtherPath 2\n\
-    mortar stick Same 192\n\
+    mortar 0.3 Same 216\n\
+    mortar stick Same 195\n\
     mortar stick NoAnswer 15\n\
-    mortar stick Several 9\n\
+    mortar stick Several 6\n\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
     nts 0.3 Same 211\n\

@@ -2,6 +2,7 @@
 
 #[path = "../common"]
 mod common {
+    pub mod annulus;
     pub mod draws;
     pub mod embedded;
     pub mod golden;

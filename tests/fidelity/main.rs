@@ -2,7 +2,6 @@
 
 #[path = "../common"]
 mod common {
-    pub mod coverage;
     pub mod draws;
     pub mod embedded;
     pub mod golden;
@@ -13,7 +12,6 @@ mod common {
     pub mod program;
     pub mod random;
     pub mod recorded;
-    pub mod shipped;
     pub mod tolerances;
     pub mod tools;
 }
@@ -21,7 +19,6 @@ mod common {
 mod architecture;
 mod bitwise;
 mod citations;
-mod coverage;
 mod findings;
 mod golden;
 mod listing_quotes;

@@ -32,15 +32,18 @@ fn octave_is_there() -> bool {
     there
 }
 
-/// Runs the functions of the files in `folder`, each in turn.
+/// Runs the scripts in `folder`, each in turn, from another folder.
 fn execute(folder: &Path, names: &[String]) -> Vec<Option<Printed>> {
-    let each =
-        |name: &String| format!("disp('BEGIN'); try; {name}; catch e; disp('FAILED'); end\n");
+    let each = |name: &String| {
+        format!("disp('BEGIN'); try; source('{name}'); catch e; disp('FAILED'); end\n")
+    };
     let driver: String = names.iter().map(each).collect();
-    std::fs::write(folder.join("driver.m"), driver).expect("a file");
+    let elsewhere = folder.join("elsewhere");
+    std::fs::create_dir_all(&elsewhere).expect("a folder");
+    std::fs::write(elsewhere.join("driver.m"), driver).expect("a file");
     let output = Command::new("octave-cli")
         .args(["--no-init-file", "--eval", "driver"])
-        .current_dir(folder)
+        .current_dir(elsewhere)
         .output()
         .expect("Octave starts");
     let text = String::from_utf8(output.stdout).expect("UTF-8");
@@ -87,7 +90,7 @@ fn octave_has_the_mirror_s_bits_on_random_scenes() {
         if sheet.B.iter().any(|b| b.iter().any(|x| !x.is_finite())) {
             continue;
         }
-        let name = format!("scene_{}", expected.len());
+        let name = format!("../scene-{}.m", expected.len());
         let export = Export {
             title: "random",
             sheet: &sheet,
@@ -96,8 +99,7 @@ fn octave_has_the_mirror_s_bits_on_random_scenes() {
             thickness: 1.0,
             run: None,
         };
-        let text = octave::program(&export, &name);
-        std::fs::write(folder.path().join(format!("{name}.m")), text).expect("a file");
+        std::fs::write(folder.path().join(&name[3..]), octave::program(&export)).expect("a file");
         names.push(name);
         expected.push((pairs, mjs));
     }
@@ -113,14 +115,14 @@ fn octave_has_our_displacements_on_shipped_scenes() {
         return;
     }
     let folder = TempDir::new().expect("a folder");
-    for (scene, name) in [("fig1", "fig1"), ("two-blocks", "two_blocks")] {
-        let file = format!("{name}.m");
+    for scene in ["fig1", "two-blocks"] {
+        let file = format!("{scene} 1.m");
         let written = run(
             folder.path(),
             &["mathcad", "export", scene, "--to", "octave", "--out", file.as_str()],
         );
         assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
-        let printed = execute(folder.path(), &[name.to_string()]).remove(0).expect("it runs");
+        let printed = execute(folder.path(), &[format!("../{file}")]).remove(0).expect("it runs");
         let sheet = initial(scene);
         let reading = Reading::default();
         let pairs = c_cnt(&sheet, &reading, &sheet.node).unwrap();
@@ -154,11 +156,10 @@ fn octave_executes_the_corrected_algorithm() {
     }
     let folder = TempDir::new().expect("a folder");
     for scene in ["fig1", "two-blocks"] {
-        let name = scene.replace('-', "_");
-        let file = format!("{name}.m");
+        let file = format!("{scene}.m");
         let export = ["mathcad", "export", scene, "--corrected", "--to", "octave", "--out", &file];
         assert!(run(folder.path(), &export).status.success(), "{scene}");
-        let printed = execute(folder.path(), &[name]).remove(0).expect("it runs");
+        let printed = execute(folder.path(), &[format!("../{file}")]).remove(0).expect("it runs");
         let ours = &printed["ours_U"];
         let largest = ours.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         assert!(largest > 0.0, "{scene}");

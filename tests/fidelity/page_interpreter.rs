@@ -305,7 +305,7 @@ fn corrected(scene: &str) -> Vec<Case> {
 
 /// What single characters are changed to.
 const CHARACTERS: &str =
-    "aiknxyRMVWcS_'0123456789.eE+-−·*/^=≠<>≤≥∧∨¬←∈ᵀ|,;:()[]⟨⟩\"#    \n\t&°√∑éπ😀";
+    "aiknxyRMVWcS_'0123456789.eE+-−·*/^=≠<>≤≥∧∨¬←∈ᵀ|,;:()[]{}⟨⟩×→\"#    \n\t&°√∑éπ😀";
 
 /// A text with one character taken away, put in or replaced.
 fn changed(text: &str, rng: &mut Rng) -> String {

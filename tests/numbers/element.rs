@@ -1,6 +1,7 @@
 //! The CST against what is known of it in closed form.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use crate::common::annulus::annulus;
 use crate::common::random::fixed;
 use crate::common::tolerances::{ELEMENT, PATCH, RIGID, assert_near};
 use nalgebra::{DVector, Matrix3, SVector, Vector3};
@@ -12,7 +13,6 @@ use plane_contact::problem::element::{
     von_mises_strain_by_stress_formula,
 };
 use plane_contact::problem::model::Dof;
-use plane_contact::studies::benchmark::Annulus;
 use proptest::prelude::*;
 
 /// Triangles in a box of size 10, counter-clockwise, not thinner than 1 in 100.
@@ -37,7 +37,7 @@ fn linear(p: &Corners<f64>, a: [f64; 2], g: [[f64; 2]; 2]) -> SVector<f64, 6> {
 #[test]
 fn the_stiffness_of_a_mesh_is_that_of_its_triangles() {
     for n in [4, 230] {
-        let scene = Annulus { radial: n, around: n }.generate().unwrap().build().unwrap();
+        let scene = annulus(n, n).build().unwrap();
         let model = &*scene.model;
         let u = DVector::from_fn(model.dofs(), |e, _| (e * 7919 % 101) as f64);
         let mut force = DVector::zeros(model.dofs());
@@ -64,7 +64,7 @@ fn the_stiffness_of_a_mesh_is_that_of_its_triangles() {
 /// Displacements that are 0 within a bound are not known to be 0: their forces have a bound too.
 #[test]
 fn forces_have_a_bound_where_displacements_are_zero_within_one() {
-    let scene = Annulus { radial: 4, around: 4 }.generate().unwrap().build().unwrap();
+    let scene = annulus(4, 4).build().unwrap();
     let stiffness = Stiffness::new(&scene.model, Bounded::from_f64);
     let forces = |error| {
         let u = DVector::from_element(scene.model.dofs(), Bounded::new(0.0, error));

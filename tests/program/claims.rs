@@ -15,7 +15,6 @@ use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
 use plane_contact::studies::audit::range::{Range, range};
-use plane_contact::studies::trade::{Section, geometry};
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
@@ -28,13 +27,6 @@ pub static RANGE: LazyLock<Range> =
 /// The claims on the paper's example over the range.
 pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
     LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
-
-/// What `trade` says of the range.
-pub static GEOMETRY: LazyLock<Section> = LazyLock::new(|| {
-    // Its runs are made once, by one test: see `Case::prepare`.
-    LazyLock::force(&JUDGED);
-    geometry(&open("strand"), &RANGE, &|_| ())
-});
 
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {

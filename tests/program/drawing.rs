@@ -2,10 +2,6 @@
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use plane_contact::report::picture::colour::ColourScale;
-use plane_contact::report::picture::deformation::{boundary_edges, magnification};
-use plane_contact::report::picture::page::{text_width, wrap};
-use plane_contact::report::picture::view::{Bounds, Frame, View};
 use plane_contact::report::picture::{
     Axis, Contact, Drawing, Field, MOST_SHAPES, Series, Style, chart, field, mesh,
 };
@@ -49,46 +45,6 @@ fn texts(picture: &str) -> String {
 }
 
 #[test]
-fn mesh_has_a_polygon_per_triangle() {
-    let picture = mesh(&square());
-    assert_eq!(attributes(&picture, "polygon", "points").len(), 2);
-    let words = texts(&picture);
-    for expected in ["a < b & \"c\"", "block (1 triangle)", "stamp (1 triangle)", "2 mm"] {
-        assert!(words.contains(expected), "{expected} in {words}");
-    }
-}
-
-#[test]
-fn field_has_the_end_colours() {
-    let picture = field(&square(), &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
-    assert_eq!(attributes(&picture, "polygon", "fill"), ["#440154", "#fde725"]);
-    let words = texts(&picture);
-    for expected in [
-        "Largest value 3 MPa at x\u{a0}=\u{a0}3.333, y\u{a0}=\u{a0}6.667 mm",
-        "smallest value 1 MPa at x\u{a0}=\u{a0}6.667, y\u{a0}=\u{a0}3.333 mm",
-        "Deformation × 1 ",
-    ] {
-        assert!(words.contains(expected), "{expected} in {words}");
-    }
-}
-
-#[test]
-fn stamp_is_drawn_over_the_block() {
-    let drawing = Drawing { region: vec![1, 0], ..square() };
-    let picture = field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]));
-    assert_eq!(attributes(&picture, "polygon", "fill"), ["#fde725", "#440154"]);
-}
-
-#[test]
-fn contact_brings_an_enlargement() {
-    let drawing = touching(&[1], [1, 2]);
-    for picture in [mesh(&drawing), field(&drawing, &stress(&[1.0, 3.0], &[[0.0; 2]; 4]))] {
-        assert_eq!(attributes(&picture, "clipPath", "id").len(), 1);
-        assert!(texts(&picture).contains("b: contact zone, enlarged"));
-    }
-}
-
-#[test]
 fn extreme_numbers() {
     for (unit, size) in [(1e300, 1e300), (1e300, 1e-300), (1e-300, 1e300), (1e-300, 1e-300)] {
         let points = SQUARE.map(|point| point.map(|x| x / 10.0 * unit)).to_vec();
@@ -107,77 +63,10 @@ fn infinite_value_is_refused() {
     field(&square(), &stress(&[1.0, f64::INFINITY], &[[0.0; 2]; 4]));
 }
 
-#[test]
-fn wrap_keeps_every_word() {
-    let words = "largest 12.3 MPa at the rim of the hole";
-    let lines = wrap(words, 10.0, 100.0);
-    let fits = |line: &String| text_width(line, 10.0) <= 100.0;
-    assert!(lines.len() > 2 && lines.iter().all(fits), "{lines:?}");
-    assert_eq!(lines.join(" "), words);
-}
-
-const FRAME: Frame = Frame { corner: [100.0, 50.0], size: [200.0, 100.0] };
-
-#[test]
-fn view_keeps_the_shape_and_turns_y() {
-    let view = View::whole(&Bounds::around(&[[0.0, 0.0], [10.0, 10.0]]), FRAME);
-    assert_eq!(view.scale, 10.0);
-    assert_eq!(view.pixel([0.0, 0.0]), [150.0, 150.0]);
-    assert_eq!(view.pixel([10.0, 10.0]), [250.0, 50.0]);
-}
-
-/// Nine squares without the one in the middle, two triangles each.
-///
-/// ```text
-/// 12--13--14--15
-///  |   |   |   |
-///  8---9--10--11
-///  |   | O |   |
-///  4---5---6---7
-///  |   |   |   |
-///  0---1---2---3
-/// ```
-#[test]
-fn rim_of_a_hole_is_boundary() {
-    let corners = (0..11).filter(|corner| corner % 4 != 3 && *corner != 5);
-    let triangles: Vec<_> = corners.flat_map(|a| [[a, a + 1, a + 5], [a, a + 5, a + 4]]).collect();
-    let edges = boundary_edges(&triangles);
-    assert_eq!(edges.len(), 12 + 4);
-    let rim = [[5, 6], [5, 9], [6, 10], [9, 10]];
-    assert!(rim.iter().all(|edge| edges.contains(edge)), "{edges:?}");
-}
-
-#[test]
-fn drawn_displacement_is_a_few_per_cent() {
-    for thousandths in 1..1000 {
-        let displacement = [[f64::from(thousandths) / 1000.0, 0.0]];
-        let drawn = displacement[0][0] * magnification(&SQUARE, &displacement).value() / 10.0;
-        assert!((0.02..0.06).contains(&drawn), "{drawn}");
-    }
-}
-
-#[test]
-fn ticks_lie_on_the_bar() {
-    for values in [[0.0, 1e300], [1e-300, 7e-300], [-2e5, 3e5], [100.0, 100.001]] {
-        let ticks = ColourScale::from_values(&values).ticks();
-        assert!(ticks.len() >= 3, "{ticks:?}");
-        let bar = -1e-9..=1.0 + 1e-9;
-        assert!(ticks.iter().all(|(place, _)| bar.contains(place)), "{ticks:?}");
-    }
-}
-
 fn drawn(logarithmic: bool, points: Vec<[f64; 2]>) -> String {
     let axis = |label| Axis { label, logarithmic };
     let series = [Series { name: "s".into(), points, style: Style::Dots }];
     chart("t", [axis("x"), axis("y")], &series, &[])
-}
-
-#[test]
-fn a_chart_marks_each_point() {
-    let text = drawn(false, vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0]]);
-    let read = Document::parse(&text).unwrap();
-    let circles = read.descendants().filter(|n| n.has_tag_name("circle")).count();
-    assert_eq!(circles, 3 + 1, "three points and the legend's sign");
 }
 
 #[test]

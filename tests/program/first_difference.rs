@@ -6,7 +6,9 @@ use plane_contact::engine::{Detail, Request, Step, solve};
 use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{GroupRef, Scene, SceneBuilder, Surface};
-use plane_contact::studies::snapshot::{Bounds, Snapshot, Values, VerifiedRun, difference, verify};
+use plane_contact::studies::snapshot::{
+    Bounds, Entry, Quantity, Snapshot, Values, VerifiedRun, difference, verify,
+};
 
 /// A change of what goes into a run, and the place that is to be named.
 struct Change {
@@ -189,14 +191,14 @@ fn another_version_is_named_and_a_tampered_number_is_found() {
     let request = Request::new(&scene).variant(Variant::Tied);
     let mut snapshot = Snapshot::record(&scene, &[request], Bounds::Computed).expect("it runs");
     let run = snapshot.runs.get_mut("tied").expect("it was recorded");
-    let u = run.numbers.get_mut("u").expect("it was recorded");
+    let u = run.numbers.get_mut(&Entry::from(Quantity::U)).expect("it was recorded");
     let Values::Rows(rows) = &mut u.values else { panic!("rows") };
     rows[2].values[1].0 += 1e-3;
     let found =
         |snapshot: &Snapshot| verify(snapshot, None, &|| ()).expect("it runs").runs.remove(0);
     let VerifiedRun { changes, first, .. } = found(&snapshot);
     let first = first.expect("it differs");
-    assert_eq!((&first.entry[..], first.node, changes.len()), ("u", Some(3), 0));
+    assert_eq!((first.entry, first.node, changes.len()), (Entry::from(Quantity::U), Some(3), 0));
     assert_eq!(first.status, None);
     snapshot.version = "0.0.1".into();
     let changes = found(&snapshot).changes;

@@ -5,8 +5,8 @@ use std::fs;
 
 use crate::common::random::fixed;
 use plane_contact::problem::scene::gmsh::GmshError;
-use plane_contact::problem::scene::gmsh::read;
-use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName};
+use plane_contact::problem::scene::gmsh::{read, write};
+use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -98,6 +98,7 @@ fn small() -> Mesh {
             element(9, 2, &[1], 4, &[10, 20, 30]),
         ],
         names: vec![name(1, 7, "base"), name(2, 1, "the body")],
+        ..Mesh::default()
     }
 }
 
@@ -459,9 +460,10 @@ fn faults_of_2_2_are_named_with_their_line() {
         ("$EndNodes\n", "$EndNodes\n$\n",
          "line 15: found \"$\", expected the beginning of a section, such as $Nodes"),
         ("9 2 2 1 4 10", "9 3 2 1 4 10",
-         "line 17: element 9 is a four-node quadrangle; only points, two-node edges and three-node \
-          triangles can be read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and \
-          mesh in two dimensions"),
+         "line 17: element 9 is a four-node quadrangle (surface 4, \"the body\"); only points, two-node \
+          edges and three-node triangles can be read: in Gmsh take out Recombine Surface, set \
+          Mesh.RecombineAll = 0, Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh \
+          again in two dimensions (-2)"),
         ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
         ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
         ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
@@ -550,6 +552,88 @@ fn the_strand_is_read() {
     assert_eq!(mesh.nodes.len(), 1111);
     assert_eq!([of_group("block"), of_group("stamp")], [1396, 618]);
     assert_eq!([of_group("duct_wall"), of_group("stamp_arc")], [78, 54]);
+}
+
+/// A scene on a mesh file that restrains `node` and the group "base", and loads nothing.
+fn scene_on(mesh: &[u8], node: usize) -> plane_contact::error::Result<SceneBuilder> {
+    let scene = format!(
+        "{{\"mesh\": \"m.msh\", \"plane\": \"strain\", \"materials\": {{\"the body\": {{\"E\": 1, \
+         \"nu\": 0}}}}, \"restraints\": [{{\"on\": \"base\", \"fix\": [\"x\", \"y\"]}}, {{\"node\": {node}, \
+         \"fix\": [\"x\"]}}]}}"
+    );
+    SceneBuilder::read("small", scene.as_bytes(), |_| Ok(mesh.to_vec()))
+}
+
+/// Both versions, text and binary, number their nodes 10, 20, 30.
+#[test]
+fn node_numbers_with_gaps_are_closed_in_every_encoding() {
+    let (mut binary_2, mut binary_4) = (Writer::default(), Writer::default());
+    binary_2.small_2();
+    binary_4.small_4();
+    let text = [SMALL_2.as_bytes(), SMALL_4.as_bytes()];
+    for file in text.into_iter().chain([&*binary_2.bytes, &*binary_4.bytes]) {
+        let scene = scene_on(file, 30).expect("it is read");
+        assert_eq!(scene.mesh.nodes.iter().map(|n| n.number).collect::<Vec<_>>(), [1, 2, 3]);
+        assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
+        assert_eq!(scene.description.restraints[1].node, Some(3));
+        assert!(scene.mesh.adapted[0].contains("node 10 of the file is node 1"));
+        assert!(scene.build().is_ok());
+        let why = scene_on(file, 3).expect_err("the file has no node 3");
+        assert_eq!(why.what, "the mesh file has no node 3");
+    }
+}
+
+#[test]
+fn surfaces_that_run_clockwise_are_turned_as_a_whole() {
+    let turned = SMALL_2.replace("4 10 20 30", "4 10 30 20");
+    let scene = scene_on(turned.as_bytes(), 30).expect("it is read");
+    assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
+    assert!(scene.mesh.adapted[1].contains("surface 4, \"the body\" run clockwise"));
+    // One of two: the surface folds over itself.
+    let folded = turned.replace("$Elements\n3\n", "$Elements\n4\n7 2 2 1 4 10 20 40\n");
+    let folded = folded.replace("$Nodes\n3\n", "$Nodes\n4\n40 1 1 0\n");
+    let scene = scene_on(folded.as_bytes(), 30).expect("it is read");
+    let why = scene.build().expect_err("it folds").what;
+    assert!(why.ends_with("its area is -0.5 (surface 4, \"the body\")"), "{why}");
+}
+
+#[test]
+fn what_no_group_holds_is_named_with_what_gmsh_adds() {
+    let no_group =
+        SMALL_2.replace("9 2 2 1 4", "9 2 2 0 4").replace("2 1 \"the body\"", "2 6 \"x\"");
+    let why = scene_on(no_group.as_bytes(), 30).expect("it is read").build().expect_err("no group");
+    assert!(why.fix.contains("triangles of surfaces 4 are in none"), "{}", why.fix);
+    assert!(why.fix.contains("Physical Surface(\"the body\") = {4};"), "{}", why.fix);
+}
+
+proptest! {
+    #![proptest_config(fixed(64))]
+
+    /// Whatever numbers ascend in place of 1, 2, ..., the scene has the same mesh.
+    #[test]
+    fn any_gaps_close(
+        nodes in prop::collection::vec(1..9_usize, 2000),
+        elements in prop::collection::vec(1..900_usize, 4000),
+    ) {
+        let numbers = |steps: &[usize]| -> Vec<usize> {
+            steps.iter().scan(0, |n, step| { *n += step; Some(*n) }).collect()
+        };
+        let (nodes, elements) = (numbers(&nodes), numbers(&elements));
+        let whole = read(&bytes("golden/strand/strand.msh")).expect("a mesh");
+        let mut mesh = whole.clone();
+        mesh.nodes.iter_mut().for_each(|node| node.number = nodes[node.number]);
+        for (place, element) in mesh.elements.iter_mut().enumerate() {
+            element.number = elements[place];
+            element.nodes.iter_mut().for_each(|n| *n = nodes[*n]);
+        }
+        let scene = scene_on(write(&mesh).as_bytes(), nodes[7]).expect("it is read");
+        prop_assert_eq!(&scene.mesh.nodes, &whole.nodes);
+        let content = |mesh: &Mesh| -> Vec<_> {
+            mesh.elements.iter().map(|e| (e.nodes.clone(), e.physical.clone())).collect()
+        };
+        prop_assert!(content(&scene.mesh) == content(&whole));
+        prop_assert_eq!(scene.description.restraints[1].node, Some(7));
+    }
 }
 
 proptest! {

@@ -72,6 +72,30 @@ fn what_is_no_worksheet_is_refused() {
     let (status, _, why) = ran(folder.path(), &["mathcad", "run", "no.xmcd"]);
     assert_eq!(status, 2);
     assert!(why.contains("no worksheet but <html>"), "{why}");
+    for (start, words) in
+        [("PK\u{3}\u{4}x", "Mathcad Prime"), (".MCAD 304 1", "Mathcad 11 or an older")]
+    {
+        std::fs::write(folder.path().join("no.xmcd"), start).expect("a file");
+        let (status, _, why) = ran(folder.path(), &["mathcad", "run", "no.xmcd"]);
+        assert!(status == 2 && why.contains(words), "{why}");
+    }
+}
+
+/// One result agrees, and another region fails here where nothing is saved.
+#[test]
+fn a_region_that_fails_here_alone_counts() {
+    let folder = TempDir::new().expect("a folder");
+    let one = "<real>1</real>";
+    let text = format!(
+        "<worksheet><regions><region><math><eval>{one}<result>{one}</result></eval></math></region>\
+         <region><math><eval><apply><div/>{one}<real>0</real></apply></eval></math></region></regions>\
+         </worksheet>"
+    );
+    std::fs::write(folder.path().join("s.xmcd"), text).expect("a file");
+    let (status, said, _) = ran(folder.path(), &["mathcad", "run", "s.xmcd"]);
+    assert_eq!(status, 1);
+    assert!(said.contains("1 results same to the last bit"), "{said}");
+    assert!(said.contains("1 regions fail here alone"), "{said}");
 }
 
 /// Exports a scene, and returns the differences that the worksheet shows between what it computes

@@ -296,7 +296,7 @@ fn meshes_at_the_edges_of_what_is_allowed() {
     assert!(node(13).is_ok());
     for none in [0, 14] {
         let error = node(none).expect_err("no node");
-        assert!(error.contains(&format!("node number {none} is beyond R = 13")), "{error}");
+        assert!(error.contains(&format!("node number {none}")), "{error}");
     }
     let tag = |tag: i64| changed(|s| push(&mut s["elem"], json!([19, 1, 2, tag, 1, 1, 2])));
     assert!(tag(i64::from(i32::MAX)).is_ok());

@@ -268,7 +268,7 @@ fn restraints_and_loads() {
         &["a load has either on and pressure, on and traction, or node and force"],
     );
     let e = refused(|s| push(&mut s["loads"], json!({ "node": 0, "force": [0.0, 1.0] })));
-    says(&e, "loads[1]", &["node number 0 is beyond R = 13"]);
+    says(&e, "loads[1]", &["there is no node number 0"]);
     let e = refused(|s| {
         push(&mut s["elem"], json!([19, 1, 2, 50, 1, 2, 10]));
         push(&mut s["loads"], json!({ "on": 50, "pressure": 1.0 }));
@@ -428,10 +428,22 @@ fn a_name_belongs_to_one_group() {
     read(mesh.replacen("top", "base", 1)).expect("each name once");
 }
 
-/// R8: c_tol in metres is 1,000 times as much in a scene in mm.
+/// R8: c_tol in metres is 1,000 times as much in a scene in mm, 100 times in cm; where the unit is none that is
+/// known it is refused.
 #[test]
 fn r8_multiplies_the_tolerance() {
     let scene = build(&scene_json("fig1")).unwrap();
     let model = Request::new(&scene).reading("R8=m".parse().unwrap()).model().unwrap();
     assert_eq!(door::worksheet(&model, |x| x).c_tll, 1.0);
+    let tolerance = |unit: &str| {
+        let mut json = scene_json("fig1");
+        json["units"]["length"] = unit.into();
+        let scene = build(&json).expect("any name of a unit is read");
+        let model = Request::new(&scene).reading("R8=m".parse().expect("a reading")).model();
+        model.map(|model| model.contact.tolerance)
+    };
+    assert_eq!([tolerance("cm"), tolerance("m")].map(Result::unwrap), [0.1, 0.001]);
+    for unit in ["in", ""] {
+        says(&tolerance(unit).expect_err("not known"), "R8", &["R8=m"]);
+    }
 }

@@ -103,8 +103,8 @@ fn what_was_tampered_with_is_seen() {
         s["runs"]["tied"]["numbers"].as_object_mut().expect("an object").remove("stress");
     };
     assert_says(&tampered(missing), 1, &["stress: new"]);
-    let extra = |s: &mut Value| s["runs"]["tied"]["facts"]["more"] = json!(1);
-    assert_says(&tampered(extra), 1, &["more: missing"]);
+    let extra = |s: &mut Value| s["runs"]["tied"]["facts"]["iteration 3 statuses"] = json!(1);
+    assert_says(&tampered(extra), 1, &["iteration 3 statuses: missing"]);
     let shorter = |s: &mut Value| {
         s["runs"]["tied"]["numbers"]["u"]["values"].as_array_mut().expect("rows").remove(3);
     };
@@ -133,6 +133,8 @@ fn a_broken_snapshot_is_the_inputs_fault() {
     assert_says(&tampered(mesh), 2, &["mesh was changed after it was recorded"]);
     let unknown = |s: &mut Value| s["runs"]["tied"]["options"]["speed"] = json!(1);
     assert_says(&tampered(unknown), 2, &["speed", "runs.tied.options"]);
+    let no_quantity = |s: &mut Value| s["runs"]["tied"]["facts"]["more"] = json!(1);
+    assert_says(&tampered(no_quantity), 2, &["\"more\" is none of cnt, trg", "runs.tied.facts"]);
     let folder = recorded();
     let text = std::fs::read(folder.path().join("s.json")).expect("a snapshot");
     std::fs::write(folder.path().join("half.json"), &text[..text.len() / 2]).expect("written");

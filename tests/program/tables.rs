@@ -327,7 +327,7 @@ fn settings() {
     let request = Request::new(&STRAND).arithmetic(arithmetic);
     let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
     let options = trade::Options { runs: 1, only };
-    let trade = trade::measure(&request, &options, |_| None, |_| ()).expect("it is measured");
+    let trade = trade::measure(&request, &options, |_| ()).expect("it is measured");
     let rows = trade.sections.iter().flat_map(|section| {
         section.rows.iter().map(move |row| {
             let [error, change] = [&row.error, &row.change].map(|errors| {

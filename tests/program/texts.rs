@@ -3,7 +3,6 @@
 //! Words are exact. A number may differ by one in its last printed digit, and is not compared where
 //! it is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -137,23 +136,15 @@ fn inner(group: &[&str]) -> Vec<String> {
 fn help() {
     let pages = commands().into_iter().filter(|command| !command.starts_with("scene mesh "));
     let pages: Vec<String> = std::iter::once(String::new()).chain(pages).collect();
-    let file = |page: &String| match page.as_str() {
-        "" => "plane-contact".to_string(),
-        command => command.replace(' ', "-"),
-    };
+    let mut all = String::new();
     for page in &pages {
         let args: Vec<&str> = page.split_whitespace().chain(["--help"]).collect();
-        assert_text("help", &file(page), &args);
         let text = printed(&args);
         assert!(text.lines().count() <= 100, "{page}: {} lines", text.lines().count());
         assert!(text.contains("Examples:"), "{page}");
+        all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
-    let files = std::fs::read_dir(Path::new(ROOT).join("golden/help"));
-    let there = files.expect("the folder of help pages").map(|file| {
-        let name = file.expect("a file").file_name().into_string().expect("UTF-8");
-        name.trim_end_matches(".snap").to_string()
-    });
-    assert_eq!(there.collect::<BTreeSet<_>>(), pages.iter().map(file).collect());
+    assert_golden_by("", "help", &all, same_text);
 }
 
 /// The commands that a text names: what follows the name of the program.

@@ -2,7 +2,8 @@
 //!
 //! No link is followed, no device is written to, and what the run has read is not replaced. A file that
 //! the user named is replaced. Of a folder only what is the program's own is replaced: where the last
-//! of the files, the *mark* of the folder, is already there and was written by this program.
+//! of the files, the *mark* of the folder, is already there and was written by this program. The mark is
+//! renamed first, so that a run that is killed leaves no file without it.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -13,7 +14,9 @@ use tempfile::{Builder, TempDir, TempPath};
 
 use super::json::is_from_program;
 use super::read::{is_input, read_from};
+use crate::child;
 use crate::error::{InputError, Result};
+use crate::plain::shown;
 
 /// How the name of everything temporary begins.
 const PREFIX: &str = ".plane-contact-";
@@ -35,8 +38,10 @@ fn temporary() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is temporary and does `last`, which ends the process.
+/// Ends the programs that this one started, removes what is temporary and does `last`, which ends the
+/// process.
 pub fn abandon(last: impl FnOnce()) {
+    let _none_starts = child::end_all();
     let temporary = temporary();
     for path in temporary.iter() {
         let is_left = |_: &usize| {
@@ -75,7 +80,15 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
 /// # Errors
 /// There is a link, a device, a folder, or a file that this run reads.
 pub fn check_file(path: &Path) -> Result<()> {
-    is_there(path).map(drop).map_err(|why| unwritable(path, &why))
+    no_hyphen(path).and_then(|()| is_there(path).map(drop)).map_err(|why| unwritable(path, &why))
+}
+
+/// Refuses a hyphen, by which others name standard output.
+fn no_hyphen(path: &Path) -> io::Result<()> {
+    match path == Path::new("-") {
+        true => Err(io::Error::other("a hyphen is no name here; a file of that name is ./-")),
+        false => Ok(()),
+    }
 }
 
 /// Writes `content` to a new file at `path`, and creates its folder where it is missing.
@@ -107,8 +120,8 @@ pub fn rewrite(path: &Path, was: &[u8], content: &str) -> Result<()> {
     write().map_err(|why| InputError { fix: "run it again".into(), ..unwritable(path, &why) })
 }
 
-/// Writes files by their names in `folder`; the last, which marks the folder as this program's, last. All
-/// other files there are left alone.
+/// Writes files by their names in `folder`; the last marks the folder as this program's. All other files
+/// there are left alone.
 ///
 /// # Errors
 /// Those of [`check_folder`], before anything is written; or a file cannot be written.
@@ -125,7 +138,7 @@ pub fn write_all<N: AsRef<str>, C: AsRef<[u8]>>(folder: &Path, files: &[(N, C)])
         let new = files.iter().filter(|(name, _)| !foreign.contains(&name.as_ref()));
         let staged =
             new.map(|(name, content)| staged(&folder.join(name.as_ref()), content.as_ref()));
-        put(staged.collect::<io::Result<_>>()?)
+        put(staged.rev().collect::<io::Result<_>>()?)
     };
     write().map_err(|why| no_folder(folder, &why))
 }
@@ -147,12 +160,17 @@ pub fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
 /// Returns those of the names whose files are in `folder` already and are not known to be from this
 /// program.
 fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
+    no_hyphen(folder)?;
     if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
-        let why = format!("{} is a file", file.display());
+        let why = format!("{} is a file", shown(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, why));
     }
     let mut there = Vec::new();
-    for name in names {
+    // The mark is the last to be looked for: another run renames it first.
+    for (j, name) in names.iter().enumerate() {
+        if names[..j].contains(name) {
+            return Err(io::Error::other(format!("two files are named {name}")));
+        }
         let place =
             |why: io::Error| io::Error::new(why.kind(), format!("{name} is in the way: {why}"));
         let ways = Path::new(name).ancestors().skip(1);
@@ -241,11 +259,11 @@ fn put(files: Vec<(TempPath, PathBuf)>) -> io::Result<()> {
 
 fn unwritable(path: &Path, why: &io::Error) -> InputError {
     let what = format!("the file cannot be written: {why}");
-    InputError::new(path.display().to_string(), what, "choose another place")
+    InputError::new(shown(path), what, "choose another place")
 }
 
 fn no_folder(folder: &Path, why: &io::Error) -> InputError {
     let what = format!("the folder cannot be written: {why}");
     let fix = "choose another place, or move what is in the way";
-    InputError::new(folder.display().to_string(), what, fix)
+    InputError::new(shown(folder), what, fix)
 }

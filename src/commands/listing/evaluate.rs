@@ -6,8 +6,11 @@ use std::rc::Rc;
 use plane_contact::engine::error::{Error, Result};
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::limits;
-use plane_contact::mathcad::{Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file, json};
+use plane_contact::mathcad::{
+    Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file,
+    json::{self, Written},
+};
+use plane_contact::plain::shown;
 use plane_contact::report::evaluation as report;
 use plane_contact::report::model::Report;
 
@@ -49,8 +52,8 @@ pub struct Args {
 
 /// Runs the call; returns the exit status.
 pub fn run(args: &Args) -> Result<u8> {
-    let place = args.file.display().to_string();
-    let text = read_listing(&place)?;
+    let place = shown(&args.file);
+    let text = read_listing(&args.file)?;
     let notation = "see the notation in listings/README.md";
     let programs = file::listings(&place, &text, &Limits::default())
         .map_err(|error| InputError::new(&place, error.to_string(), notation))?;
@@ -69,10 +72,7 @@ pub fn run(args: &Args) -> Result<u8> {
         waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));
     let failure = match outcome {
         Ok(outcome) => {
-            if args.json {
-                limits::PRINTED.check(json::count(&outcome.value), "--json")?;
-            }
-            let printed = print_either(args.json, || report::json(&outcome), || shown(&outcome));
+            let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
             return printed.map(|()| 0);
         }
         Err(failure) => failure,
@@ -115,10 +115,12 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
 }
 
 /// Reports what `trace` was given, then the value, a row on each line.
-fn shown(outcome: &Outcome) -> Report {
+fn ended(outcome: &Outcome) -> Report {
     let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
     let value = match &outcome.value {
-        nested @ Value::Nested(_) => json::write(nested).to_string(),
+        nested @ Value::Nested(_) => {
+            serde_json::to_string(&Written(nested)).expect("an array of JSON")
+        }
         value => value.to_string().replace("; ", "\n"),
     };
     traces.chain([value]).fold(Report::default(), Report::line)

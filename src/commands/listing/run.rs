@@ -38,7 +38,7 @@ Examples:
 pub struct CCntArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
-    scene: String,
+    scene: PathBuf,
     #[command(flatten)]
     reading: ReadingArg,
     /// Print JSON.
@@ -60,7 +60,7 @@ Examples:
 pub struct KmArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
-    scene: String,
+    scene: PathBuf,
     /// Write to a file in place of standard output.
     #[arg(long, value_name = "FILE")]
     matrix_market: Option<PathBuf>,

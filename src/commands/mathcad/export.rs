@@ -1,6 +1,6 @@
 //! `plane-contact mathcad export`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::engine::{self, Request};
@@ -20,7 +20,7 @@ plane_contact::choices! {
     Target {
         /// Mathcad 14 and 15: a worksheet.
         Mathcad = "mathcad",
-        /// Octave and MATLAB: a function file.
+        /// Octave and MATLAB: a script.
         Octave = "octave",
     }
 }
@@ -29,8 +29,9 @@ plane_contact::choices! {
 #[derive(clap::Args)]
 #[command(after_help = "\
 The listings are those printed, with the iterations of the variant printed and our results beside them.
-Octave wants the file called as its function: NAME.m. --corrected writes the corrected algorithm of
-listings/corrected/ in their place: no friction, in the initial geometry.
+octave FILE.m executes the program, from any folder; MATLAB does from R2024a on, where FILE is a name
+of MATLAB's. --corrected writes the corrected algorithm of listings/corrected/ in place of the
+listings: no friction, in the initial geometry.
 
 Examples:
   plane-contact mathcad export fig1 --out fig1.xmcd
@@ -55,12 +56,11 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let name = function_name(args);
     let text = match (args.to, args.corrected) {
         (Target::Mathcad, false) => listings(args, mathcad::worksheet)?,
         (Target::Mathcad, true) => corrected(args, mathcad::corrected)?,
-        (Target::Octave, false) => listings(args, |export| octave::program(export, &name))?,
-        (Target::Octave, true) => corrected(args, |export| octave::corrected(export, &name))?,
+        (Target::Octave, false) => listings(args, octave::program)?,
+        (Target::Octave, true) => corrected(args, octave::corrected)?,
     };
     write_or_print(&args.out, &text)
 }
@@ -146,12 +146,3 @@ fn check_size(scene: &Scene, model: &Model) -> Result<(), InputError> {
 
 /// The most nodes of a scene that Mathcad is given: its matrix has twice as many rows.
 const MOST_NODES: usize = 300;
-
-/// The function that the file is called after.
-fn function_name(args: &Args) -> String {
-    let stem = args.out.as_deref().unwrap_or(Path::new(&args.scene)).file_stem();
-    let stem = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-    let name: String = stem.chars().map(plain).collect();
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("scene_{name}") }
-}

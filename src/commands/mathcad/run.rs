@@ -3,13 +3,13 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use flate2::read::GzDecoder;
+use flate2::read::MultiGzDecoder;
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
-use plane_contact::limits;
 use plane_contact::mathcad::worksheet::{self, Verdict};
-use plane_contact::mathcad::{Limits, json, xmcd::document};
+use plane_contact::mathcad::{Limits, xmcd::document};
+use plane_contact::plain::shown;
 use plane_contact::report::worksheet as report;
 
 use crate::commands::{print_either, progress};
@@ -23,8 +23,8 @@ solve blocks, derivatives, integrals and random numbers are named as unsupported
 shows a name's value and ours is not the same to the last bit, or unsupported, the saved value goes on
 as input, so that each result is judged for itself; results that rest on it say so.
 
-Exit status: 0 where results were compared and all agree, 1 where one differs or none could be
-compared, 2 where the file is no worksheet.
+Exit status: 0 where results were compared and all agree, 1 where one differs, a region fails here
+alone or nothing could be compared, 2 where the file is no worksheet.
 
 Examples:
   plane-contact mathcad run worksheet.xmcd
@@ -52,21 +52,21 @@ pub fn run(args: &Args) -> Result<u8> {
         bar.set_position(done as u64);
     });
     bar.finish_and_clear();
-    if args.json {
-        let values = checked.iter().filter_map(|region| region.value.as_ref());
-        limits::PRINTED.check(values.map(json::count).sum(), "--json")?;
-    }
-    let json = || report::json(&args.file.display().to_string(), &checked);
+    let json = || report::json(&shown(&args.file), &checked);
     print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
-    let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. }));
+    let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. } | Verdict::Fails(_)));
     Ok(u8::from(differs || !some(Verdict::agrees)))
 }
 
 /// Reads a worksheet's file.
 fn open(file: &Path) -> Result<document::Worksheet, InputError> {
-    let place = file.display().to_string();
-    let text = read_text(file).map_err(|why| {
+    let place = shown(file);
+    let bytes = files::read_most(file, document::LARGEST as u64);
+    if let Ok(bytes) = &bytes {
+        document::check_kind(bytes, &place)?;
+    }
+    let text = bytes.and_then(read_text).map_err(|why| {
         let what = format!("the file cannot be read: {why}");
         InputError::new(&place, what, "give an .xmcd file, which is text in UTF-8, or an .xmcdz")
     })?;
@@ -74,11 +74,9 @@ fn open(file: &Path) -> Result<document::Worksheet, InputError> {
 }
 
 /// Reads the text of a worksheet, packed or not.
-fn read_text(file: &Path) -> io::Result<String> {
-    let most = document::LARGEST as u64;
-    let bytes = files::read_most(file, most)?;
+fn read_text(bytes: Vec<u8>) -> io::Result<String> {
     let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
-        true => files::read_from(GzDecoder::new(&*bytes), most)?,
+        true => files::read_from(MultiGzDecoder::new(&*bytes), document::LARGEST as u64)?,
         false => bytes,
     };
     files::text(bytes)

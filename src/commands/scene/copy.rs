@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::scene::{Embedded, FINDING_SCENES, SCENES};
 use plane_contact::suggestion::did_you_mean;
 
@@ -32,12 +33,12 @@ pub fn run(args: &Args) -> Result<()> {
     let file = folder.join("scene.json");
     if file.exists() {
         let fix = "choose another folder with --out";
-        return Err(InputError::new(file.display().to_string(), "it exists already", fix).into());
+        return Err(InputError::new(shown(&file), "it exists already", fix).into());
     }
     let mut written = scene.files.to_vec();
     written.push(("scene.json", scene.scene));
     files::write_all(&folder, &written)?;
-    let folder = folder.display();
+    let folder = shown(&folder);
     print_fitted(&format!("Written to {folder}; plane-contact solve {folder} runs it\n"))
 }
 

@@ -24,7 +24,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
-    scene: String,
+    scene: PathBuf,
     /// The code.
     #[arg(long, value_name = "CODE", default_value = "calculix")]
     to: Code,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
+use plane_contact::plain::shown;
 use plane_contact::studies::benchmark::Kind;
 
 use crate::commands::{folder, print_fitted};
@@ -39,6 +40,6 @@ pub fn run(args: &Args) -> Result<()> {
     print_fitted(&format!(
         "{nodes} nodes, {triangles} triangles, edges {}\nWritten to {}\n",
         groups.join(", "),
-        out.display()
+        shown(&out)
     ))
 }

@@ -1,5 +1,7 @@
 //! `plane-contact scene plan`.
 
+use std::path::PathBuf;
+
 use plane_contact::engine::error::Result;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
@@ -22,7 +24,7 @@ Examples:
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
-    scene: String,
+    scene: PathBuf,
     #[command(flatten)]
     run: RunArgs,
     /// Print JSON.

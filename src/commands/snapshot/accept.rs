@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{accept, difference};
@@ -26,11 +27,11 @@ pub struct Args {
     file: PathBuf,
     /// Record this scene in place of the one in the snapshot.
     #[arg(long, value_name = "SCENE")]
-    scene: Option<String>,
+    scene: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let file = args.file.display().to_string();
+    let file = shown(&args.file);
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let text = files::read(&args.file);
     // What cannot be read is named below.

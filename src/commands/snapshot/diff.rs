@@ -1,19 +1,20 @@
 //! `plane-contact snapshot diff`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files::json;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName, Solver};
 use plane_contact::paper::mirror::Reading;
+use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, SceneFile};
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
-use plane_contact::studies::snapshot::{Bounds, Run, Snapshot, Verified, difference};
+use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
 
 use super::verify::DIFFERS;
-use crate::commands::{print_either, report_written, waiting};
+use crate::commands::{print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
@@ -24,12 +25,12 @@ values, one for each run. A difference is printed as by verify.
 Examples:
   plane-contact snapshot diff strand --variant stepped,tied
   plane-contact snapshot diff old.json new.json
-  plane-contact snapshot diff my/snapshot.json my/scene.json --out why
+  plane-contact snapshot diff my/snapshot.json my/scene.json
   plane-contact snapshot diff fig1 --reading R5=node --reading R5=node_n")]
 pub struct Args {
     /// A snapshot or a scene, and another one.
     #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
-    sides: Vec<String>,
+    sides: Vec<PathBuf>,
     /// The variants of both sides, or one for both [default: the scene's].
     #[arg(long, value_name = "V,...", value_delimiter = ',')]
     variant: Vec<Variant>,
@@ -45,9 +46,6 @@ pub struct Args {
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
-    /// Folder for the difference of the displacements: difference.vtu and difference.svg.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
 /// The value of a side: that of two, or the one of both.
@@ -71,30 +69,23 @@ pub fn run(args: &Args) -> Result<u8> {
     let sides = waiting("running", || -> Result<_> {
         Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
     })?;
-    let file = format!("{} and {}", names[0], names[1]);
     let verified = difference(&sides[0], &sides[1]);
-    let checked = [VerifiedFile { file, verified: Ok(verified.clone()) }];
+    let status = if verified.is_same() { 0 } else { DIFFERS };
+    let file = format!("{} and {}", shown(names[0]), shown(names[1]));
+    let checked = [VerifiedFile { file, verified: Ok(verified) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;
-    if let (Some(folder), Some((old, run))) = (&args.out, first_pair(&sides[0], &verified)) {
-        let written = report::difference_files(folder, &verified.input.build()?, [old, run])?;
-        report_written(folder, written);
-    }
-    Ok(if verified.is_same() { 0 } else { DIFFERS })
-}
-
-/// The first two runs that differ.
-fn first_pair<'a>(old: &'a Snapshot, verified: &'a Verified) -> Option<(&'a Run, &'a Run)> {
-    let mut pairs = old.runs.iter().zip(&verified.runs);
-    let ((_, old), new) = pairs.find(|(_, new)| !new.differences.is_empty())?;
-    Some((old, &new.run))
+    Ok(status)
 }
 
 /// Reads a snapshot, or runs a scene.
-fn side(args: &Args, side: usize, name: &str) -> Result<Snapshot> {
+fn side(args: &Args, side: usize, name: &Path) -> Result<Snapshot> {
     // It is read once: it may come through a pipe.
     let file = SceneFile::read(name)?;
     if json::has_field(&file.text, "format") {
-        return Ok(Snapshot::read(&file.text).map_err(|error| error.within(name))?);
+        let snapshot = Snapshot::read(&file.text);
+        // What it says of its scene must be true.
+        let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
+        return Ok(checked.map_err(|error| error.within(&shown(name)))?);
     }
     let scene = Scene::of_file(&file)?;
     let mut request = plane_contact::engine::Request::new(&scene);

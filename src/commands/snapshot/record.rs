@@ -7,10 +7,11 @@ use clap::builder::PossibleValuesParser;
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot as report;
-use plane_contact::studies::snapshot::{Bounds, FIELDS, Snapshot};
+use plane_contact::studies::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
 
 use crate::commands::arithmetic::ArithmeticArgs;
 use crate::commands::{ModelArgs, ReadingArg, print_report, waiting};
@@ -32,7 +33,7 @@ Examples:
 pub struct Args {
     /// Paths of scenes, or names of embedded ones.
     #[arg(value_name = "SCENE", required = true)]
-    scenes: Vec<String>,
+    scenes: Vec<PathBuf>,
     #[arg(long, value_name = "V,...", value_delimiter = ',', help = format!(
         "Variants, each of which is run. {} [default: the scene's]",
         Variant::help()
@@ -45,9 +46,9 @@ pub struct Args {
     #[command(flatten)]
     reading: ReadingArg,
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(FIELDS), help = format!(
+        value_parser = PossibleValuesParser::new(FIELDS.map(Quantity::name)), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
-        FIELDS.join(", ")
+        FIELDS.map(Quantity::name).join(", ")
     ))]
     only: Vec<String>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
@@ -81,7 +82,7 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         write_new(&file, &report::file(&snapshot))?;
-        print_report(report::recorded(&snapshot).line(format!("Written to {}", file.display())))?;
+        print_report(report::recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
     Ok(())
 }
@@ -89,7 +90,7 @@ pub fn run(args: &Args) -> Result<()> {
 /// Writes a snapshot; an existing file with another content is kept.
 fn write_new(file: &Path, text: &str) -> Result<()> {
     files::check_file(file)?;
-    let place = file.display().to_string();
+    let place = shown(file);
     if let Err(why) = files::write_new(file, text) {
         if why.kind() != io::ErrorKind::AlreadyExists {
             let what = format!("the file cannot be written: {why}");

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
+use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::snapshot::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{self, Snapshot};
@@ -34,7 +35,7 @@ pub struct Args {
     files: Vec<PathBuf>,
     /// Run this scene in place of the one in the snapshot.
     #[arg(long, value_name = "SCENE")]
-    scene: Option<String>,
+    scene: Option<PathBuf>,
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
@@ -49,7 +50,14 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<u8> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
-    let checked = check(&args.files, snapshots.collect(), scene.as_ref());
+    let snapshots = snapshots.collect();
+    let written = [&args.junit, &args.report].into_iter().flatten();
+    written.clone().try_for_each(|file| files::check_file(file))?;
+    if args.junit.is_some() && args.junit == args.report {
+        let what = "both --junit and --report write this file";
+        return Err(InputError::new("--report", what, "name another file").into());
+    }
+    let checked = check(&args.files, snapshots, scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }
@@ -71,7 +79,7 @@ fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
 
 /// Reads the snapshot in the text of a file.
 pub fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
-    let place = file.display().to_string();
+    let place = shown(file);
     let text = text.map_err(|why| {
         let what = format!("the snapshot cannot be read: {why}");
         InputError::new(&place, what, "give a file as `plane-contact snapshot record` writes it")
@@ -88,7 +96,7 @@ fn check(
     let runs = snapshots.iter().flatten().map(|snapshot| snapshot.runs.len()).sum();
     let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
     let check = |(file, snapshot): (&PathBuf, Result<Snapshot>)| {
-        let file = file.display().to_string();
+        let file = shown(file);
         let verified = snapshot.and_then(|snapshot| {
             let verified = snapshot::verify(&snapshot, scene, &|| bar.inc(1));
             verified.map_err(|error| within(error, &file))

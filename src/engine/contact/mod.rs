@@ -22,6 +22,7 @@ mod surface;
 pub use crate::quantities::ContactNode;
 pub use mortar::Mortar;
 pub use order::{along, hidden, oddity, turned};
+pub use outline::BEND;
 pub use pairing::{Pairing, STEEP, Sense, Status};
 pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;

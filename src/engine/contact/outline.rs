@@ -49,7 +49,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
 /// smooth surface: 30 degrees.
-const BEND: f64 = 0.866;
+pub const BEND: f64 = 0.866;
 
 /// How far past the end of the surface a node still rests on it, over the last edge's length: the
 /// same tolerance as mortar's. Edges that lie flush slide by their strain.

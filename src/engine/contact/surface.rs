@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use rustc_hash::FxHashMap;
 
+use super::outline::BEND;
 use super::pairing::Vector;
 use super::search::{dot, minus};
 use base::error::InputError;
@@ -132,6 +133,26 @@ impl Surfaces {
             model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
         let [contact, target] = [contact, target].map(|edges| Surface::new(model, edges));
         Ok(Surfaces { nodes, contact, target })
+    }
+
+    /// Returns the nodes of the edges of both surfaces.
+    pub fn edges(&self) -> Vec<[NodeId; 2]> {
+        self.contact.edges.iter().chain(&self.target.edges).map(|edge| edge.nodes).collect()
+    }
+
+    /// Returns the largest height of the arc of a circle over an edge, of the edges that meet others in a bend
+    /// of a smooth surface: an eighth of the edge's length times the angle between their normals, length.
+    pub fn facet_height(&self, shape: &[Vector]) -> f64 {
+        let of_surface = |Surface { edges, at, .. }: &Surface| {
+            let bends = at.values().filter_map(|meeting| {
+                let [a, b] = meeting[..] else { return None };
+                let [a, b] = [a, b].map(|k| edges[k].in_shape(shape));
+                let cosine = dot(a.normal, b.normal);
+                (cosine > BEND).then(|| cosine.min(1.0).acos() * a.length.max(b.length) / 8.0)
+            });
+            bends.fold(0.0, f64::max)
+        };
+        f64::max(of_surface(&self.contact), of_surface(&self.target))
     }
 
     /// Returns the entries of the contact surface, in order.

@@ -80,8 +80,8 @@ pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
         displacement: None,
         stress: None,
     };
-    for seed in 0..RUNS {
-        match solve(&changed(&solution.request, seed, 1.0), &mut |_| ()) {
+    for request in perturbed_requests(&solution.request) {
+        match solve(&request, &mut |_| ()) {
             Ok(other) => found.add(solution, &other),
             Err(why) => found.failures.push(why.to_string()),
         }
@@ -145,6 +145,11 @@ fn ends(solution: &Solution) -> Vec<(f64, &[Status])> {
     let steps = last_under_each_load(&solution.steps).into_iter();
     let own = steps.filter_map(|step| solution.steps[step].unilateral());
     own.map(|own| (own.load, &own.statuses[..])).collect()
+}
+
+/// Returns the requests of the runs with changed inputs.
+pub fn perturbed_requests(request: &Request) -> impl Iterator<Item = Request> {
+    (0..RUNS).map(|seed| changed(request, seed, 1.0))
 }
 
 /// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.

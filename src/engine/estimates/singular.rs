@@ -1,19 +1,9 @@
-//! Points where the stress grows without limit as the mesh is refined: no mesh has its largest
-//! value.
-//!
-//! ```text
-//!   re-entrant corner      end of a held edge       edge of sticking contact
-//!     +------+                                          \        /
-//!     |      |                //+--------                 \______/
-//!     |  +---+                //|   <- fixed to free    ====*====*====
-//!     +--+   <- here          //+--------
-//! ```
+//! Points where the stress grows without limit as the mesh is refined: no mesh has its largest value.
 //!
 //! - About a corner of the outline the stress goes like r^(λ−1); λ < 1 begins at 180° between sides that are
 //!   held alike, at sin²ω = (κ + 1) / 4 between a fixed and a free one, with κ = 3 − 4ν in plane strain and
 //!   (3 − ν) / (1 + ν) in plane stress. (Sides on rollers count as free.)
-//! - Under a force on a single node, of the load or of a restraint, it goes like r^(−1), and displacements like
-//!   log r.
+//! - Under a force on a single node, of the load or of a restraint, it goes like r^(−1).
 //! - Where contact ends and sticks, it goes like r^(−1/2) or nearly so.
 //!
 //! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in
@@ -71,23 +61,17 @@ impl Singular {
 /// causes the first.
 pub fn singular(solution: &Solution) -> Vec<Singular> {
     let model = &*solution.model;
-    let mut found: BTreeMap<NodeId, (Cause, Vec<NodeId>)> = BTreeMap::new();
-    let mut add = |node, cause, nodes| _ = found.entry(node).or_insert((cause, nodes));
-    corners(model).into_iter().for_each(|node| add(node, Cause::Corner, vec![node]));
-    forces(solution).into_iter().for_each(|node| add(node, Cause::Force, vec![node]));
-    ends(solution)
-        .into_iter()
-        .for_each(|[node, master]| add(node, Cause::Sticking, vec![node, master]));
-    let point = |(node, (cause, nodes)): (NodeId, (Cause, Vec<NodeId>))| {
-        let about = nodes.into_iter().flat_map(|node| beside(model, node)).collect();
-        Singular { node, cause, about }
+    let corners = corners(model).into_iter().map(|node| (Cause::Corner, [node, node]));
+    let forces = forces(solution).into_iter().map(|node| (Cause::Force, [node, node]));
+    let ends = ends(solution).into_iter().map(|nodes| (Cause::Sticking, nodes));
+    let mut found: Vec<(Cause, [NodeId; 2])> = corners.chain(forces).chain(ends).collect();
+    found.sort_by_key(|(_, nodes)| nodes[0]);
+    found.dedup_by_key(|(_, nodes)| nodes[0]);
+    let point = |(cause, nodes): (Cause, [NodeId; 2])| {
+        let beside = model.triangles.iter().filter(|t| t.nodes.iter().any(|n| nodes.contains(n)));
+        Singular { node: nodes[0], cause, about: beside.flat_map(|t| t.nodes).collect() }
     };
     found.into_iter().map(point).collect()
-}
-
-/// Returns the nodes that share a triangle with a node, itself among them.
-fn beside(model: &Model, node: NodeId) -> impl Iterator<Item = NodeId> {
-    model.triangles.iter().filter(move |t| t.nodes.contains(&node)).flat_map(|t| t.nodes)
 }
 
 /// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
@@ -106,11 +90,8 @@ fn corners(model: &Model) -> Vec<NodeId> {
         let [before, node] = coming.nodes;
         let after = *going.get(&node)?;
         let [x, y] = model.coordinates(node);
-        let to = |other: NodeId| {
-            let [ax, ay] = model.coordinates(other);
-            [ax - x, ay - y]
-        };
-        let ([ax, ay], [bx, by]) = (to(after.nodes[1]), to(before));
+        let ([ax, ay], [bx, by]) = (model.coordinates(after.nodes[1]), model.coordinates(before));
+        let ([ax, ay], [bx, by]) = ([ax - x, ay - y], [bx - x, by - y]);
         let angle = (ax * by - ay * bx).atan2(ax * bx + ay * by).rem_euclid(TAU);
         let nu = model.triangle(coming.triangle).material.nu;
         let kappa = match model.plane {
@@ -126,6 +107,14 @@ fn corners(model: &Model) -> Vec<NodeId> {
     outline.iter().filter_map(corner).collect()
 }
 
+/// What acts along a degree of freedom.
+#[derive(PartialEq)]
+enum Kind {
+    Held,
+    Loaded,
+    Free,
+}
+
 /// Returns the nodes on which a force of the load, or of a restraint, acts and acts on no node beside them:
 /// forces on all nodes of an edge are a traction.
 fn forces(solution: &Solution) -> Vec<NodeId> {
@@ -136,21 +125,24 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     }
     let force = Stiffness::new(model, |x| x).times(&solution.u);
     let idle = IDLE * force.amax();
+    let kind = |dof: Dof| match (model.is_restrained(dof), applied[dof.index()] != 0.0) {
+        (true, _) => Kind::Held,
+        (false, true) => Kind::Loaded,
+        (false, false) => Kind::Free,
+    };
     let mut together = vec![false; model.dofs()];
     for triangle in &model.triangles {
-        for d in 0..2 {
-            let dofs = triangle.nodes.map(|node| node.dofs()[d]);
-            let held: Vec<Dof> = dofs.into_iter().filter(|dof| model.is_restrained(*dof)).collect();
-            let loaded = dofs.into_iter().filter(|dof| applied[dof.index()] != 0.0);
-            let loaded: Vec<Dof> = loaded.filter(|dof| !model.is_restrained(*dof)).collect();
-            let beside = [held, loaded].into_iter().filter(|dofs| dofs.len() > 1).flatten();
-            beside.for_each(|dof| together[dof.index()] = true);
+        for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| triangle.nodes[k].dofs())) {
+            for (a, b) in a.into_iter().zip(b).filter(|(a, b)| kind(*a) == kind(*b)) {
+                (together[a.index()], together[b.index()]) = (true, true);
+            }
         }
     }
-    let acts_alone = |dof: Dof| match model.is_restrained(dof) {
+    let acts_alone = |dof: Dof| match kind(dof) {
         _ if together[dof.index()] => false,
-        true => force[dof.index()].abs() > idle,
-        false => applied[dof.index()] != 0.0,
+        Kind::Held => force[dof.index()].abs() > idle,
+        Kind::Loaded => true,
+        Kind::Free => false,
     };
     model.node_ids().filter(|node| node.dofs().into_iter().any(acts_alone)).collect()
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::condensed::Condensed;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
 use super::search::StateSearch;
 use crate::contact::{Sense, Status};
@@ -22,10 +23,22 @@ const WORK: usize = 500_000;
 /// friction, or of twelve without.
 const ALL: usize = 4096;
 
+/// The same on the contact nodes alone: those of ten nodes under friction, in about a second.
+const CONDENSED: usize = 1 << 20;
+
+/// Contact states that were tried.
+struct States {
+    number: usize,
+    /// Those among which are all in equilibrium.
+    worth: Vec<Vec<Status>>,
+}
+
 /// A step of the load that was taken.
 pub(super) struct TakenStep {
     /// The part of the path at its end.
     pub(super) to: f64,
+    /// Whether no step was taken before it.
+    pub(super) is_first: bool,
     /// The displacements before it, length.
     pub(super) before: DVector<f64>,
     pub(super) config: Configuration,
@@ -57,17 +70,24 @@ pub(super) fn uniqueness(
     if problem.friction == 0.0 {
         return Uniqueness::Unique;
     }
-    let numbers: Option<Vec<usize>> =
-        taken.iter().map(|step| problem.number_of_states(&step.config)).collect();
-    let all = numbers.is_some_and(|numbers| numbers.iter().sum::<usize>() <= problem.most_states());
-    let steps = if all { taken } else { std::slice::from_ref(last) };
-    let (mut number, mut others) = (0, Vec::new());
-    for step in steps {
-        let states = if all { problem.every(&step.config) } else { problem.neighbours(step) };
-        number += states.len();
-        others.extend(problem.others(step, &states));
-    }
-    let last_only = steps[0].before.amax() > 0.0;
+    let every = |steps: &[TakenStep]| -> Option<Vec<States>> {
+        let of_step = |step: &TakenStep| {
+            let setting = setting(problem, step);
+            let search = problem.search(&step.config, &setting);
+            search.every(Condensed::new(&search).as_ref(), steps.len())
+        };
+        steps.iter().map(of_step).collect()
+    };
+    let last_alone = std::slice::from_ref(last);
+    let (steps, all, states) = match (every(taken), every(last_alone)) {
+        (Some(states), _) => (taken, true, states),
+        (None, Some(states)) => (last_alone, true, states),
+        (None, None) => (last_alone, false, vec![problem.neighbours(last)]),
+    };
+    let number = states.iter().map(|states| states.number).sum();
+    let others = steps.iter().zip(&states);
+    let others = others.flat_map(|(step, states)| problem.others(step, &states.worth)).collect();
+    let last_only = !steps[0].is_first;
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 
@@ -115,20 +135,34 @@ fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> Othe
 }
 
 impl StateSearch<'_> {
-    /// Looks for statuses in equilibrium among all that there are; None where there is none, and where
-    /// there are too many to be tried.
-    pub(super) fn enumerated(&self) -> Option<Vec<Status>> {
+    /// Looks for statuses in equilibrium on the contact nodes alone: by pivots, then among all that there are;
+    /// None where there are none, and where there are too many to be tried.
+    pub(super) fn condensed(&self) -> Option<Vec<Status>> {
+        let holds = |statuses: &Vec<Status>| self.try_statuses(statuses).is_some();
+        let condensed = Condensed::new(self);
+        let by_pivots = condensed.as_ref().and_then(Condensed::by_pivots);
+        by_pivots
+            .filter(holds)
+            .or_else(|| self.every(condensed.as_ref(), 1)?.worth.into_iter().find(holds))
+    }
+
+    /// Tries the contact states of one of so many steps; None where they are too many.
+    fn every(&self, condensed: Option<&Condensed>, steps: usize) -> Option<States> {
         let StateSearch { problem, config, .. } = self;
-        let all = problem.can_enumerate(config, 1).then(|| problem.every(config))?;
-        all.into_iter().find(|statuses| self.try_statuses(statuses).is_some())
+        let number = problem.number_of_states(config).filter(|n| *n <= CONDENSED / steps)?;
+        if let Some(condensed) = condensed {
+            return Some(States { number, worth: condensed.equilibria() });
+        }
+        let most = ALL.min(problem.most_states() / steps);
+        (number <= most).then(|| States { number, worth: problem.every(config) })
     }
 }
 
 impl Problem<'_> {
-    /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, can be
+    /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, may be
     /// tried.
     pub(super) fn can_enumerate(&self, config: &Configuration, steps: usize) -> bool {
-        self.number_of_states(config).is_some_and(|number| number * steps <= self.most_states())
+        self.number_of_states(config).is_some_and(|number| number <= CONDENSED / steps)
     }
 
     /// Returns the number of contact states that are tried at most: fewer of a large model.
@@ -136,11 +170,10 @@ impl Problem<'_> {
         1 + WORK / self.model.dofs()
     }
 
-    /// Returns the number of all contact states in a place; None of more than [`ALL`].
+    /// Returns the number of all contact states in a place; None of more than fit an integer.
     fn number_of_states(&self, config: &Configuration) -> Option<usize> {
         let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
-        let number = choices.try_fold(1_usize, |n, choices| n.checked_mul(choices));
-        number.filter(|n| *n <= ALL)
+        choices.try_fold(1_usize, usize::checked_mul)
     }
 
     /// Returns every contact state in a place.
@@ -175,7 +208,7 @@ impl Problem<'_> {
 
     /// Returns the states that differ from that of a step in one entry, of those in contact or beside one, as
     /// many as are tried.
-    fn neighbours(&self, step: &TakenStep) -> Vec<Vec<Status>> {
+    fn neighbours(&self, step: &TakenStep) -> States {
         let TakenStep { config, statuses, .. } = step;
         let closed = |i: usize| statuses.get(i).is_some_and(|status| status.is_closed());
         let near = |i: &usize| closed(*i) || closed(i + 1) || *i > 0 && closed(i - 1);
@@ -188,11 +221,13 @@ impl Problem<'_> {
                 state
             })
         };
-        (0..statuses.len()).filter(near).flat_map(with).take(self.most_states()).collect()
+        let near = (0..statuses.len()).filter(near).flat_map(with);
+        let worth: Vec<_> = near.take(self.most_states()).collect();
+        States { number: worth.len(), worth }
     }
 
     /// Returns the statuses that an entry can have.
-    fn choices(&self, config: &Configuration, i: usize) -> Vec<Status> {
+    pub(super) fn choices(&self, config: &Configuration, i: usize) -> Vec<Status> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
         match (&config.pairings[i], self.closing(config, i)) {
             (None, _) => vec![Status::Open],

@@ -24,8 +24,8 @@
 //!    without friction that ends for every problem with one solution (K. G. Murty's least-index rule,
 //!    Opsearch 11 (1974)). Where they do not restrain the bodies, the node that the load's motion brings to
 //!    the target first closes; where no node comes nearer, those with the least gaps close.
-//! 2. A fixed point on the bounds of friction (`bounds`), each step of which is a convex problem.
-//! 3. All statuses that there are (`equilibria`), where they are few.
+//! 2. Complementary pivots on the contact nodes alone (`condensed`, `lemke`).
+//! 3. All statuses that there are, where they are few (`condensed`, `equilibria`).
 //! 4. Under friction, all of this for the step of the load in two halves (`path`).
 //! 5. The first three again with the bodies on springs, which vanish as they come to rest (`springs`).
 //!
@@ -50,10 +50,11 @@
 //! Source: S. Hüeber, B. I. Wohlmuth, Comput. Methods Appl. Mech. Engrg. 194 (2005) 3147-3166; S.
 //! Hüeber, G. Stadler, B. I. Wohlmuth, SIAM J. Sci. Comput. 30 (2008) 572-596 (friction).
 
-mod bounds;
+mod condensed;
 mod equilibria;
 mod forces;
 mod imposed;
+mod lemke;
 mod nonnegative;
 mod path;
 mod problem;

@@ -41,12 +41,13 @@ impl Point {
 }
 
 /// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one.
-/// Under friction nodes that overlap at the start close in a step of their own, before any load: they would
-/// slip with its first part otherwise.
+/// Under friction nodes that overlap at the start come to touch before any load, the bodies as rigid ones where
+/// nothing presses them together, else in a step of its own: they would slip with its first part otherwise.
 ///
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
+    problem.turns_nowhere()?;
     let with_friction = problem.friction > 0.0;
     // Without friction only the whole load counts.
     let stages = if with_friction { problem.model.stages.len() } else { 1 };
@@ -58,12 +59,14 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         let config = problem.configuration(&point.u);
         run.keeps_all = problem.can_enumerate(&config, total);
         if problem.overlaps(&config) {
-            match run.advance(&point, 0.0, 0) {
-                Ok(closed) => (run.start, point) = (Start::Closed, Point::after(0.0, closed)),
-                Err(_) => {
-                    run.steps.clear();
-                    run.start = Start::Overlapping;
-                }
+            run.start = Start::Closed;
+            if let Some(u) = problem.released()? {
+                (run.start, point.u) = (Start::Released, u);
+            } else if let Ok(closed) = run.advance(&point, 0.0, 0) {
+                point = Point::after(0.0, closed);
+            } else {
+                run.steps.clear();
+                run.start = Start::Overlapping;
             }
         } else if !problem.is_held_initially(&config) {
             run.start = Start::Loose;
@@ -218,6 +221,7 @@ impl<'a> Run<'a> {
         let Equilibrium { config, last, .. } = found;
         self.taken.push(TakenStep {
             to,
+            is_first: from.statuses.is_none(),
             before: from.u.clone(),
             config: config.clone(),
             statuses: last.statuses.clone(),
@@ -274,6 +278,7 @@ impl<'a> Run<'a> {
         let uniqueness = uniqueness(problem, &end, &taken);
         let nearest = nearest_decision(problem, &end, &taken);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
+        let facets = problem.coarse_facets();
         let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
         Solution {
             request: problem.request.clone(),
@@ -290,6 +295,7 @@ impl<'a> Run<'a> {
                 nearest,
                 unseen,
                 inside,
+                facets,
                 shape_change,
                 springs,
             }),

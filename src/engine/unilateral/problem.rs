@@ -34,6 +34,9 @@ pub(super) const CONE: f64 = 1e-12;
 /// where curved surfaces lie on each other, their nodes stand inside by the sagitta of an edge.
 const UNSEEN: f64 = 1e-3;
 
+/// The height of an arc over its edge, over an initial overlap or gap, beyond which the mesh is said to make it.
+const COARSE: f64 = 0.05;
+
 /// The scene, its stiffness, and its surfaces.
 pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
@@ -286,6 +289,17 @@ impl<'a> Problem<'a> {
     /// Returns the gap of each entry before any load, length.
     pub(super) fn initial_gaps(&self, config: &Configuration) -> Vec<Option<f64>> {
         self.gaps(config, &DVector::zeros(self.model.dofs()))
+    }
+
+    /// Returns the height of the arcs over the edges of curved surfaces, and the deepest overlap, or the least
+    /// gap, before any load, length, where the one is more than [`COARSE`] of the other; None where the surfaces
+    /// touch.
+    pub(super) fn coarse_facets(&self) -> Option<[f64; 2]> {
+        let height = self.surfaces.facet_height(&self.model.nodes);
+        let start = self.configuration(&DVector::zeros(self.model.dofs()));
+        let gaps = self.initial_gaps(&start).into_iter().flatten();
+        let least = gaps.reduce(f64::min)?.abs();
+        (self.closed < least && height > COARSE * least).then_some([height, least])
     }
 
     /// Returns the target node that lies deepest inside the contact surface, under node to segment, and the

@@ -15,6 +15,23 @@ const FREE: f64 = 1e-12;
 /// The part of the load below which what nothing opposes is rounding.
 const OPPOSED: f64 = 1e-9;
 
+/// The gap, over the deepest overlap, beyond which bodies are apart.
+const ROOM: f64 = 1e-3;
+
+/// The load, over the one that moves bodies by their deepest overlap on springs, and the motion over that overlap
+/// beyond which nothing holds them.
+const VANISHING: f64 = 1e-6;
+const FAR: f64 = 1e4;
+
+/// The number of edges that make an arc, and half an edge over the radius up to which it is a facet of one: of
+/// a circle of twelve edges, and no body's corner.
+const ARC: usize = 3;
+const FACET: f64 = 0.28;
+
+/// The part of a motion along the normals of a surface up to which it slides along itself: what a mesh of a
+/// circle misses.
+const ALONG: f64 = 1e-4;
+
 /// The number of contact nodes up to which a motion is looked for that no contact opposes.
 const MOST: usize = 150;
 
@@ -56,23 +73,18 @@ pub(super) fn escape(
 ) -> Option<Dof> {
     let motions = RigidMotions::new(model, shape);
     let gaps: Vec<&Pairing> = pairings.iter().flatten().collect();
-    let eigen = motions.restrained().symmetric_eigen();
-    let limit = FREE * eigen.eigenvalues.amax();
-    let free: Vec<usize> =
-        (0..motions.count()).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
-    if free.is_empty() || gaps.len() > MOST {
+    let basis = free_part(&motions.restrained());
+    if basis.ncols() == 0 || gaps.len() > MOST {
         return None;
     }
-    let basis = eigen.eigenvectors.select_columns(&free);
-    let work = |dof: Dof| motions.along(dof) * load[dof.index()];
-    let f = basis.tr_mul(&model.all_dofs().map(work).sum::<DVector<f64>>());
+    let f = basis.tr_mul(&motions.work_of(load));
     let forces = gaps.iter().flat_map(|pairing| {
         let of_force = |force| motions.relative(pairing.node, &pairing.masters, force);
         extreme_forces(pairing, friction(pairing)).into_iter().map(of_force).collect::<Vec<_>>()
     });
     let columns: Vec<DVector<f64>> = forces.map(|force| basis.tr_mul(&force)).collect();
     let forces = if columns.is_empty() {
-        DMatrix::zeros(free.len(), 0)
+        DMatrix::zeros(basis.ncols(), 0)
     } else {
         DMatrix::from_columns(&columns)
     };
@@ -84,6 +96,138 @@ pub(super) fn escape(
     let motion = basis * left;
     let size = |dof: &Dof| motions.along(*dof).dot(&motion).abs();
     model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// Where rigid bodies that overlap come to touch, by the displacements of each degree of freedom, length.
+pub(super) enum Release {
+    /// In one place: in that to which a vanishing load brings them without friction, or by their only motion.
+    There(DVector<f64>),
+    /// In no place more than in another one.
+    Anywhere(DVector<f64>),
+}
+
+/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, where they can
+/// come apart; None where they cannot, and where nothing is known. `pairings` have their gaps, length.
+///
+/// ```text
+///   the least ½ ε dᵀ d − fᵀ d with A d + g ≥ 0
+///     ε d = f + Aᵀ λ,   the least ½ λᵀ A Aᵀ λ + (A f + ε g)ᵀ λ  over λ ≥ 0
+/// ```
+///
+/// f is the load in the free motions, of unit length. Without it d is the least motion.
+///
+/// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4; O. L. Mangasarian,
+/// R. R. Meyer, SIAM J. Control Optim. 17 (1979) 745-752 (a small ε leaves the solution exact).
+pub(super) fn release(
+    (model, shape): (&Model, &[[f64; 2]]),
+    pairings: &[(&Pairing, f64)],
+    load: &DVector<f64>,
+) -> Option<Release> {
+    let motions = RigidMotions::new(model, shape);
+    let basis = free_part(&motions.restrained());
+    let deepest = pairings.iter().map(|(_, gap)| -gap).fold(0.0, f64::max);
+    let opening = |p: &Pairing| basis.tr_mul(&motions.relative(p.node, &p.masters, p.normal));
+    let mut near = pairings.to_vec();
+    near.sort_by(|a, b| a.1.total_cmp(&b.1));
+    near.truncate(MOST);
+    let opens = DMatrix::from_columns(&near.iter().map(|(p, _)| opening(p)).collect::<Vec<_>>());
+    let least_under = |f: &DVector<f64>, weight: f64, room: f64| {
+        let gaps = near.iter().map(|(_, gap)| weight * (gap - room));
+        let right = opens.tr_mul(f) + DVector::from_iterator(near.len(), gaps);
+        let forces = least(&opens.tr_mul(&opens), &right, DVector::zeros(near.len()))?;
+        Some((f + &opens * forces) / weight)
+    };
+    let none = DVector::zeros(basis.ncols());
+    let apart = least_under(&none, 1.0, ROOM * deepest)?;
+    if !pairings.iter().all(|(p, gap)| gap + opening(p).dot(&apart) > 0.0) {
+        return None;
+    }
+    let in_all = |motion: DVector<f64>| {
+        let motion = &basis * motion;
+        let u = model.all_dofs().map(|dof| motions.along(dof).dot(&motion));
+        DVector::from_iterator(model.dofs(), u)
+    };
+    let f = basis.tr_mul(&motions.work_of(load));
+    let under_load = (f.norm() > OPPOSED * load.amax())
+        .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
+        .flatten()
+        .filter(|motion| motion.norm() <= FAR * deepest);
+    Some(match under_load {
+        Some(motion) => Release::There(in_all(motion)),
+        None if basis.ncols() == 1 => Release::There(in_all(least_under(&none, 1.0, 0.0)?)),
+        None => Release::Anywhere(in_all(apart)),
+    })
+}
+
+/// Returns a body that can turn as a rigid one while its part of some edges, an arc of a circle, slides along
+/// itself, and the place about which it turns; None where there is none.
+pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64; 2])> {
+    let motions = RigidMotions::new(model, &model.nodes);
+    (0..model.bodies.len()).find_map(|b| {
+        let of_body = |edge: &&[NodeId; 2]| motions.body[edge[0].index()] == Some(b);
+        let arc: Vec<[NodeId; 2]> = edges.iter().filter(of_body).copied().collect();
+        let own = |rows: DMatrix<f64>| rows.view((3 * b, 3 * b), (3, 3)).into_owned();
+        let basis = free_part(&own(motions.restrained()));
+        if arc.len() < ARC || basis.ncols() == 0 {
+            return None;
+        }
+        // The motion of which the least part is along the normals in the middle of the edges.
+        let (mut across, mut all) = (DMatrix::zeros(3, 3), DMatrix::zeros(3, 3));
+        for [start, end] in &arc {
+            let middle = |d| own_part(&motions, b, [*start, *end], d);
+            let normal = middle(normal_of(model, [*start, *end]));
+            across += &normal * normal.transpose();
+            for direction in [[1.0, 0.0], [0.0, 1.0]] {
+                let row = middle(direction);
+                all += &row * row.transpose();
+            }
+        }
+        let [across, all] = [across, all].map(|gram| basis.tr_mul(&(gram * &basis)));
+        let root = all.cholesky()?.l().try_inverse()?;
+        let eigen = (&root * across * root.transpose()).symmetric_eigen();
+        let (k, part) = eigen.eigenvalues.argmin();
+        let motion = basis * root.tr_mul(&eigen.eigenvectors.column(k));
+        // A flat surface slides along itself too, about a point that is far away.
+        let turning = motion[2] / motions.size;
+        if turning.abs() * motions.size <= ALONG * motion.norm() {
+            return None;
+        }
+        let [mx, my] = motions.middle[b];
+        let centre = [mx - motion[1] / turning, my + motion[0] / turning];
+        // Without the rounding of a 0.
+        let centre = centre.map(|x| if x.abs() > ALONG * ALONG * motions.size { x } else { 0.0 });
+        let far = |node: NodeId| {
+            let [x, y] = model.coordinates(node);
+            (x - centre[0]).hypot(y - centre[1])
+        };
+        let half = |[a, b]: &[NodeId; 2]| {
+            let ([ax, ay], [bx, by]) = (model.coordinates(*a), model.coordinates(*b));
+            (bx - ax).hypot(by - ay) / 2.0
+        };
+        let is_round = arc.iter().all(|edge| half(edge) <= FACET * far(edge[0]));
+        (part <= ALONG * ALONG && is_round).then_some((b, centre))
+    })
+}
+
+/// Returns the normal of an edge.
+fn normal_of(model: &Model, edge: [NodeId; 2]) -> [f64; 2] {
+    let [[ax, ay], [bx, by]] = edge.map(|node| model.coordinates(node));
+    let length = (bx - ax).hypot(by - ay);
+    [(by - ay) / length, (ax - bx) / length]
+}
+
+/// Returns the component along a direction of the middle of an edge of a body in each of its rigid motions.
+fn own_part(m: &RigidMotions, body: usize, edge: [NodeId; 2], to: [f64; 2]) -> DVector<f64> {
+    let sum = m.motion(edge[0], to) + m.motion(edge[1], to);
+    sum.rows(3 * body, 3) / 2.0
+}
+
+/// Returns a basis of the motions that a Gram matrix leaves free.
+fn free_part(gram: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = gram.clone().symmetric_eigen();
+    let limit = FREE * eigen.eigenvalues.amax();
+    let free: Vec<usize> = (0..gram.nrows()).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
+    eigen.eigenvectors.select_columns(&free)
 }
 
 /// Returns the directions of the forces on a node whose sums are all forces that contact transmits
@@ -141,6 +285,11 @@ impl<'a> RigidMotions<'a> {
             gram += &row * row.transpose();
         }
         gram
+    }
+
+    /// Returns the work of a load in each rigid motion.
+    fn work_of(&self, load: &DVector<f64>) -> DVector<f64> {
+        self.model.all_dofs().map(|dof| self.along(dof) * load[dof.index()]).sum()
     }
 
     /// Returns a degree of freedom in each rigid motion.

@@ -70,6 +70,7 @@ impl Problem<'_> {
         let mut start = setting.statuses.map(<[Status]>::to_vec);
         let mut before: Option<(StateSolution, f64)> = None;
         let mut history = History::default();
+        let mut last_place = None;
         for _ in 0..SHAPES {
             history.move_on();
             let config = self
@@ -91,10 +92,15 @@ impl Problem<'_> {
                 return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
             }
             start = Some(last.statuses);
+            last_place = Some(config);
             before = Some((last.solution, shape_change));
         }
-        let strained = before.map_or(String::new(), |(solution, _)| self.strained(&solution.u));
-        let what = format!("the geometry updates did not converge in {SHAPES} times{strained}");
+        let (strained, torn) = before.map_or_else(Default::default, |(solution, _)| {
+            let next = self.configuration(&solution.u);
+            (self.strained(&solution.u), last_place.map_or(String::new(), |c| self.torn(&c, &next)))
+        });
+        let what =
+            format!("the geometry updates did not converge in {SHAPES} times{torn}{strained}");
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
@@ -157,7 +163,7 @@ impl Problem<'_> {
 
 impl StateSearch<'_> {
     /// Finds the statuses that agree with their own forces, gaps and slips in one place: by the active set,
-    /// by a fixed point on the bounds of friction, or among all statuses that there are.
+    /// by pivots on the contact nodes alone, or among all statuses that there are.
     ///
     /// # Errors
     /// Not even the bodies as rigid ones are in equilibrium, or no statuses were found.
@@ -177,9 +183,7 @@ impl StateSearch<'_> {
         {
             return Err(problem.escapes(dof).into());
         }
-        let Some(start) = self.by_bounds().or_else(|| self.enumerated()) else {
-            return Err(why.into());
-        };
+        let Some(start) = self.condensed() else { return Err(why.into()) };
         history.move_on();
         self.active_set(start, history, watch)
     }

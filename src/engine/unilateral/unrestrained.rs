@@ -4,19 +4,24 @@ use nalgebra::DVector;
 
 use super::path::part_of_load;
 use super::problem::{Configuration, Problem};
-use super::rigid;
+use super::rigid::{self, Release};
 use super::search::StateSearch;
-use crate::contact::{Pairing, Status};
+use crate::contact::{BEND, Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, NoEquilibrium};
 use crate::range::{beyond_range, inside_out};
 use base::error::InputError;
 use base::plain::six_digits;
 use numbers::solve::SparseCholesky;
+use problem::element::Plane;
 use problem::model::{Dof, NodeId};
+use problem::modelling::Coupling;
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
+
+/// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
+const RELEASES: usize = 20;
 
 impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
@@ -120,6 +125,91 @@ impl Problem<'_> {
         Some(NoEquilibrium { cause: self.cause(), what })
     }
 
+    /// Returns the displacements with which bodies that overlap, and that contact alone keeps in place, come to
+    /// touch as rigid ones, before any load; None where restraints or other contacts press them together.
+    ///
+    /// # Errors
+    /// They come apart in several ways, the load presses them together in none, and friction counts from there.
+    pub(super) fn released(&self) -> Result<Option<DVector<f64>>, NoEquilibrium> {
+        let mut u = DVector::zeros(self.model.dofs());
+        for _ in 0..RELEASES {
+            let config = self.configuration(&u);
+            let gaps = self.gaps(&config, &u);
+            let facing = config.pairings.iter().zip(gaps);
+            let facing: Vec<_> = facing.filter_map(|(p, gap)| p.as_ref().zip(gap)).collect();
+            if facing.iter().all(|(_, gap)| *gap >= -self.closed) {
+                return Ok(Some(u));
+            }
+            let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
+            match rigid::release((self.model, shape), &facing, &self.load(1.0)) {
+                None => return Ok(None),
+                Some(Release::There(more)) => u += more,
+                Some(Release::Anywhere(motion)) => return Err(self.starts_anywhere(&motion)),
+            }
+        }
+        Ok(None)
+    }
+
+    fn starts_anywhere(&self, motion: &DVector<f64>) -> NoEquilibrium {
+        let what = format!(
+            "the start is not determined: before any load bodies overlap that contact alone holds, as at {}; \
+             they come apart in many ways, the load without friction holds them in none, and friction counts \
+             from there; restrain the body until one motion at most is free, or move it until it touches",
+            self.model
+                .all_dofs()
+                .nth(motion.iamax())
+                .map_or(String::new(), |dof| self.named(dof.node()))
+        );
+        NoEquilibrium { cause: Cause::Several, what }
+    }
+
+    /// Checks that without friction no round body can turn in its place, whatever the load.
+    ///
+    /// # Errors
+    /// Names the body, and the place about which it turns.
+    pub(super) fn turns_nowhere(&self) -> Result<(), InputError> {
+        if self.friction > 0.0 {
+            return Ok(());
+        }
+        let Some((body, [x, y])) = rigid::turns(self.model, &self.surfaces.edges()) else {
+            return Ok(());
+        };
+        let what = format!(
+            "body {:?} can turn about ({}, {}): its contact surface is round and slides along itself, \
+             without friction",
+            self.model.bodies[body].name,
+            six_digits(x),
+            six_digits(y)
+        );
+        let fix = "restrain that motion, as at a second node, or let the surfaces rub or stick \
+                   (\"friction\": \"stick\")";
+        Err(InputError::new("restraints, contact.friction", what, fix))
+    }
+
+    /// Says which node faces edges at a corner in turn, of the normals in two shapes, and what helps; no text
+    /// where none does.
+    pub(super) fn torn(&self, before: &Configuration, after: &Configuration) -> String {
+        let pairs = before.pairings.iter().zip(&*after.pairings);
+        let turn = |(a, b): (&Option<Pairing>, &Option<Pairing>)| {
+            let (a, b) = (a.as_ref()?, b.as_ref()?);
+            Some((a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1], a.node))
+        };
+        let sharpest = pairs.filter_map(turn).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((cosine, node)) = sharpest.filter(|(cosine, _)| *cosine < BEND) else {
+            return String::new();
+        };
+        let remedy = match self.request.contact.coupling {
+            Coupling::Nts => "; coupling mortar takes both, or geometry initial keeps one",
+            Coupling::Mortar => "; geometry initial keeps one of them",
+        };
+        format!(
+            "; {} faces two sides of a corner in turn, whose normals are {:.0} degrees apart, and has one \
+             normal at a time{remedy}",
+            self.named(node),
+            cosine.clamp(-1.0, 1.0).acos().to_degrees()
+        )
+    }
+
     /// Says that displacements strain the bodies beyond small strains; no text where they do not.
     pub(super) fn strained(&self, u: &DVector<f64>) -> String {
         let words = beyond_range(self.model, &self.stiffness.states(u), u);
@@ -151,16 +241,24 @@ impl Problem<'_> {
             let apart = most / least;
             let ratio =
                 if apart.is_finite() { format!("{apart:.0e}") } else { "more than 1e308".into() };
+            let ratios = self.model.triangles.iter().map(|triangle| triangle.material.nu);
+            let nu = ratios.fold(-1.0, f64::max);
+            let (place, cause, fix) =
+                if self.model.plane == Plane::Strain && 1.0 / (1.0 - 2.0 * nu) > FAR_APART {
+                    ("materials", format!("nu = {nu} is too near 0.5"), "choose a smaller nu")
+                } else {
+                    let fix = "choose moduli that are closer, or restrain the stiff body itself";
+                    let (place, fix) = match apart > FAR_APART {
+                        true => ("materials", fix),
+                        false => ("mesh, materials", "choose other units"),
+                    };
+                    (place, format!("the moduli are {ratio} apart"), fix)
+                };
             let what = format!(
                 "restraints and contact hold the bodies, but in f64 the matrix is singular at node \
-                 {node}, direction {direction}; the moduli are {ratio} apart"
+                 {node}, direction {direction}; {cause}"
             );
-            let fix = "choose moduli that are closer, or restrain the stiff body itself";
-            return if apart > FAR_APART {
-                InputError::new("materials", what, fix)
-            } else {
-                InputError::new("mesh, materials", what, "choose other units")
-            };
+            return InputError::new(place, what, fix);
         }
         let what = format!(
             "{} can move in {direction} with every contact node in contact",

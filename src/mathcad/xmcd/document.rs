@@ -49,6 +49,9 @@ pub enum Content {
     /// `target := value`: the name, the target if it has subscripts, and the lines of the value, which
     /// may be a program.
     Definition { name: String, entry: Option<String>, lines: Vec<String>, global: bool },
+    /// `(a   b) := value`: the names row by row, how many columns they stand in, and the lines of the
+    /// value.
+    Names { names: Vec<String>, cols: usize, lines: Vec<String>, global: bool },
     /// `name :=` an array of numbers.
     Table { name: String, value: Value },
     /// `name := from, second .. to`.
@@ -70,14 +73,37 @@ pub enum Saved {
     Unsupported(String),
 }
 
+/// Refuses a file of another Mathcad by its first bytes: Prime's package, or what Mathcad 11 and older
+/// ones saved.
+///
+/// # Errors
+/// It is one of them.
+pub fn check_kind(bytes: &[u8], place: &str) -> Result<()> {
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Err(prime(place));
+    }
+    if bytes.starts_with(b".MCAD") {
+        let what = "this is a worksheet of Mathcad 11 or an older one (.mcd)";
+        let fix = "open it in Mathcad 12 to 15, and save it as .xmcd";
+        return Err(InputError::new(place, what, fix));
+    }
+    Ok(())
+}
+
+fn prime(place: &str) -> InputError {
+    let what = "this is a worksheet of Mathcad Prime (.mcdx)";
+    let fix = "Prime saves no .xmcd: give the .xmcd file from which it was converted, or write it anew in \
+               Mathcad 15";
+    InputError::new(place, what, fix)
+}
+
 /// Reads a worksheet.
 ///
 /// # Errors
 /// The text is no XML, or no worksheet of Mathcad 13 to 15.
 pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     let wrong = |what: String| {
-        let fix = "give an .xmcd or .xmcdz file that Mathcad 13, 14 or 15 saved (a Prime worksheet saved \
-                   anew)";
+        let fix = "give an .xmcd or .xmcdz file that Mathcad 13, 14 or 15 saved";
         InputError::new(place, what, fix)
     };
     if text.len() > LARGEST {
@@ -93,6 +119,10 @@ pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     let root = xml.root_element();
     if root.tag_name().name() != "worksheet" {
         return Err(wrong(format!("the file is no worksheet but <{}>", root.tag_name().name())));
+    }
+    // Its XML is that of the package; up to Mathcad 15 it is worksheet30 or less.
+    if root.tag_name().namespace().is_some_and(|name| name.contains("worksheet5")) {
+        return Err(prime(place));
     }
     let mut regions = Vec::new();
     if let Some(list) = child(root, "regions") {
@@ -155,10 +185,13 @@ fn region(node: Node<'_, '_>) -> Region {
         let construct = ["plot", "component", "picture", "ole"];
         let other = construct.into_iter().find_map(|name| child(node, name));
         let content = match other.map(|other| (other.tag_name().name(), other)) {
-            Some(("plot", _)) => unsupported(vec![], "a plot"),
             Some((name, other)) => {
                 let outputs = child(other, "outputs").map(Math::new);
-                unsupported(outputs.map(|all| targets(all.parts())).unwrap_or_default(), name)
+                let words = match name {
+                    "ole" => "an embedded object".into(),
+                    name => format!("a {name}"),
+                };
+                unsupported(outputs.map(|all| targets(all.parts())).unwrap_or_default(), &words)
             }
             None => Content::Silent,
         };
@@ -264,6 +297,15 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
             }
             Ok(Content::Definition { name, entry: None, lines: lines(0)?, global })
         }
+        "apply" if left.part(0)?.tag() == "id" => {
+            let function = left.part(0)?.text();
+            Err(Unsupported(
+                match function.starts_with("WRITE") || function.starts_with("APPEND") {
+                    true => format!("a file that is written ({function})"),
+                    false => format!("a definition of a call ({function})"),
+                },
+            ))
+        }
         "apply" => {
             if right.tag() == "program" {
                 return Err(Unsupported("a program that defines entries of an array".into()));
@@ -272,7 +314,21 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
             let entry = Some(read::target(left)?);
             Ok(Content::Definition { name, entry, lines: lines(0)?, global })
         }
-        "matrix" => Err(Unsupported("a definition of several names at once".into())),
+        "matrix" if left.parts().all(|part| part.tag() == "id") => {
+            let size = |name| left.attribute(name).and_then(|n| n.parse::<usize>().ok());
+            let names = left.parts().map(read::name).collect::<Result<Vec<_>, _>>()?;
+            match (size("rows"), size("cols")) {
+                (Some(rows), Some(cols))
+                    if rows > 0 && rows.checked_mul(cols) == Some(names.len()) =>
+                {
+                    let places = (0..rows).flat_map(|i| (0..cols).map(move |j| j * rows + i));
+                    let names = places.map(|k| names[k].clone()).collect();
+                    Ok(Content::Names { names, cols, lines: lines(0)?, global })
+                }
+                _ => Err(Unsupported("a matrix that is not full".into())),
+            }
+        }
+        "matrix" => Err(Unsupported("a definition of several entries at once".into())),
         _ => Err(read::unsupported(left)),
     }
 }

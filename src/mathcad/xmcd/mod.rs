@@ -18,13 +18,15 @@ pub struct Unsupported(pub String);
 
 /// The operators of one operand or two that are functions in the text: the operator's element, the
 /// function, and the number of operands.
-const FUNCTIONS: [(&str, &str, usize); 6] = [
+const FUNCTIONS: [(&str, &str, usize); 8] = [
     ("ml:sqrt", "√", 1),
     ("ml:nthRoot", "√", 2),
     ("ml:log", "log", 2),
     ("ml:vectorSum", "∑", 1),
     ("ml:determinant", "determinant", 1),
     ("ml:factorial", "factorial", 1),
+    ("ml:crossProduct", "×", 2),
+    ("ml:vectorize", "→", 1),
 ];
 
 /// Returns the name of an element without that of its namespace.

@@ -1,12 +1,15 @@
 //! From XMCD to the text notation.
 
+use std::cmp::Ordering;
+
 use roxmltree::Node;
 
 use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use super::{FUNCTIONS, Unsupported, tag};
 use crate::lexer::{keyword, name_length};
+use crate::listing::ON_ERROR;
 use crate::syntax::{Level, OPERATORS, Operation, Operator, Spelling};
-use crate::unsupported::is_unit;
+use crate::unsupported::{is_function, is_unit};
 
 type Read<T> = Result<T, Unsupported>;
 
@@ -59,6 +62,11 @@ impl<'a, 'i> Math<'a, 'i> {
     /// Returns the operator of an `apply`, if it is one of [`OPERATORS`].
     fn spelling(self) -> Option<&'static Spelling> {
         OPERATORS.iter().find(|row| tag(row.element) == self.operator())
+    }
+
+    /// Returns whether this is a column of a name.
+    fn is_column(self) -> bool {
+        self.operator() == "matcol" && self.parts().nth(1).is_some_and(|x| x.tag() == "id")
     }
 
     /// Returns the element of the operator of an `apply`.
@@ -190,9 +198,9 @@ fn head(node: Math<'_, '_>) -> Read<String> {
 pub fn target(node: Math<'_, '_>) -> Read<String> {
     let what = match node.tag() {
         "id" => return name(node),
-        "matrix" => "several names at once",
-        _ if node.is_entry() => return expression(node),
-        _ if node.operator() == "matcol" => "a column",
+        "matrix" if node.parts().all(|part| part.tag() == "id") => return matrix(node),
+        "matrix" => "several entries at once",
+        _ if node.is_entry() || node.is_column() => return expression(node),
         _ => "an entry of an expression",
     };
     Err(Unsupported(format!("an assignment to {what}")))
@@ -223,6 +231,26 @@ pub fn range(node: Math<'_, '_>) -> Read<String> {
     Ok(format!("{start} .. {end}"))
 }
 
+/// Writes the lines of a program on one line: blocks in braces, and `;` between statements.
+fn inline(lines: &[String]) -> String {
+    let (mut text, mut level) = (String::from("{"), 0);
+    for (k, line) in lines.iter().enumerate() {
+        let words = line.trim_start_matches(' ');
+        let own = (line.len() - words.len()) / 2;
+        match own.cmp(&level) {
+            Ordering::Greater => text += " {",
+            Ordering::Less | Ordering::Equal => text += &"}".repeat(level - own),
+        }
+        // The second block of `try` follows the first.
+        if words != ON_ERROR {
+            text += if k > 0 && own <= level { "; " } else { "" };
+            text += words;
+        }
+        level = own;
+    }
+    text + &"}".repeat(level + 1)
+}
+
 /// Returns an expression of the file in the text notation.
 ///
 /// # Errors
@@ -249,6 +277,7 @@ fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         "id" => name(node)?,
         "parens" => format!("({})", text(node.part(0)?, subscript)?),
         "matrix" => matrix(node)?,
+        "program" => inline(&lines(node, 0)?),
         "apply" => apply(node, subscript)?,
         _ => return Err(unsupported(node)),
     })
@@ -273,6 +302,9 @@ fn matrix(node: Math<'_, '_>) -> Read<String> {
     }
     let plain = entries.iter().all(|entry| entry.level() == Level::Atom);
     let between = if plain { " " } else { "   " };
+    if entries.len() == 1 {
+        return Ok(format!("({};)", expression(entries[0])?));
+    }
     let row = |i: usize| -> Read<String> {
         let row = (0..cols).map(|j| expression(entries[j * rows + i]));
         Ok(row.collect::<Read<Vec<_>>>()?.join(between))
@@ -323,11 +355,17 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
             let array = operand(x, Level::Behind, subscript)?;
             Ok(format!("{array}⟨{}⟩", text(y()?, true)?))
         }
-        "summation" | "product" if x.tag() == "lambda" && node.parts().count() == 3 => {
+        "summation" | "product" if x.tag() == "lambda" => {
             let sign = if operator.tag() == "product" { "∏" } else { "∑" };
             let (variable, term) = (name(x.part(0)?.part(0)?)?, expression(x.part(1)?)?);
-            let (from, to) = (expression(y()?.part(0)?)?, expression(y()?.part(1)?)?);
-            Ok(format!("{sign}({variable} ∈ {from} .. {to}, {term})"))
+            let range = match y() {
+                Ok(bounds) => {
+                    format!("{} .. {}", expression(bounds.part(0)?)?, expression(bounds.part(1)?)?)
+                }
+                // Over the range variable of that name.
+                Err(_) => variable.clone(),
+            };
+            Ok(format!("{sign}({variable} ∈ {range}, {term})"))
         }
         _ => Err(unsupported(operator)),
     }
@@ -398,12 +436,11 @@ pub fn unsupported(node: Math<'_, '_>) -> Unsupported {
         "derivative" => "a derivative",
         "integral" => "an integral",
         "Find" | "Minerr" | "Minimize" | "Maximize" | "Odesolve" => "a solve block",
-        "vectorize" => "vectorize",
-        "crossProduct" => "the cross product",
         "range" => "a range in an expression",
-        "program" => "a program in an expression",
         "placeholder" => "an empty place",
-        tag => return Unsupported(format!("`{tag}`")),
+        "str" => "a string with quotation marks or several lines",
+        tag if is_function(tag) => return Unsupported(format!("the function {tag}")),
+        tag => return Unsupported(format!("the operator {tag}")),
     };
     Unsupported(words.into())
 }

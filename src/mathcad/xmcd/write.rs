@@ -4,7 +4,9 @@ use super::FUNCTIONS;
 use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
-use crate::syntax::{Expr, Kind, Level, Operation, Operator, Range, Reference, Statement, Step};
+use crate::syntax::{
+    Expr, Kind, Level, Operation, Operator, Range, Reference, Slot, Spread, Statement, Step,
+};
 use crate::value::Array;
 use base::xml::Element;
 
@@ -137,6 +139,9 @@ impl Writer<'_> {
             Step::Assign { target, value, .. } => {
                 Element::new("ml:localDefine").with(self.reference(target)).with(self.expr(value))
             }
+            Step::Spread { to, value, .. } => {
+                Element::new("ml:localDefine").with(self.spread(to)).with(self.expr(value))
+            }
             Step::Evaluate { value, .. } => self.expr(value),
             Step::Return { value, .. } => Element::new("ml:return").with(self.expr(value)),
             Step::Break { .. } => Element::new("ml:break"),
@@ -154,6 +159,23 @@ impl Writer<'_> {
             Range::Span { from, second, to } => {
                 let start = [from].into_iter().chain(second).map(|x| self.expr(x)).collect();
                 Element::new("ml:range").with(sequence(start)).with(self.expr(to))
+            }
+        }
+    }
+
+    fn spread(&self, to: &Spread) -> Element {
+        let name = |slot: Slot| id(self.names.name(slot));
+        match to {
+            Spread::Names { names, cols } => {
+                let rows = names.len() / cols;
+                let places = (0..*cols).flat_map(|j| (0..rows).map(move |i| i * cols + j));
+                Element::new("ml:matrix")
+                    .set("rows", rows.to_string())
+                    .set("cols", cols.to_string())
+                    .with_all(places.map(|k| name(names[k])))
+            }
+            Spread::Column { name: array, column, .. } => {
+                apply("ml:matcol", [name(*array), self.expr(column)])
             }
         }
     }
@@ -219,17 +241,24 @@ impl Writer<'_> {
             Kind::All(operands) => self.chain(Operator::All, operands),
             Kind::Any(operands) => self.chain(Operator::Any, operands),
             Kind::Call(name, arguments) => self.call(self.names.name(*name), arguments),
+            Kind::Program(block) => match block.as_slice() {
+                [_] => Element::new("ml:program").with(self.block(block)),
+                several => self.block(several),
+            },
             Kind::If(parts) => {
                 let parts = parts.iter().map(|x| self.expr(x)).collect();
                 Element::new("ml:apply").with(id("if")).with(sequence(parts))
             }
             Kind::Series { function, name, parts } => {
-                let [from, to, term] = &**parts;
+                let (term, range) = parts.split_last().expect("a series has a term");
                 let product = self.names.name(*function) == "∏";
                 let bound = Element::new("ml:boundVars").with(id(self.names.name(*name)));
                 let lambda = Element::new("ml:lambda").with(bound).with(self.expr(term));
-                let bounds = Element::new("ml:bounds").with(self.expr(from)).with(self.expr(to));
-                apply(if product { "ml:product" } else { "ml:summation" }, [lambda, bounds])
+                let range: Vec<_> = range.iter().map(|x| self.expr(x)).collect();
+                // Over a range variable there are none.
+                let bounds = (range.len() == 2).then(|| Element::new("ml:bounds").with_all(range));
+                let series = if product { "ml:product" } else { "ml:summation" };
+                apply(series, [lambda].into_iter().chain(bounds))
             }
         }
     }
@@ -288,6 +317,7 @@ impl Operand for &Expr {
             | Kind::Magnitude(_)
             | Kind::Call(..)
             | Kind::If(_)
+            | Kind::Program(_)
             | Kind::Series { .. } => Level::Atom,
         }
     }

@@ -5,7 +5,7 @@
 
 use super::conditions::{and, is_in_box, is_jumped_after, is_jumped_before, is_near};
 use super::failure::{Failure, Line};
-use super::reading::{LoopPlace, NodeTable, Reading};
+use super::reading::{NodeTable, Reading};
 use super::worksheet::Worksheet;
 use mathcad::Conjunction;
 use mathcad::array::{Column, Table, rows};
@@ -195,7 +195,7 @@ pub fn weights<T: Scalar>(
         }
         // AMBIGUOUS R1: the weights loop is beside the zeroing loop (it runs once, after the last
         // row is zeroed), or inside it (it runs after each row).
-        if reading.r1 == LoopPlace::Beside && i1 < R {
+        if reading.r1.is_beside() && i1 < R {
             continue;
         }
         //# 14 for i1 ∈ 1 .. rows(cnt)

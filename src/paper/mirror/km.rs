@@ -9,7 +9,7 @@
 //! ```
 
 use super::failure::{Cause, Failure};
-use super::reading::{Reading, RestraintIndex, Wedge};
+use super::reading::Reading;
 use super::worksheet::Worksheet;
 use mathcad::array::{Column, Square, Table};
 use numbers::scalar::Scalar;
@@ -45,7 +45,7 @@ pub fn Km<T: Scalar>(
             V[2 * i1] = 2 * EL[(n, i1 + ind_1 - 1)];
             // AMBIGUOUS R2: the index of the x restraint, or, as the scan prints it, that of line
             // 8.
-            let odd = if reading.r2 == RestraintIndex::Odd { 1 } else { 0 };
+            let odd = if reading.r2.takes_y_for_x() { 0 } else { 1 };
             //#  7 cx[2·i1−1] ← |S[2·EL[n,i1+ind_1−1] − 1] − 1|
             cx[2 * i1 - 1] = (T::from_number(S[2 * EL[(n, i1 + ind_1 - 1)] - odd]) - one).abs();
             //#  8 cx[2·i1] ← |S[2·EL[n,i1+ind_1−1]] − 1|
@@ -90,7 +90,7 @@ pub fn Km<T: Scalar>(
             }
             // AMBIGUOUS R3: collect leaves the loop here until all three nodes are in W; the others
             // add node by node.
-            if reading.r3 == Wedge::Collect && i1 < 3 {
+            if reading.r3.adds_all_at_once() && i1 < 3 {
                 continue;
             }
             //# 21 for i ∈ 1 .. 6 if fl ≠ 0
@@ -108,7 +108,7 @@ pub fn Km<T: Scalar>(
             //# 25 W ← (0 0 0 0 0 0)ᵀ
             W = Column::filled(6, 0);
             // AMBIGUOUS R3: only nested runs lines 26-33 for each node of the first pair.
-            if reading.r3 == Wedge::PerNode && i1 < 3 {
+            if reading.r3.adds_each_alone() && i1 < 3 {
                 continue;
             }
             //# 26 for i1 ∈ 1 .. 3
@@ -127,7 +127,7 @@ pub fn Km<T: Scalar>(
                     fl = c_cnt[(EL[(n, i1 + ind_1 - 1)], 4)];
                 }
                 // AMBIGUOUS R3: as above.
-                if reading.r3 == Wedge::Collect && i1 < 3 {
+                if reading.r3.adds_all_at_once() && i1 < 3 {
                     continue;
                 }
                 //# 31 for i ∈ 1 .. 6 if fl ≠ 0

@@ -44,6 +44,44 @@ values! {
     }
 }
 
+impl LoopPlace {
+    /// Returns whether the weights loop stands beside the zeroing loop.
+    pub fn is_beside(self) -> bool {
+        match self {
+            LoopPlace::Beside => true,
+            LoopPlace::Inside => false,
+        }
+    }
+}
+
+impl RestraintIndex {
+    /// Returns whether the restraint of y is read in place of that of x.
+    pub fn takes_y_for_x(self) -> bool {
+        match self {
+            RestraintIndex::Odd => false,
+            RestraintIndex::Printed => true,
+        }
+    }
+}
+
+impl Wedge {
+    /// Returns whether an adding loop runs once three nodes fill `W`.
+    pub fn adds_all_at_once(self) -> bool {
+        match self {
+            Wedge::Collect => true,
+            Wedge::PerNode | Wedge::Nested => false,
+        }
+    }
+
+    /// Returns whether the second pair's loop waits for the last node of the first pair.
+    pub fn adds_each_alone(self) -> bool {
+        match self {
+            Wedge::PerNode => true,
+            Wedge::Collect | Wedge::Nested => false,
+        }
+    }
+}
+
 impl NodeTable {
     /// Returns whether weights follow the shape, so that they may grow from iteration to iteration.
     pub fn follows_the_shape(self) -> bool {

@@ -164,11 +164,11 @@ impl SceneBuilder {
 
     /// Does the same, and lets go of the mesh.
     pub(super) fn into_scene(self) -> Result<Scene> {
-        let SceneBuilder { name, mut mesh, description } = self;
+        let SceneBuilder { name, mut mesh, mut description } = self;
         mesh.check()?;
         let dropped = mesh.orphans();
         if !dropped.is_empty() {
-            orphans::drop(&mut mesh, &dropped, &description)?;
+            orphans::drop(&mut mesh, &dropped, &mut description)?;
         }
         let dropped = dropped.into_iter().map(NodeId::from_number).collect();
         Scene::assemble(&name, description, mesh, dropped)

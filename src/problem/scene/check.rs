@@ -50,10 +50,8 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
     let of_triangle = of_element.into_iter().zip(&mesh.elements).filter(|(_, e)| e.dim() == 2);
     let found = of_triangle.map(|(own, triangle)| {
         own.ok_or_else(|| {
-            let what = format!(
-                "triangle {} has no material (its physical groups: {:?})",
-                triangle.number, triangle.physical
-            );
+            let (number, surface) = (triangle.number, mesh.whereabouts(triangle));
+            let what = format!("triangle {number} has no material ({surface})");
             InputError::new("materials", what, "give each physical group of triangles a material")
         })
     });

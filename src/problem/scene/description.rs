@@ -65,6 +65,21 @@ pub struct Description {
 }
 
 impl Description {
+    /// Returns the node numbers that restraints, loads and the contact surface name, each with its field.
+    pub(super) fn named_nodes(&mut self) -> Vec<(String, &mut usize)> {
+        let restraints = self.restraints.iter_mut().enumerate();
+        let restraints = restraints
+            .filter_map(|(k, it)| Some((format!("restraints[{k}].node"), it.node.as_mut()?)));
+        let loads =
+            self.loads.iter_mut().enumerate().filter_map(|(k, load)| match &mut load.kind {
+                LoadKind::Force { node, .. } => Some((format!("loads[{k}].node"), node)),
+                LoadKind::Pressure { .. } | LoadKind::Traction { .. } => None,
+            });
+        let contact = self.contact.as_mut().map(|contact| contact.contact.numbers());
+        let contact = contact.into_iter().flatten().map(|n| ("contact.cnt".into(), n));
+        restraints.chain(loads).chain(contact).collect()
+    }
+
     /// Describes a plane problem with no material, thickness 1 and no load.
     pub fn new(plane: Plane) -> Self {
         Description {

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use base::error::Result;
+use base::error::{InputError, Result};
 use base::files::json;
 
 /// Scene files.
@@ -21,6 +21,12 @@ const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
+    if text.trim_ascii_start().starts_with(b"$") {
+        let what = "this is a mesh of Gmsh, and no scene";
+        let fix = "write a scene file that names the mesh, with materials, restraints and loads: see \
+                   src/guide/scenes.md, or plane-contact scene copy strand for one";
+        return Err(InputError::new("the scene file", what, fix));
+    }
     json::read(text, &SCENE)
 }
 

@@ -6,7 +6,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::mesh::{Element, Mesh};
+use super::mesh::{ENTITIES, Element, Mesh};
 use base::error::{InputError, Result};
 use base::suggestion::did_you_mean;
 
@@ -58,6 +58,9 @@ impl From<usize> for GroupRef {
 }
 
 const ELEMENT_NAMES: [&str; 3] = ["points", "edges", "triangles"];
+
+/// What Gmsh calls the entities of such elements in a statement.
+const STATEMENTS: [&str; 3] = ["Point", "Curve", "Surface"];
 
 /// The most groups that an error lists.
 const MOST_LISTED: usize = 20;
@@ -112,7 +115,8 @@ impl<'m> Groups<'m> {
             ),
             None => {
                 let names = self.mesh.names.iter().filter(|n| n.dim == dim);
-                did_you_mean(&group.text(), names.map(|n| n.name.as_str())) + &self.known(dim)
+                let near = did_you_mean(&group.text(), names.map(|n| n.name.as_str()));
+                near + &self.known(dim) + &self.addition(dim, group)
             }
         };
         Err(InputError::new(place, what, fix))
@@ -152,6 +156,29 @@ impl<'m> Groups<'m> {
                 named.or_else(|| name.parse().ok().filter(used))
             }
         }
+    }
+
+    /// Says how Gmsh adds a group of the entities whose elements are in none; nothing where all are.
+    fn addition(&self, dim: usize, group: &GroupRef) -> String {
+        let elements = self.mesh.elements.iter().filter(|element| element.dim() == dim);
+        let free: BTreeSet<usize> = elements
+            .filter(|element| element.physical.is_empty())
+            .map(|element| element.geometric)
+            .collect();
+        if free.is_empty() {
+            return String::new();
+        }
+        let more = if free.len() > MOST_LISTED { ", ..." } else { "" };
+        let tags: Vec<String> = free.iter().take(MOST_LISTED).map(usize::to_string).collect();
+        format!(
+            "; {} of {}s {} are in none: in Gmsh add those that belong to it, as in Physical {}({group}) = \
+             {{{}}}; and save the mesh again",
+            ELEMENT_NAMES[dim],
+            ENTITIES[dim],
+            tags.join(", ") + more,
+            STATEMENTS[dim],
+            free.first().expect("there are some")
+        )
     }
 
     /// Returns the groups that exist, in the words of an error.

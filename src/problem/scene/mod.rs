@@ -11,6 +11,7 @@ mod check;
 mod description;
 mod embedded;
 pub mod file;
+mod fold;
 pub mod gmsh;
 mod groups;
 mod hashes;
@@ -25,6 +26,7 @@ pub mod surface;
 pub mod symmetry;
 
 use serde::Serialize;
+use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -83,8 +85,8 @@ impl Scene {
     ///
     /// # Errors
     /// The scene file, the mesh file, or the two together are at fault.
-    pub fn open(name_or_path: &str) -> Result<Self> {
-        Self::of_file(&SceneFile::read(name_or_path)?)
+    pub fn open(name_or_path: impl AsRef<Path>) -> Result<Self> {
+        Self::of_file(&SceneFile::read(name_or_path.as_ref())?)
     }
 
     /// Builds the scene of a file.
@@ -114,6 +116,11 @@ impl Scene {
     /// Returns the description and the mesh from which the scene was built; None for half a scene.
     pub fn source(&self) -> Option<(&Description, &Mesh)> {
         self.source.as_deref().map(|source| (&source.description, &source.mesh))
+    }
+
+    /// Says what the mesh file has in another form than the mesh here, in sentences.
+    pub fn adapted(&self) -> &[String] {
+        self.source.as_deref().map_or(&[], |source| &source.mesh.adapted)
     }
 
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
@@ -160,6 +167,7 @@ impl Scene {
             restrained,
             dropped,
         };
+        fold::check(&mesh, &model)?;
         check::restrained_bodies(&model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);

@@ -1,8 +1,7 @@
 //! Nodes that belong to no triangle, which are refused or dropped.
 
-use super::description::{Description, LoadKind};
+use super::description::Description;
 use super::mesh::Mesh;
-use super::surface::Surface;
 use base::error::{InputError, Result};
 
 /// Drops the nodes `dropped`, which belong to no triangle, with the points and edges on them. Every node
@@ -10,7 +9,7 @@ use base::error::{InputError, Result};
 ///
 /// # Errors
 /// The description does not allow it, or names a dropped node.
-pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Result<()> {
+pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &mut Description) -> Result<()> {
     if !description.drop_orphans {
         let what = format!(
             "nodes {} belong to no triangle (finding K4: Km would be singular)",
@@ -20,24 +19,11 @@ pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &Description) -> Re
         return Err(InputError::new("the mesh's nodes", what, fix));
     }
     let is_dropped = |n: &usize| dropped.binary_search(n).is_ok();
-    let named = |n: usize, place: String| {
-        if is_dropped(&n) {
+    for (place, n) in description.named_nodes() {
+        if is_dropped(n) {
             let what = format!("node {n} belongs to no triangle and was dropped");
             return Err(InputError::new(place, what, "name a node of a triangle"));
         }
-        Ok(())
-    };
-    for (k, restraint) in description.restraints.iter().enumerate() {
-        restraint.node.map_or(Ok(()), |n| named(n, format!("restraints[{k}].node")))?;
-    }
-    for (k, load) in description.loads.iter().enumerate() {
-        match load.kind {
-            LoadKind::Force { node, .. } => named(node, format!("loads[{k}].node"))?,
-            LoadKind::Pressure { .. } | LoadKind::Traction { .. } => (),
-        }
-    }
-    if let Some(Surface::Numbers(numbers)) = description.contact.as_ref().map(|c| &c.contact) {
-        numbers.iter().try_for_each(|n| named(*n, "contact.cnt".into()))?;
     }
     mesh.elements.retain(|element| !element.nodes.iter().any(is_dropped));
     Ok(())

@@ -44,7 +44,8 @@ impl Scene {
                 [0, 1, 2].map(|d| (mesh.nodes[a - 1].xyz[d] + mesh.nodes[b - 1].xyz[d]) / 2.0);
             nodes.push(Node { number: nodes.len() + 1, xyz });
         }
-        let finer = Mesh { nodes, elements, names: mesh.names.clone() };
+        let (names, adapted) = (mesh.names.clone(), mesh.adapted.clone());
+        let finer = Mesh { nodes, elements, names, adapted };
         let file = halves.renumbered(file, &children);
         let mut scene = Scene::assemble(&self.name, file, finer, self.model.dropped.clone())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use base::error::{InputError, Result};
 use base::files;
+use base::plain::shown;
 use base::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -33,11 +34,11 @@ impl SceneFile {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn read(name_or_path: &str) -> Result<Self> {
+    pub fn read(name_or_path: &Path) -> Result<Self> {
         if let Some(embedded) = Self::embedded(name_or_path) {
             return Ok(embedded);
         }
-        if name_or_path == "-" {
+        if name_or_path.as_os_str() == "-" {
             let text = files::read_from(std::io::stdin(), files::MOST).map_err(|why| {
                 let what = format!("the scene cannot be read: {why}");
                 InputError::new("standard input", what, "direct a scene file to it")
@@ -45,8 +46,8 @@ impl SceneFile {
             let files = Files::Folder(PathBuf::new(), "standard input".into());
             return Ok(SceneFile { name: "stdin".into(), text, files });
         }
-        let path = Path::new(name_or_path);
-        let path = if path.is_dir() { path.join("scene.json") } else { path.into() };
+        let is_folder = name_or_path.is_dir();
+        let path = if is_folder { name_or_path.join("scene.json") } else { name_or_path.into() };
         let text = files::read(&path);
         Self::from_read(&path, text, name_or_path)
     }
@@ -57,32 +58,33 @@ impl SceneFile {
     /// # Errors
     /// The file cannot be read.
     pub fn read_in(folder: &Path, name_or_path: &str) -> Result<Self> {
-        if let Some(embedded) = Self::embedded(name_or_path) {
+        let asked = Path::new(name_or_path);
+        if let Some(embedded) = Self::embedded(asked) {
             return Ok(embedded);
         }
-        let name = Path::new(name_or_path);
-        let is_folder = folder.join(name).is_dir();
-        let name = if is_folder { name.join("scene.json") } else { name.into() };
+        let is_folder = folder.join(asked).is_dir();
+        let name = if is_folder { asked.join("scene.json") } else { asked.into() };
         let text = files::read_in(folder, &name, files::MOST);
-        Self::from_read(&folder.join(name), text, name_or_path)
+        Self::from_read(&folder.join(name), text, asked)
     }
 
-    fn embedded(name: &str) -> Option<Self> {
-        let embedded = SCENES.iter().chain(FINDING_SCENES).find(|scene| scene.name == name)?;
+    fn embedded(name: &Path) -> Option<Self> {
+        let mut all = SCENES.iter().chain(FINDING_SCENES);
+        let embedded = all.find(|scene| name.as_os_str() == scene.name)?;
         let (name, text) = (embedded.name.into(), embedded.scene.into());
         Some(SceneFile { name, text, files: Files::Embedded(embedded) })
     }
 
     /// Returns the scene file at `path`, asked for as `name`, with what was read there.
-    fn from_read(path: &Path, text: io::Result<Vec<u8>>, name: &str) -> Result<Self> {
+    fn from_read(path: &Path, text: io::Result<Vec<u8>>, name: &Path) -> Result<Self> {
         let text = text.map_err(|why| {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
-            let near = did_you_mean(name, names.iter().copied());
+            let near = did_you_mean(&name.to_string_lossy(), names.iter().copied());
             let fix = format!("{near}give a path, or one of the scenes {}", names.join(", "));
-            InputError::new(path.display().to_string(), what, fix)
+            InputError::new(shown(path), what, fix)
         })?;
-        let place = path.display().to_string();
+        let place = shown(path);
         // The folder of a pipe (`<(...)`) holds nothing of the user's.
         let (name, folder) = match path.parent().filter(|_| path.is_file()) {
             Some(folder) => (name_of(path), folder),
@@ -119,7 +121,7 @@ impl SceneFile {
 
 /// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.
 fn name_of(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let folder = path.parent().and_then(Path::file_name).map(|f| f.to_string_lossy().into_owned());
+    let stem = shown(Path::new(path.file_stem().unwrap_or_default()));
+    let folder = path.parent().and_then(Path::file_name).map(|name| shown(Path::new(name)));
     if stem == "scene" { folder.unwrap_or(stem) } else { stem }
 }

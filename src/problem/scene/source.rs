@@ -33,17 +33,22 @@ pub fn mesh(
             "the path is resolved beside the scene file, in its folder or below",
         )
     })?;
+    let place = format!("mesh {name:?}");
     let numbers = file.iter().filter(|byte| byte.is_ascii_whitespace()).count();
-    limits::MESH.check(numbers, &format!("mesh {name:?}"))?;
-    gmsh::read(&file).map_err(|error| {
+    limits::MESH.check(numbers, &place)?;
+    let mut mesh = gmsh::read(&file).map_err(|error| {
+        let mut fix = "save the mesh again from Gmsh";
         let what = if let Fault::Unexpected { expected, .. } = &error.fault
             && expected.starts_with("$MeshFormat")
         {
             // A file that is no mesh may hold secrets of who runs the scene.
+            fix = "save a mesh from Gmsh: gmsh part.geo -2 makes part.msh of the geometry part.geo";
             format!("it is no mesh of Gmsh: expected {expected}")
         } else {
             error.to_string()
         };
-        InputError::new(format!("mesh {name:?}"), what, "save the mesh again from Gmsh")
-    })
+        InputError::new(&place, what, fix)
+    })?;
+    mesh.adapt(scene).map_err(|error| error.within(&place))?;
+    Ok(mesh)
 }

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::groups::{GroupRef, Groups};
-use super::mesh::Mesh;
+use super::mesh::{Element, Mesh};
 use base::error::{InputError, Result};
 
 /// A contact surface, as a scene file describes it.
@@ -17,6 +17,16 @@ pub enum Surface {
     Group(GroupRef),
     /// Node or `elem` numbers, in their order in the list.
     Numbers(Vec<usize>),
+}
+
+impl Surface {
+    /// Returns the numbers of a list; none of a group.
+    pub(super) fn numbers(&mut self) -> &mut [usize] {
+        match self {
+            Surface::Group(_) => &mut [],
+            Surface::Numbers(numbers) => numbers,
+        }
+    }
 }
 
 impl From<&str> for Surface {
@@ -41,13 +51,14 @@ impl From<Vec<usize>> for Surface {
 /// is; a group's edges are followed as a chain from its first end.
 ///
 /// # Errors
-/// A group is no single chain, or a number is no node.
+/// A group is no single chain or has an edge twice, or a number is no node.
 pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.cnt";
     match surface {
         Surface::Group(group) => {
-            let members = groups.members(1, group, place)?;
-            let edges: Vec<_> = members.map(|e| [e.nodes[0], e.nodes[1]]).collect();
+            let edges: Vec<&Element> = groups.members(1, group, place)?.collect();
+            no_edge_twice(&edges, place)?;
+            let edges: Vec<_> = edges.iter().map(|e| [e.nodes[0], e.nodes[1]]).collect();
             chain(&edges).map_err(|why| {
                 let what = format!("group {group}: {why}");
                 InputError::new(place, what, "give the node numbers as a list, in order")
@@ -64,27 +75,44 @@ pub fn contact_nodes(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<
 /// Returns the `elem` numbers of the target edges `trg`: a list as it is, a group in mesh order.
 ///
 /// # Errors
-/// A number is no edge.
+/// A number is no edge, or an edge is there twice.
 pub fn target_edges(mesh: &Mesh, groups: &Groups, surface: &Surface) -> Result<Vec<usize>> {
     let place = "contact.trg";
-    match surface {
-        Surface::Group(group) => Ok(groups.members(1, group, place)?.map(|e| e.number).collect()),
+    let edges: Vec<&Element> = match surface {
+        Surface::Group(group) => groups.members(1, group, place)?.collect(),
         Surface::Numbers(numbers) => {
             not_empty(numbers, place)?;
-            numbers.iter().try_for_each(|&number| check_edge(mesh, number, place))?;
-            Ok(numbers.clone())
+            numbers.iter().map(|number| edge(mesh, *number, place)).collect::<Result<_>>()?
         }
-    }
+    };
+    no_edge_twice(&edges, place)?;
+    Ok(edges.iter().map(|edge| edge.number).collect())
 }
 
-/// Checks that an edge has the `elem` number `number`.
-fn check_edge(mesh: &Mesh, number: usize, place: &str) -> Result<()> {
+/// Returns the edge with the `elem` number `number`.
+fn edge<'a>(mesh: &'a Mesh, number: usize, place: &str) -> Result<&'a Element> {
     let found = mesh.elements.binary_search_by_key(&number, |element| element.number);
-    if found.is_ok_and(|at| mesh.elements[at].dim() == 1) {
-        return Ok(());
+    let edge = found.ok().map(|at| &mesh.elements[at]).filter(|element| element.dim() == 1);
+    edge.ok_or_else(|| {
+        let what = format!("elem {number} is no edge of the mesh");
+        InputError::new(place, what, "name elem rows of type 1")
+    })
+}
+
+/// Checks that no two edges have the same nodes.
+fn no_edge_twice(edges: &[&Element], place: &str) -> Result<()> {
+    let mut first = HashMap::new();
+    for edge in edges {
+        let [a, b] = [edge.nodes[0], edge.nodes[1]];
+        if let Some(other) = first.insert([a.min(b), a.max(b)], edge.number) {
+            let what = match other == edge.number {
+                true => format!("edge {other} is named twice"),
+                false => format!("edges {other} and {} both join nodes {a} and {b}", edge.number),
+            };
+            return Err(InputError::new(place, what, "keep one"));
+        }
     }
-    let what = format!("elem {number} is no edge of the mesh");
-    Err(InputError::new(place, what, "name elem rows of type 1"))
+    Ok(())
 }
 
 fn not_empty(numbers: &[usize], place: &str) -> Result<()> {

@@ -199,7 +199,9 @@ impl<'a> Restriction<'a> {
             contact: self.contact(),
             rows: whole.rows.iter().filter_map(|row| self.row(row)).collect(),
             dropped: Vec::new(),
-            ..whole.clone()
+            plane: whole.plane,
+            thickness: whole.thickness,
+            z: whole.z,
         }
     }
 

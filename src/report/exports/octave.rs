@@ -1,5 +1,5 @@
-//! The program for Octave and MATLAB: one function file, its listings translated from the syntax
-//! tree.
+//! The program for Octave and MATLAB: a script, its listings translated from the syntax tree. The
+//! functions come first, as Octave wants them, so that it runs from any folder under any name.
 //!
 //! Operations keep their order. Matrix products are sums of outer products, k = 1, 2, ..., so that
 //! no library reorders them. Where a false operand of `∧` is to decide though another fails (R4),
@@ -88,21 +88,23 @@ function x = lsolve(a, b)
 end
 ";
 
-/// Writes the program of an export; its function, and with it the file, is to be called `name`.
-pub fn program(export: &Export, name: &str) -> String {
+/// Writes the program of an export.
+pub fn program(export: &Export) -> String {
     let (globals, tables_text) = definitions(tables(export.sheet));
-    let mut text = format!(
-        "% {}\n% The listings of A. M. Filipov and M. V. Khomenko as printed, for Octave and MATLAB.\n\
-         % Readings: {}. Run: {name}\n",
-        // One line, whatever it holds.
-        export.title.split_whitespace().collect::<Vec<_>>().join(" "),
-        match export.reading.to_string() {
-            given if given.is_empty() => "all by default".into(),
-            given => given,
-        }
+    let readings = match export.reading.to_string() {
+        given if given.is_empty() => "all by default".into(),
+        given => given,
+    };
+    let about = format!(
+        "The listings of A. M. Filipov and M. V. Khomenko as printed. Readings: {readings}."
     );
-    text += &format!("function {name}()\n{}", globals.declaration());
-    text += &tables_text;
+    let mut text = head(export.title, &about);
+    for which in Which::ALL {
+        let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
+        text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
+    }
+    text += elasticity(export.sheet.plane);
+    text += &format!("{HELPERS}\n{}{tables_text}", globals.declaration());
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
     let ours = export.run.as_ref().map(|run| &run.pairs);
@@ -125,35 +127,39 @@ pub fn program(export: &Export, name: &str) -> String {
         );
         text += &shown("U", Some(Value::from(Array::column(run.u.clone()))));
     }
-    text += "end\n";
-    for which in Which::ALL {
-        let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
-        text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
-    }
-    text + elasticity(export.sheet.plane) + HELPERS
+    text
 }
 
-/// Writes the program of the corrected algorithm; its function, and with it the file, is to be called
-/// `name`.
-pub fn corrected(export: &CorrectedExport, name: &str) -> String {
+/// Writes the program of the corrected algorithm.
+pub fn corrected(export: &CorrectedExport) -> String {
     let of_scene = tables(export.sheet);
     let force = Value::from(Array::column(export.force.clone()));
     let (globals, definitions) = definitions(
         of_scene.into_iter().chain([("F", force), ("both", export.bound.both().into())]),
     );
-    let mut text = format!(
-        "% {}\n% The corrected algorithm of plane-contact, for Octave and MATLAB.\n\
-         function {name}()\n{}{definitions}  U = iterate({});\n  U = U(1:{});\n{}end\n",
-        export.title.split_whitespace().collect::<Vec<_>>().join(" "),
-        globals.declaration(),
-        export.steps,
-        export.u.len(),
-        shown("U", Some(Value::from(Array::column(export.u.clone()))))
-    );
+    let mut text = head(export.title, "The corrected algorithm of plane-contact.");
     for program in Program::ALL {
         text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
     }
-    text + elasticity(export.sheet.plane) + SOLVER + HELPERS
+    text += elasticity(export.sheet.plane);
+    text + SOLVER
+        + HELPERS
+        + &format!(
+            "\n{}{definitions}  U = iterate({});\n  U = U(1:{});\n{}",
+            globals.declaration(),
+            export.steps,
+            export.u.len(),
+            shown("U", Some(Value::from(Array::column(export.u.clone()))))
+        )
+}
+
+/// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
+/// begins with a function is no script.
+fn head(title: &str, about: &str) -> String {
+    let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
+    format!(
+        "% {title}\n% {about}\n% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
+    )
 }
 
 fn elasticity(plane: Plane) -> &'static str {

@@ -1,13 +1,16 @@
 //! Pages of HTML: each one file that opens offline, with nothing from outside.
 //!
-//! A page is a shell (title, style, script) and its data as JSON, which the script shows by
+//! A page is a shell (title, style, script; its content policy names both by their hashes) and its data as JSON, which the script shows by
 //! `textContent` alone: nothing that a scene or a listing says is ever read as HTML. The script is
 //! the files of a folder one behind the other, in one scope.
 
 pub mod lesson;
 pub mod report;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 use crate::language::Language;
 use base::xml::escape;
@@ -44,22 +47,30 @@ impl Page<'_> {
         if let Some(messages) = self.language.messages_of(&script) {
             self.data["messages"] = messages;
         }
+        let script = format!("\n\"use strict\";\n{script}");
+        let style = format!("\n{STYLE}{}", self.style);
         format!(
             "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-             script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n\
+             script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n\
              <link rel=\"icon\" href=\"data:,\">\n\
-             <title>{}</title>\n<style>\n{STYLE}{}</style>\n</head>\n<body>\n{}\
+             <title>{}</title>\n<style>{style}</style>\n</head>\n<body>\n{}\
              <script type=\"application/json\" id=\"data\">{}</script>\n\
-             <script type=\"module\">\n\"use strict\";\n{script}</script>\n</body>\n</html>\n",
+             <script type=\"module\">{script}</script>\n</body>\n</html>\n",
             self.language,
+            hash(&script),
+            hash(&style),
             escape(self.title),
-            self.style,
             self.body,
             in_script(&self.data),
         )
     }
+}
+
+/// Returns the source of a content policy that allows this script or style alone, by its hash (CSP level 3, 2.3.1).
+fn hash(text: &str) -> String {
+    format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)))
 }
 
 /// Returns JSON for a place within `<script>`, which `</script>` or `<!--` in a text would end.

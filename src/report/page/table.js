@@ -1,8 +1,9 @@
 // Tables that copy as CSV.
 
-/** A cell as a field of CSV (RFC 4180): a number with all its digits, nothing where there is none. */
+/** A cell as a field of CSV (RFC 4180): a number with all its digits, nothing where there is none; an apostrophe before what a spreadsheet would take for a formula. */
 function csvField(cell) {
-  const text = cell.dataset.exact ?? (cell.textContent === "-" ? "" : cell.textContent);
+  const whole = cell.dataset.exact ?? (cell.textContent === "-" ? "" : cell.textContent);
+  const text = /^[=+\-@\t\r\n]/.test(whole) && isNaN(whole) ? `'${whole}` : whole;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 

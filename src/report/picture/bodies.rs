@@ -55,17 +55,14 @@ fn draw_body(drawing: &Drawing, region: usize, view: &View, pixels: &[Pixel]) ->
     group().fill(body_colour(region)).with_all(shapes)
 }
 
-/// Draws the bodies one over the other as pixels, each with its lines.
+/// Draws the bodies one over the other as pixels.
 fn raster(drawing: &Drawing, view: &View, pixels: &[Pixel]) -> Element {
-    let colours = [&BODIES[..], &[TRIANGLE_EDGE]].concat();
     let mut raster = Raster::new(view.frame);
     for region in 0..drawing.region_names.len() {
         let colour = colour_of(region) as u8;
         seen(drawing, region, view, pixels).for_each(|corners| raster.triangle(corners, colour));
-        let edge = BODIES.len() as u8;
-        seen(drawing, region, view, pixels).for_each(|corners| raster.ring(corners, |_| edge));
     }
-    raster.image(&colours.into_iter().map(rgb).collect::<Vec<_>>())
+    raster.image(&BODIES.map(rgb))
 }
 
 /// Returns the corners of the triangles of a region that can be seen.

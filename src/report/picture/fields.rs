@@ -14,9 +14,9 @@ const OUTLINE: &str = "#111111";
 
 const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
 
-/// How many colours the pixels of a fine mesh have, each also darkened by a line over it: as many as
-/// a PNG with 256 entries takes beside the transparent one.
-const COLOURS: u8 = 127;
+/// How many colours the pixels of a fine mesh have: as many as a PNG with 256 entries takes beside the
+/// transparent one.
+const COLOURS: u8 = 255;
 
 pub struct FieldPicture<'a> {
     pub scale: ColourScale,
@@ -80,19 +80,13 @@ impl<'a> FieldPicture<'a> {
         group.with_all(self.seen(view, pixels).map(shape))
     }
 
-    /// Draws the triangles as pixels, in an enlargement with their edges.
+    /// Draws the triangles as pixels.
     fn raster(&self, view: &View, pixels: &[Pixel]) -> Element {
         let mut raster = Raster::new(view.frame);
         for (triangle, corners) in self.seen(view, pixels) {
             raster.triangle(corners, self.scale.part(self.field.values[triangle], COLOURS));
         }
-        if view.enlarged {
-            let darkened = |colour: u8| if colour < COLOURS { colour + COLOURS } else { colour };
-            self.seen(view, pixels).for_each(|(_, corners)| raster.ring(corners, darkened));
-        }
-        let plain = parts(COLOURS);
-        let dark = plain.iter().map(|colour| colour.map(|part| part - part / 4));
-        raster.image(&plain.iter().copied().chain(dark).collect::<Vec<_>>())
+        raster.image(&parts(COLOURS))
     }
 
     /// Returns the triangles that can be seen, with their corners; the stamp's after the block's.

@@ -14,13 +14,9 @@ use base::xml::Element;
 /// Pixels of the image for each of the page, along either axis.
 const FINENESS: f64 = 1.5;
 
-/// A triangle has its edges drawn where its longest side is at least this long, pixels of the image;
-/// the edges of smaller ones would hide the colours.
-const LEAST_SIDE: f64 = 6.0;
-
 /// What is to be said of an image.
-pub const CAPTION: &str = "A fine mesh: each pixel has the colour of the triangle at its middle, and \
-                           edges of triangles too small for them are left out.";
+pub const CAPTION: &str =
+    "A fine mesh: each pixel has the colour of the triangle at its middle, and edges are left out.";
 
 /// Colours by number, the first at the upper left corner, row by row.
 pub struct Raster {
@@ -57,33 +53,6 @@ impl Raster {
             let start = row * self.size[0];
             let columns = middles(from, to, self.size[0]);
             self.colours[start + columns.start..start + columns.end].fill(colour);
-        }
-    }
-
-    /// Changes the colours under the edges of a triangle, unless it is too small for them.
-    pub fn ring(&mut self, corners: [Pixel; 3], change: impl Fn(u8) -> u8) {
-        let [a, b, c] = corners.map(|corner| self.image_pixel(corner));
-        let sides = [[a, b], [b, c], [c, a]];
-        let length = |[from, to]: [Pixel; 2]| (to[0] - from[0]).hypot(to[1] - from[1]);
-        if sides.into_iter().map(length).fold(0.0, f64::max) >= LEAST_SIDE {
-            sides.into_iter().for_each(|side| self.line(side, &change));
-        }
-    }
-
-    /// Changes the colours under a line one pixel wide.
-    fn line(&mut self, [a, b]: [Pixel; 2], change: impl Fn(u8) -> u8) {
-        let along = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
-        let across = 1 - along;
-        let [a, b] = if a[along] <= b[along] { [a, b] } else { [b, a] };
-        let slope = (b[across] - a[across]) / (b[along] - a[along]);
-        for step in middles(a[along], b[along], self.size[along]) {
-            let beside = a[across] + (step as f64 + 0.5 - a[along]) * slope;
-            if (0.0..self.size[across] as f64).contains(&beside) {
-                let mut at = [step; 2];
-                at[across] = beside as usize;
-                let colour = &mut self.colours[at[1] * self.size[0] + at[0]];
-                *colour = change(*colour);
-            }
         }
     }
 

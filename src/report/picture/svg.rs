@@ -147,32 +147,6 @@ fn number(x: f64) -> String {
 }
 
 fn push_number(text: &mut String, x: f64) {
-    /// The number of hundredths up to which a product with 100 tells the nearest, unless it lies
-    /// [`BETWEEN`] two.
-    const MANY: f64 = 1e9;
-    const BETWEEN: f64 = 0.499;
-    let hundredths = (100.0 * x).round();
-    let is_clear = hundredths.abs() < MANY && (100.0 * x - hundredths).abs() < BETWEEN;
-    if !is_clear {
-        return push_between(text, x);
-    }
-    if hundredths < 0.0 {
-        text.push('-');
-    }
-    let all = hundredths.abs() as u32;
-    let (tenths, hundredths) = (all / 10 % 10, all % 10);
-    let digit = |x: u32| char::from(b'0' + x as u8);
-    text.push_str(itoa::Buffer::new().format(all / 100));
-    if tenths + hundredths > 0 {
-        text.extend(['.', digit(tenths)]);
-    }
-    if hundredths > 0 {
-        text.push(digit(hundredths));
-    }
-}
-
-/// Writes a length whose nearest hundredth only its decimal digits tell.
-fn push_between(text: &mut String, x: f64) {
     let start = text.len();
     write!(text, "{x:.2}").expect("a string takes what is written");
     text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());

@@ -1,11 +1,8 @@
 //! Snapshots as files, and what verifying them found: for people, as JSON, Markdown and JUnit XML.
 
-mod field;
 mod words;
 
 use serde::Serialize;
-
-pub use field::difference_files;
 
 use super::failure::Failure;
 use super::json::{self, OnScene, pretty};
@@ -13,7 +10,9 @@ use super::layout::{counted, first_line};
 use super::model::Report;
 use base::xml::Element;
 use engine::error::Error;
-use studies::snapshot::{Change, Difference, First, Presence, Snapshot, Verified, VerifiedRun};
+use studies::snapshot::{
+    Change, Difference, First, Presence, Quantity, Snapshot, Verified, VerifiedRun,
+};
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct VerifiedFile {
@@ -44,7 +43,7 @@ pub fn recorded(snapshot: &Snapshot) -> Report {
     snapshot.runs.iter().fold(Report::default(), |report, (name, run)| {
         let facts = run.facts.len();
         let numbers: usize = run.numbers.iter().map(|(_, n)| n.places().len()).sum();
-        let failure = run.facts.get("failure").filter(|failure| !failure.is_null());
+        let failure = run.fact(Quantity::Failure).filter(|failure| !failure.is_null());
         let failure = failure.map_or(String::new(), |failure| {
             format!("; exit status {}: {failure}", run.exit_status().unwrap_or_default())
         });

@@ -3,7 +3,9 @@
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use studies::snapshot::{Change, Difference, Kind, Number, Presence, Status, VerifiedRun};
+use studies::snapshot::{
+    Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun,
+};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
@@ -126,13 +128,11 @@ pub fn summary(differences: &[Difference]) -> String {
 }
 
 /// Groups differences by what differs, whatever the iteration, in their order.
-fn by_quantity<'a>(differences: &[&'a Difference]) -> Vec<(&'a str, Vec<&'a Difference>)> {
-    let mut groups: IndexMap<(bool, &str), Vec<&Difference>> = IndexMap::new();
+fn by_quantity<'a>(differences: &[&'a Difference]) -> Vec<(Quantity, Vec<&'a Difference>)> {
+    let mut groups: IndexMap<(bool, Quantity), Vec<&Difference>> = IndexMap::new();
     for difference in differences {
-        let words: Vec<&str> = difference.entry.splitn(3, ' ').collect();
-        let in_iteration = words.len() == 3 && words[0] == "iteration";
-        let quantity = if in_iteration { words[2] } else { &difference.entry };
-        groups.entry((in_iteration, quantity)).or_default().push(difference);
+        let Entry { iteration, quantity } = difference.entry;
+        groups.entry((iteration.is_some(), quantity)).or_default().push(difference);
     }
     groups.into_iter().map(|((_, quantity), group)| (quantity, group)).collect()
 }

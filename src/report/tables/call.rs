@@ -42,6 +42,7 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
         rows = rows.column("in fig. 1", |node| in_figure(*node));
     }
     Report::default()
+        .notes(scene.adapted().to_vec())
         .notes(dropped(&scene.model))
         .table(format!("Contact nodes (c_tll = {})", model.contact.tolerance), found)
         .notes(direction(model, reading, &model.nodes))

@@ -2,7 +2,7 @@
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{short, with_unit};
+use crate::numbers::{percent, short, with_unit};
 use engine::{Equilibrium, Margin, NearestDecision, OtherEquilibrium, Solution, Uniqueness};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
@@ -30,12 +30,22 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
             length(depth)
         )
     });
+    let facets = found.facets.map(|[height, least]| {
+        format!(
+            "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the surfaces \
+             overlap by, or are apart by, {}, of which that is {}; no error estimate counts it; refine the \
+             surfaces",
+            length(height),
+            length(least),
+            percent(height / least, 0)
+        )
+    });
     let geometry = (found.shape_change > 0.0).then(|| {
         let change = length(found.shape_change);
         format!("Geometry: its last update changed no displacement component by more than {change}")
     });
     let nearest = found.nearest.as_ref().map(nearest_decision);
-    let lines = [nearest, springs, unseen, inside, geometry].into_iter().flatten();
+    let lines = [nearest, springs, unseen, inside, facets, geometry].into_iter().flatten();
     lines.fold(uniqueness(solution, &found.uniqueness), Report::line)
 }
 

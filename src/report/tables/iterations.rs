@@ -57,6 +57,10 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> 
     Report::default()
         .table("Path of the load", table)
         .note(format!("{} steps a stage{halved}", path.steps))
+        .notes((path.start == Start::Released).then_some(
+            "The start is not determined by the overlap: before any load the bodies were moved apart as rigid \
+             ones, to where a vanishing load holds them without friction; friction counts from there",
+        ))
         .note(match assessment.path_change {
             Some(change) => step_error(solution, path, change),
             None => {
@@ -91,10 +95,14 @@ fn why_unknown(path: &Path, assessment: &Assessment) -> &'static str {
             "unknown: nodes that overlap the target close with the first step, as no equilibrium was \
              found without load"
         }
-        Start::Held | Start::Closed if path.steps % 2 == 1 => {
+        Start::Held | Start::Closed | Start::Released if path.steps % 2 == 1 => {
             "unknown: it takes an even number of steps"
         }
-        Start::Held | Start::Closed if assessment.estimates.is_none() => "not asked for",
-        Start::Held | Start::Closed => "unknown: half as many steps find no equilibrium",
+        Start::Held | Start::Closed | Start::Released if assessment.estimates.is_none() => {
+            "not asked for"
+        }
+        Start::Held | Start::Closed | Start::Released => {
+            "unknown: half as many steps find no equilibrium"
+        }
     }
 }

@@ -57,6 +57,7 @@ fn heading(solution: &Solution) -> Report {
         ))
         .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
         .notes(arithmetic(solution))
+        .notes(request.scene.adapted().to_vec())
         .notes(dropped(model))
 }
 

@@ -67,7 +67,11 @@ impl Case {
     pub fn from_request(base: Request) -> Result<Self, InputError> {
         Ok(Case {
             scene: base.scene.clone(),
-            model: door::under(Arc::clone(&base.scene.model), &base.reading)?,
+            model: door::under(
+                Arc::clone(&base.scene.model),
+                &base.scene.units.length,
+                &base.reading,
+            )?,
             base,
             runs: Default::default(),
             finer: OnceLock::new(),

@@ -4,7 +4,6 @@
 //! Meshes are made of rows of nodes, joined two by two by triangles; that of the strand by Delaunay
 //! refinement. The same parameters lead to the same bytes.
 
-mod annulus;
 mod blocks;
 mod check;
 mod confocal;
@@ -17,7 +16,6 @@ mod punch;
 mod rows;
 mod strand;
 
-pub use annulus::Annulus;
 pub use blocks::Blocks;
 pub use hertz::Hertz;
 pub use punch::Punch;

@@ -1,13 +1,14 @@
 //! Runs of `ccx`, each in a temporary folder.
 
-use std::io::{self, PipeReader};
+use std::io;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus};
 
 use super::deck::deck;
 use super::fields::Fields;
 use super::problem::{Part, Problem};
 use super::results::parse;
+use base::child;
 use base::error::{InputError, Result};
 use base::files;
 use problem::model::Model;
@@ -77,40 +78,28 @@ fn version(program: &str) -> Result<String> {
     Ok(text.split_whitespace().last().unwrap_or("unknown").to_string())
 }
 
-/// Runs `program` to its end, and returns how it ended and what it printed; one that prints without
-/// end is killed.
+/// Runs `program` to its end, on one thread: with several, sums come in any order. Returns how it ended and
+/// what it printed; one that prints without end is killed.
 fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
-    let fault = |what: String| {
+    let fault = |how: &str, why: io::Error| {
         let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
                    its program";
-        InputError::new("ccx", what, fix)
+        InputError::new("ccx", format!("{program} {how}: {why}"), fix)
     };
-    let (mut child, output) = start(program, args, folder)
-        .map_err(|why| fault(format!("{program} cannot be started: {why}")))?;
-    let printed = files::read_from(output, PRINTED);
-    if printed.is_err() {
-        // One that has ended by itself cannot be killed.
-        let _ = child.kill();
-    }
-    let status = child.wait();
-    let read = printed.and_then(|bytes| Ok((status?, bytes)));
-    let (status, bytes) = read.map_err(|why| {
-        fault(format!("{program} was ended, as its output cannot be read: {why}"))
-    })?;
+    let start = || {
+        // A path is that of the folder where this program was started, a name that of a program.
+        let path = Path::new(program);
+        let is_path = path.components().count() > 1;
+        let mut command =
+            Command::new(if is_path { std::path::absolute(path)? } else { path.into() });
+        command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1");
+        child::start(command)
+    };
+    let running = start().map_err(|why| fault("cannot be started", why))?;
+    let ended = running.end(PRINTED);
+    let (status, bytes) =
+        ended.map_err(|why| fault("was ended, as its output cannot be read", why))?;
     Ok((status, String::from_utf8_lossy(&bytes).into_owned()))
-}
-
-/// Starts `program` on one thread: with several, sums come in any order. Both of its outputs come
-/// in one.
-fn start(program: &str, args: &[&str], folder: &Path) -> io::Result<(Child, PipeReader)> {
-    let (output, input) = io::pipe()?;
-    // A path is that of the folder where this program was started, a name that of a program.
-    let program = Path::new(program);
-    let is_path = program.components().count() > 1;
-    let program = if is_path { std::path::absolute(program)? } else { program.into() };
-    let mut command = Command::new(program);
-    command.args(args).current_dir(folder).env("OMP_NUM_THREADS", "1").stdin(Stdio::null());
-    Ok((command.stdout(input.try_clone()?).stderr(input).spawn()?, output))
 }
 
 fn failed(program: &str, how: &str, output: &str) -> InputError {

@@ -1,12 +1,9 @@
 //! The answer of a run with all its digits, and how far it is from another.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use dashu_ratio::RBig;
 
 use super::blocks::Blocks;
 use super::verdict::Verdict;
-use crate::benchmark::Annulus;
 use engine::error::Error;
 use engine::{self, Request};
 use numbers::solve::{Arithmetic, ScalarName};
@@ -76,27 +73,5 @@ pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Ve
         Ok(_) if is_unilateral => Verdict::Unknown,
         Ok(_) => Verdict::of_status(false),
         Err(_) => Verdict::Wrong("exact refuses"),
-    })
-}
-
-/// The radial displacement where the quarter's diagonal meets the bore, on a mesh of `radial`
-/// divisions of the wall, against Lamé's.
-pub fn judge_by_lame(nu: f64, radial: usize) -> Result<Verdict, Error> {
-    let mut annulus = Annulus { radial, around: 2 * radial }.generate()?;
-    annulus.description.materials.0[0].1.nu = nu;
-    let request = Request::new(&annulus.build()?).variant(Variant::Unilateral);
-    let solution = engine::solve(&request, &mut |_| ())?;
-    let model = &solution.model;
-    let far = |node: &NodeId| {
-        let at = model.coordinates(*node);
-        at.iter().map(|x| (x - 10.0 * FRAC_1_SQRT_2).abs()).fold(0.0, f64::max)
-    };
-    let nearest = model.node_ids().min_by(|a, b| far(a).total_cmp(&far(b)));
-    let [x, y] = nearest.expect("a mesh has nodes").components(&solution.u);
-    // (1 + nu) p a² / (E (b² − a²)) · ((1 − 2 nu) a + b²/a): a = 10, b = 20, p = 10, E = 30000.
-    let exact = (1.0 + nu) * 1000.0 / (30000.0 * 300.0) * ((1.0 - 2.0 * nu) * 10.0 + 40.0);
-    Ok(match Verdict::of_error((x.hypot(y) - exact).abs() / exact) {
-        Verdict::Wrong("no digit") => Verdict::Wrong("locked"),
-        other => other,
     })
 }

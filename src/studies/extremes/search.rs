@@ -39,13 +39,18 @@ impl Search {
         Search { a, b: [a[0] + angle, a[1] + 1.0], n, moved, c_tll: 10.0 }
     }
 
-    /// A node above a level edge, then a sloping one, by the tolerance or by the next number to it.
-    pub fn at_tolerance(case: f64) -> Search {
-        let (case, c_tll) = (case as usize, 1e-3);
-        let (b, height) = if case < 3 { ([2.0, 0.0], 0.0) } else { ([3.0, 1.0], 0.7 / 3.0) };
-        let y: f64 = height + c_tll;
-        let y = [y.next_down(), y, y.next_up()][case % 3];
-        Search { a: [0.0, 0.0], b, n: [0.7, y], moved: [[0.0; 2]; 3], c_tll }
+    /// A node above a sloping edge, its gap longer than the tolerance by `excess` of it.
+    pub fn at_tolerance(excess: f64) -> Search {
+        let c_tll = 1e-3;
+        let n = [0.7, 0.7 / 3.0 + c_tll * (1.0 + excess)];
+        Search { a: [0.0, 0.0], b: [3.0, 1.0], n, moved: [[0.0; 2]; 3], c_tll }
+    }
+
+    /// The same with a gap as far below the tolerance as this one is above it.
+    fn below_tolerance(&self) -> Search {
+        let ([ax, ay], [bx, by], [nx, ny]) = (self.a, self.b, self.n);
+        let line = ay + (nx - ax) * (by - ay) / (bx - ax);
+        Search { n: [nx, 2.0 * (line + self.c_tll) - ny], ..*self }
     }
 
     /// What `c_cnt` finds of the node: `yt`, and whether it is in contact.
@@ -119,20 +124,23 @@ impl Quantity {
         }
     }
 
-    /// Finds it in `T`, and compares with exact numbers.
+    /// Finds it in `T`, and compares with exact numbers; a status on both sides of the tolerance.
     pub fn judge<T: Scalar>(self, search: Search) -> Result<Verdict, Error> {
-        let judge = |found: (T, bool), exact: (Exact, bool)| match self {
-            Quantity::Yt | Quantity::NormalGap => error(found.0, exact.0),
-            Quantity::Status => Verdict::of_status(found.1 == exact.1),
-        };
+        let refused = Verdict::Wrong("exact refuses");
         scope(|| match self {
-            Quantity::NormalGap => {
-                Ok(judge((search.normal_gap(), true), (search.normal_gap(), true)))
+            Quantity::NormalGap => Ok(error::<T>(search.normal_gap(), search.normal_gap())),
+            Quantity::Yt => {
+                let (found, _) = search.printed::<T>()?;
+                Ok(search.printed().map_or(refused, |(exact, _)| error(found, exact)))
             }
-            Quantity::Yt | Quantity::Status => {
-                let found = search.printed()?;
-                let exact = search.printed();
-                Ok(exact.map_or(Verdict::Wrong("exact refuses"), |exact| judge(found, exact)))
+            Quantity::Status => {
+                let mut right = true;
+                for search in [&search, &search.below_tolerance()] {
+                    let (_, found) = search.printed::<T>()?;
+                    let Ok((_, exact)) = search.printed::<Exact>() else { return Ok(refused) };
+                    right &= found == exact;
+                }
+                Ok(Verdict::of_status(right))
             }
         })
     }

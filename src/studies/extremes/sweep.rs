@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::blocks::Blocks;
 use super::search::{Quantity, Search};
 use super::verdict::Verdict;
-use super::{Generator, Known, Made, Values, answer};
+use super::{Generator, Made, answer};
 use engine::error::Error;
 use numbers::scalar::F64x2;
 use numbers::solve::ScalarName;
@@ -19,8 +19,6 @@ const LEAST: f64 = 3.0;
 struct Method {
     name: String,
     carried: f64,
-    /// Fewer digits than these count as broken.
-    least: f64,
     measure: Box<Measure>,
 }
 
@@ -34,8 +32,14 @@ impl Method {
         measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
         // An exact answer is compared as an f64.
+        // An exact answer is compared as an f64.
         let carried = f64::from(scalar.properties().digits.unwrap_or(16));
-        Method { name, carried, least: LEAST.min(carried / 2.0), measure: Box::new(measure) }
+        Method { name, carried, measure: Box::new(measure) }
+    }
+
+    /// Whether a verdict counts as broken.
+    fn is_broken(&self, verdict: &Verdict) -> bool {
+        verdict.breaks_down(LEAST.min(self.carried / 2.0))
     }
 
     fn verdict(&self, value: f64) -> Verdict {
@@ -43,13 +47,13 @@ impl Method {
     }
 }
 
-/// Whether methods are tried in a scalar: those that keep a bound compute as those that they bound, and exact
-/// numbers are what all are compared with.
-fn is_tried(scalar: ScalarName) -> bool {
-    match scalar {
+/// The scalars that are tried: those that keep a bound compute as those that they bound, and exact numbers are
+/// what all are compared with.
+fn tried() -> impl Iterator<Item = ScalarName> {
+    ScalarName::ALL.iter().copied().filter(|scalar| match scalar {
         ScalarName::F32 | ScalarName::F64 | ScalarName::F64x2 => true,
         ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => false,
-    }
+    })
 }
 
 /// What is tried on blocks: `tied` in each scalar, the others in f64.
@@ -61,16 +65,6 @@ fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
         Method::new(format!("{variant} {scalar}"), scalar, measure)
     };
     tied.chain(others).map(method).collect()
-}
-
-/// The blocks' Poisson's ratio on an annulus, which locks long before the arithmetic breaks down.
-fn by_lame(blocks: fn(f64) -> Blocks) -> Vec<Method> {
-    let method = |radial| {
-        let name = format!("f64, {radial} x {} mesh against Lame", 2 * radial);
-        let measure = move |x| answer::judge_by_lame(blocks(x).nu, radial);
-        Method { least: 1.0, ..Method::new(name, ScalarName::F64, measure) }
-    };
-    [4, 16].map(method).into()
 }
 
 /// What is tried on a search: each quantity in each scalar.
@@ -89,10 +83,6 @@ fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> 
     each.map(method).collect()
 }
 
-fn tried() -> impl Iterator<Item = ScalarName> {
-    ScalarName::ALL.iter().copied().filter(|scalar| is_tried(*scalar))
-}
-
 /// What the methods made of the scenes of a generator.
 #[derive(Clone, Debug, Serialize)]
 pub struct SweepTable {
@@ -102,12 +92,8 @@ pub struct SweepTable {
     pub title: &'static str,
     /// What was swept, with its unit.
     pub magnitude: &'static str,
-    /// The magnitudes in words.
-    pub labels: Vec<String>,
-    /// The magnitudes; the number of a case, from 1, where they are no numbers.
+    /// The magnitudes, powers of ten.
     pub magnitudes: Vec<f64>,
-    /// Whether the magnitudes are powers of ten.
-    pub logarithmic: bool,
     /// The verdicts, a column for each method.
     pub columns: Vec<Column>,
 }
@@ -136,107 +122,64 @@ pub struct Break {
     pub verdict: Verdict,
 }
 
-impl Generator {
-    fn methods(&self) -> Vec<Method> {
-        let of = |known: &Known| match (known, self.made) {
-            (Known::Exact, Made::Blocks(blocks)) => on_blocks(blocks),
-            (Known::Exact, Made::Search(search, of)) => on_search(search, of),
-            (Known::Lame, Made::Blocks(blocks)) => by_lame(blocks),
-            (Known::Lame, Made::Search(..)) => Vec::new(),
-        };
-        self.known.iter().flat_map(of).collect()
+/// A power of ten. A whole one is read, not computed: correctly rounded on every machine.
+fn power(exponent: f64) -> f64 {
+    match exponent.fract() == 0.0 {
+        true => format!("1e{exponent}").parse().expect("a number"),
+        false => 10f64.powf(exponent),
     }
+}
 
-    /// Runs all methods on all values.
+impl Generator {
+    /// Runs all methods on all powers of ten.
     pub(super) fn measure(&self) -> SweepTable {
-        let Generator { name, title, magnitude, ref values, .. } = *self;
-        let points = values.points();
-        let logarithmic = matches!(values, Values::Decades { .. });
-        let of = |p: &i32| values.value(f64::from(*p)) + if logarithmic { 0.0 } else { 1.0 };
-        let column = |method: &Method| {
-            let at = |p: &i32| method.verdict(values.value(f64::from(*p)));
-            values.column(method, points.par_iter().map(at).collect())
+        let (from, to, step) = self.decades;
+        let exponents: Vec<f64> = (from..=to).step_by(step).map(f64::from).collect();
+        let methods = match self.made {
+            Made::Blocks(blocks) => on_blocks(blocks),
+            Made::Search(search, quantities) => on_search(search, quantities),
         };
         SweepTable {
-            name,
-            title,
-            magnitude,
-            labels: points.iter().map(|p| values.label(*p)).collect(),
-            magnitudes: points.iter().map(of).collect(),
-            logarithmic,
-            columns: self.methods().par_iter().map(column).collect(),
+            name: self.name,
+            title: self.title,
+            magnitude: self.magnitude,
+            magnitudes: exponents.iter().map(|e| power(*e)).collect(),
+            columns: methods.par_iter().map(|method| column(method, &exponents)).collect(),
         }
     }
 }
 
-impl Values {
-    fn points(&self) -> Vec<i32> {
-        match *self {
-            Values::Decades { from, to, step } => (from..=to).step_by(step).collect(),
-            Values::Cases(names) => (0..names.len() as i32).collect(),
-        }
-    }
-
-    fn label(&self, point: i32) -> String {
-        match self {
-            Values::Decades { .. } => format!("1e{point}"),
-            Values::Cases(names) => names[point as usize].into(),
-        }
-    }
-
-    fn value(&self, point: f64) -> f64 {
-        match self {
-            // A power of ten is read, not computed: correctly rounded on every machine.
-            Values::Decades { .. } if point.fract() == 0.0 => {
-                format!("1e{point}").parse().expect("a number")
-            }
-            Values::Decades { .. } => 10f64.powf(point),
-            Values::Cases(_) => point,
-        }
-    }
-
-    /// Finds where a method breaks down that was judged at each point.
-    fn column(&self, method: &Method, verdicts: Vec<Verdict>) -> Column {
-        let points = self.points();
-        let at = |point: f64| method.verdict(self.value(point));
-        let (below, above) = match self {
-            Values::Cases(_) => (None, None),
-            Values::Decades { .. } => {
-                let known: Vec<(i32, &Verdict)> = points.iter().copied().zip(&verdicts).collect();
-                let start = points.partition_point(|p| *p < 0);
-                let downwards = known[..=start].iter().rev();
-                (breakdown(downwards, method, at), breakdown(known[start..].iter(), method, at))
-            }
-        };
-        Column { name: method.name.clone(), carried: method.carried, verdicts, below, above }
-    }
+/// Judges a method at each power of ten, and finds where it breaks down on both sides of 1.
+fn column(method: &Method, exponents: &[f64]) -> Column {
+    let verdicts: Vec<_> = exponents.par_iter().map(|e| method.verdict(power(*e))).collect();
+    let known: Vec<(f64, &Verdict)> = exponents.iter().copied().zip(&verdicts).collect();
+    let start = exponents.partition_point(|e| *e < 0.0);
+    let below = breakdown(known[..=start].iter().rev(), method);
+    let above = breakdown(known[start..].iter(), method);
+    Column { name: method.name.clone(), carried: method.carried, verdicts, below, above }
 }
 
 /// The first of the points outwards at which a method breaks down, bisected towards the point
-/// before it; nothing where there is none. `at` judges a point between.
+/// before it; nothing where there is none.
 fn breakdown<'a>(
-    outwards: impl Iterator<Item = &'a (i32, &'a Verdict)>,
+    mut outwards: impl Iterator<Item = &'a (f64, &'a Verdict)>,
     method: &Method,
-    at: impl Fn(f64) -> Verdict,
 ) -> Option<Break> {
     let mut sound = None;
-    for (point, verdict) in outwards {
-        let exponent = f64::from(*point);
-        if !verdict.breaks_down(method.least) {
+    let broken = outwards.find(|(exponent, verdict)| {
+        let broken = method.is_broken(verdict);
+        sound = if broken { sound } else { Some(*exponent) };
+        broken
+    })?;
+    let mut broken = Break { exponent: broken.0, verdict: broken.1.clone() };
+    while let Some(inner) = sound.filter(|inner| (broken.exponent - inner).abs() > 0.5) {
+        let exponent = (broken.exponent + inner) / 2.0;
+        let verdict = method.verdict(power(exponent));
+        if method.is_broken(&verdict) {
+            broken = Break { exponent, verdict };
+        } else {
             sound = Some(exponent);
-            continue;
         }
-        let mut broken = Break { exponent, verdict: (*verdict).clone() };
-        while let Some(inner) = sound.filter(|inner| (broken.exponent - inner).abs() > 0.5) {
-            let exponent = (broken.exponent + inner) / 2.0;
-            let verdict = at(exponent);
-            if verdict.breaks_down(method.least) {
-                broken = Break { exponent, verdict };
-            } else {
-                sound = Some(exponent);
-            }
-        }
-        return Some(broken);
     }
-    None
+    Some(broken)
 }

@@ -49,11 +49,12 @@ impl Verdict {
         }
     }
 
-    /// Digits kept, at most `carried`; nothing of a run that was refused or is compared with none.
+    /// Digits kept, of the exact answer all that are `carried`; nothing of a run that was refused or is
+    /// compared with none.
     pub fn digits(&self, carried: f64) -> Option<f64> {
         match self {
             Verdict::Exact => Some(carried),
-            Verdict::Digits(digits) => Some(digits.min(carried)),
+            Verdict::Digits(digits) => Some(*digits),
             Verdict::Wrong(_) => Some(0.0),
             Verdict::Refused(_) | Verdict::Unknown => None,
         }
@@ -61,12 +62,8 @@ impl Verdict {
 
     /// Whether it is refused, or has fewer than `least` digits.
     pub fn breaks_down(&self, least: f64) -> bool {
-        match self {
-            Verdict::Refused(_) => true,
-            Verdict::Exact | Verdict::Digits(_) | Verdict::Wrong(_) | Verdict::Unknown => {
-                self.digits(f64::INFINITY).is_some_and(|digits| digits < least)
-            }
-        }
+        let refused = matches!(self, Verdict::Refused(_));
+        refused || self.digits(f64::INFINITY).is_some_and(|digits| digits < least)
     }
 }
 

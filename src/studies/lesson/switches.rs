@@ -6,7 +6,7 @@ use super::{Listing, Model, Reading, Request, Scene, Settings, Which, settings};
 use crate::audit::findings::{Finding, Preparation, Repair};
 use engine::error::Result;
 use paper::listings;
-use paper::mirror::{Change, READINGS, RestraintIndex};
+use paper::mirror::{Change, READINGS};
 use problem::modelling::Variant;
 
 /// A change of one thing against the listings as printed under the default reading.
@@ -136,7 +136,7 @@ impl Switch {
 
     /// Returns whether the restraint of x is taken from that of y (R2).
     pub fn reads_restraint_of_y(&self) -> bool {
-        self.reading.r2 == RestraintIndex::Printed
+        self.reading.r2.takes_y_for_x()
     }
 
     /// Returns the worksheet's settings under the switch.

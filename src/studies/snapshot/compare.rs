@@ -4,15 +4,14 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Run;
 use super::numbers::{Number, Numbers, WITHOUT_BOUND};
-use super::place::place;
+use super::{Entry, Run};
 
 /// A difference between two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// The name of the entry.
-    pub entry: String,
+    /// What was recorded.
+    pub entry: Entry,
     /// What differs.
     #[serde(flatten)]
     pub kind: Kind,
@@ -76,44 +75,44 @@ impl Difference {
 pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
     let mut found = Vec::new();
     let mut compared = 0;
-    let keeps = |name: &str| old.keeps(name) && new.keeps(name);
+    let keeps = |entry: Entry| old.keeps(entry) && new.keeps(entry);
     unmatched(&mut found, &old.facts, &new.facts, keeps);
     unmatched(&mut found, &old.numbers, &new.numbers, keeps);
-    for (name, was) in old.facts.iter().filter(|(name, _)| keeps(name)) {
-        let Some(is) = new.facts.get(name) else { continue };
+    for (entry, was) in old.facts.iter().filter(|(entry, _)| keeps(**entry)) {
+        let Some(is) = new.facts.get(entry) else { continue };
         compared += 1;
         if was != is {
-            found.push(difference(name, Kind::Fact { was: was.clone(), is: is.clone() }));
+            found.push(difference(*entry, Kind::Fact { was: was.clone(), is: is.clone() }));
         }
     }
-    for (name, was) in old.numbers.iter().filter(|(name, _)| keeps(name)) {
-        let Some(is) = new.numbers.get(name) else { continue };
+    for (entry, was) in old.numbers.iter().filter(|(entry, _)| keeps(**entry)) {
+        let Some(is) = new.numbers.get(entry) else { continue };
         compared += was.places().len();
         if was.unit != is.unit {
             let kind = Kind::Unit { was: was.unit.clone(), is: is.unit.clone() };
-            found.push(difference(name, kind));
+            found.push(difference(*entry, kind));
         }
-        found.extend(numbers(was, is).map(|kind| difference(name, kind)));
+        found.extend(numbers(was, is).map(|kind| difference(*entry, kind)));
     }
-    found.sort_by_cached_key(|difference| place(&difference.entry));
+    found.sort_by_key(|difference| difference.entry.place());
     (found, compared)
 }
 
-fn difference(entry: &str, kind: Kind) -> Difference {
-    Difference { entry: entry.into(), kind }
+fn difference(entry: Entry, kind: Kind) -> Difference {
+    Difference { entry, kind }
 }
 
 /// Adds the entries that one side alone has, of those that `keeps` names.
 fn unmatched<T>(
     found: &mut Vec<Difference>,
-    old: &IndexMap<String, T>,
-    new: &IndexMap<String, T>,
-    keeps: impl Fn(&str) -> bool,
+    old: &IndexMap<Entry, T>,
+    new: &IndexMap<Entry, T>,
+    keeps: impl Fn(Entry) -> bool,
 ) {
-    let lost = old.keys().filter(|name| keeps(name) && !new.contains_key(*name));
-    found.extend(lost.map(|name| difference(name, Kind::Missing)));
-    let added = new.keys().filter(|name| keeps(name) && !old.contains_key(*name));
-    found.extend(added.map(|name| difference(name, Kind::Extra)));
+    let lost = old.keys().filter(|entry| keeps(**entry) && !new.contains_key(*entry));
+    found.extend(lost.map(|entry| difference(*entry, Kind::Missing)));
+    let added = new.keys().filter(|entry| keeps(**entry) && !old.contains_key(*entry));
+    found.extend(added.map(|entry| difference(*entry, Kind::Extra)));
 }
 
 /// Returns how two arrays differ; None where they do not.

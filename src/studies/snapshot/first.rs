@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::Run;
 use super::compare::{Difference, Kind};
-use super::place::{iteration, of_iteration};
+use super::{Entry, Quantity};
 use engine::Decision;
 use mathcad::Conjunction;
 use mathcad::array::Column;
@@ -18,7 +18,7 @@ use problem::modelling::StatusRule;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct First {
     /// The entry that differs: `iteration 2 yt`, `u`.
-    pub entry: String,
+    pub entry: Entry,
     /// The number of the node where it differs, of numbers where it differs most; None where the entry
     /// is none of nodes.
     pub node: Option<u64>,
@@ -44,42 +44,40 @@ pub struct Status {
 /// Returns where two runs first differ; None where no `differences` of what both have are known.
 pub fn first(old: &Run, new: &Run, differences: &[Difference]) -> Option<First> {
     let first = differences.iter().find(|difference| difference.is_in_both())?;
-    let decides = |quantity| ["ct", "dy", "statuses"].contains(&quantity);
     let of_status = differences.iter().find(|difference| {
         matches!(difference.kind, Kind::Fact { .. })
-            && iteration(&difference.entry).is_some_and(|(_, quantity)| decides(quantity))
+            && matches!(difference.entry.quantity, Quantity::Ct | Quantity::Dy | Quantity::Statuses)
     });
     let status = of_status.and_then(|difference| status(old, new, difference));
-    Some(First { entry: first.entry.clone(), node: node(old, first), status })
+    Some(First { entry: first.entry, node: node(old, first), status })
 }
 
 /// Returns the node where an entry differs.
 fn node(run: &Run, difference: &Difference) -> Option<u64> {
-    let quantity = iteration(&difference.entry).map_or(&difference.entry[..], |(_, name)| name);
+    let Entry { iteration, quantity } = difference.entry;
     match (&difference.kind, quantity) {
-        (Kind::Fact { was, is }, "ct" | "dy" | "statuses") => {
+        (Kind::Fact { was, is }, Quantity::Ct | Quantity::Dy | Quantity::Statuses) => {
             let (was, is) = (was.as_array()?, is.as_array()?);
             contact_node(run, was.iter().zip(is).position(|(was, is)| was != is)?)
         }
-        (Kind::Numbers(worst), "yt") => contact_node(run, worst.at as usize - 1),
-        (Kind::Numbers(worst), "u" | "reactions" | "gap" | "pressure")
-            if iteration(&difference.entry).is_none() =>
-        {
-            Some(worst.at as u64)
-        }
+        (Kind::Numbers(worst), Quantity::Yt) => contact_node(run, worst.at as usize - 1),
+        (
+            Kind::Numbers(worst),
+            Quantity::U | Quantity::Reactions | Quantity::Gap | Quantity::Pressure,
+        ) if iteration.is_none() => Some(worst.at as u64),
         _ => None,
     }
 }
 
 /// Returns the number of the node at a place of the contact surface, from 0.
 fn contact_node(run: &Run, i: usize) -> Option<u64> {
-    run.facts.get("cnt")?.get(i)?.as_u64()
+    run.fact(Quantity::Cnt)?.get(i)?.as_u64()
 }
 
 /// Returns the target edge or the status that differs; None where the contact surfaces do.
 fn status(old: &Run, new: &Run, difference: &Difference) -> Option<Status> {
-    let (k, _) = iteration(&difference.entry)?;
-    let (cnt, other) = (old.facts.get("cnt")?.as_array()?, new.facts.get("cnt")?.as_array()?);
+    let k = difference.entry.iteration?;
+    let (cnt, other) = (old.fact(Quantity::Cnt)?.as_array()?, new.fact(Quantity::Cnt)?.as_array()?);
     let pairs = (0..cnt.len()).map(|i| Some((i, found(old, k, i)?, found(new, k, i)?)));
     let differs = |(_, was, is): &(usize, Found, Found)| {
         (was.ct, was.dy, &was.status) != (is.ct, is.dy, &is.status)
@@ -111,23 +109,24 @@ struct Found {
 }
 
 fn found(run: &Run, k: usize, i: usize) -> Option<Found> {
-    let fact = |quantity: &str| run.facts.get(&of_iteration(k, quantity))?.get(i);
-    let yt = run.numbers.get(&of_iteration(k, "yt"))?;
+    let of = |quantity| Entry { iteration: Some(k), quantity };
+    let fact = |quantity| run.fact(of(quantity))?.get(i);
+    let yt = run.numbers.get(&of(Quantity::Yt))?;
     Some(Found {
-        ct: fact("ct")?.as_u64()?,
-        dy: fact("dy")?.as_u64()?,
+        ct: fact(Quantity::Ct)?.as_u64()?,
+        dy: fact(Quantity::Dy)?.as_u64()?,
         yt: yt.listed(i)?,
         before: i.checked_sub(1).and_then(|i| yt.listed(i)),
         after: yt.listed(i + 1),
-        c_tll: run.numbers.get("c_tll")?.listed(0)?,
-        status: fact("statuses").and_then(Value::as_str).map(String::from),
+        c_tll: run.numbers.get(&Entry::from(Quantity::Tolerance))?.listed(0)?,
+        status: fact(Quantity::Statuses).and_then(Value::as_str).map(String::from),
     })
 }
 
 /// Returns whether lines 16 to 18 of `c_cnt` decide who is in contact.
 fn follows_listing(run: &Run) -> bool {
     run.options.status.is_none_or(StatusRule::is_printed)
-        && !run.facts.keys().any(|name| name.ends_with(" statuses"))
+        && !run.facts.keys().any(|entry| entry.quantity == Quantity::Statuses)
 }
 
 /// Returns the line of `c_cnt` that decides otherwise.

@@ -14,11 +14,11 @@
 mod accept;
 mod changes;
 mod compare;
+mod entry;
 mod first;
 mod input;
 mod numbers;
 mod options;
-mod place;
 mod record;
 mod verify;
 
@@ -40,11 +40,11 @@ pub use accept::accept;
 pub use base::files::json::{FORMAT, VERSION};
 pub use changes::Change;
 pub use compare::{Difference, Kind, compare};
+pub use entry::{Entry, FIELDS, Quantity};
 pub use first::{First, Status};
 pub use input::Input;
 pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
 pub use options::Options;
-pub use place::FIELDS;
 pub use record::{Bounds, record};
 pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
 
@@ -76,9 +76,9 @@ pub struct Run {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub only: Option<Vec<String>>,
     /// What is the same or not.
-    pub facts: IndexMap<String, Value>,
+    pub facts: IndexMap<Entry, Value>,
     /// What is the same within bounds.
-    pub numbers: IndexMap<String, Numbers>,
+    pub numbers: IndexMap<Entry, Numbers>,
     /// The decisions on who is in contact that rounding may have taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub decided_by_rounding: Vec<Decision>,
@@ -92,19 +92,19 @@ impl Run {
 
     /// Brings facts and numbers into the order of computation.
     fn sort(&mut self) {
-        self.facts.sort_by_cached_key(|name, _| place::place(name));
-        self.numbers.sort_by_cached_key(|name, _| place::place(name));
+        self.facts.sort_by_cached_key(|entry, _| entry.place());
+        self.numbers.sort_by_cached_key(|entry, _| entry.place());
     }
 
     /// Returns whether an entry is one that the run was asked to record.
-    fn keeps(&self, entry: &str) -> bool {
+    fn keeps(&self, entry: Entry) -> bool {
         is_kept(&self.only, entry)
     }
 
     /// Leaves out what is not among the numbers `only`, where these are given.
     fn keep_only(&mut self, only: Option<Vec<String>>) {
-        self.facts.retain(|name, _| is_kept(&only, name));
-        self.numbers.retain(|name, _| is_kept(&only, name));
+        self.facts.retain(|entry, _| is_kept(&only, *entry));
+        self.numbers.retain(|entry, _| is_kept(&only, *entry));
         self.only = only;
     }
 
@@ -127,14 +127,21 @@ impl Run {
 
     /// Returns the exit status of `solve` on this run, where the run has that fact.
     pub fn exit_status(&self) -> Option<u64> {
-        self.facts.get("exit status")?.as_u64()
+        self.fact(Quantity::ExitStatus)?.as_u64()
+    }
+
+    /// Returns a fact that was recorded.
+    pub fn fact(&self, of: impl Into<Entry>) -> Option<&Value> {
+        self.facts.get(&of.into())
     }
 }
 
 /// Returns whether an entry is recorded where the numbers `only` are asked for.
-fn is_kept(only: &Option<Vec<String>>, entry: &str) -> bool {
-    let is_among = |only: &Vec<String>| only.iter().any(|name| name == entry);
-    only.as_ref().is_none_or(|only| is_among(only) || place::FACTS.contains(&entry))
+fn is_kept(only: &Option<Vec<String>>, entry: Entry) -> bool {
+    let of_run = |quantity: &Quantity| entry == Entry::from(*quantity);
+    let is_among =
+        |only: &Vec<String>| FIELDS.iter().any(|q| of_run(q) && only.iter().any(|n| n == q.name()));
+    only.as_ref().is_none_or(|only| is_among(only) || entry::FACTS.iter().any(of_run))
 }
 
 /// Checks that there are numbers of the end of a run by that name.
@@ -142,12 +149,13 @@ fn is_kept(only: &Option<Vec<String>>, entry: &str) -> bool {
 /// # Errors
 /// There are none.
 fn check_field(name: &str) -> Result<()> {
-    if FIELDS.contains(&name) {
+    let known = FIELDS.map(Quantity::name);
+    if known.contains(&name) {
         return Ok(());
     }
-    let meant = did_you_mean(name, FIELDS.iter().copied());
+    let meant = did_you_mean(name, known);
     let what = format!("no numbers at the end of a run are named {name:?}");
-    Err(InputError::new("only", what, format!("{meant}they are: {}", FIELDS.join(", "))))
+    Err(InputError::new("only", what, format!("{meant}they are: {}", known.join(", "))))
 }
 
 impl Snapshot {

@@ -29,7 +29,7 @@ pub struct Numbers {
 
 /// The numbers of an array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "values are numbers, or rows of a number and its values")]
 pub enum Values {
     /// A number for each place.
     List(Vec<Number>),

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::options::Options;
-use super::place::of_iteration;
+use super::{Entry, Quantity};
 use engine::contact::{ContactNode, Pairing};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
@@ -57,10 +57,10 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
         of.iteration(&mut run, step, bounds);
     }
-    run.facts.insert("iterations".into(), json!(steps.len()));
+    run.facts.insert(Quantity::Iterations.into(), json!(steps.len()));
     let (status, failure) = outcome(&solved);
-    run.facts.insert("exit status".into(), json!(status));
-    run.facts.insert("failure".into(), failure);
+    run.facts.insert(Quantity::ExitStatus.into(), json!(status));
+    run.facts.insert(Quantity::Failure.into(), failure);
     let solution = match solved {
         Err(why @ Error::Input(_)) => return Err(why),
         solved => solved.ok(),
@@ -110,20 +110,23 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     let units = &request.scene.units;
     let contact: Vec<usize> = model.contact.nodes.iter().map(|node| node.number()).collect();
     let target: Vec<usize> = model.target_edges().map(|edge| edge.number).collect();
-    run.facts.insert("cnt".into(), json!(contact));
-    run.facts.insert("trg".into(), json!(target));
+    run.facts.insert(Quantity::Cnt.into(), json!(contact));
+    run.facts.insert(Quantity::Trg.into(), json!(target));
     let restrained = model.all_dofs().filter(|dof| model.is_restrained(*dof));
     let restrained: Vec<String> =
         restrained.map(|dof| format!("{}{}", dof.node(), dof.axis())).collect();
-    run.facts.insert("restrained".into(), json!(restrained));
+    run.facts.insert(Quantity::Restrained.into(), json!(restrained));
     let given = Rounded { bound: Some(0.0), floor: 0.0 };
-    run.numbers
-        .insert("c_tll".into(), Numbers::list(&units.length, [model.contact.tolerance], given));
+    run.numbers.insert(
+        Quantity::Tolerance.into(),
+        Numbers::list(&units.length, [model.contact.tolerance], given),
+    );
     let load: f64 = model.load.iter().map(|f| f.abs()).sum();
     // An edge's load is computed with a square root and some products.
     let bound = load * ROUNDED;
     let error = Rounded { bound: Some(bound), floor: bound };
-    run.numbers.insert("load".into(), Numbers::list(&units.force, model.total_load(), error));
+    run.numbers
+        .insert(Quantity::Load.into(), Numbers::list(&units.force, model.total_load(), error));
 }
 
 /// The sizes of which positions and distances are differences, length.
@@ -170,7 +173,7 @@ impl Recorded<'_> {
     /// Records an iteration, whose numbers are known within `bounds`.
     fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
         let units = &self.request.scene.units;
-        let name = |quantity: &str| of_iteration(step.k, quantity);
+        let of = |quantity| Entry { iteration: Some(step.k), quantity };
         let moved = self.scale.displacement_error(bounds.is_some());
         let distance = self.scale.distance(moved);
         let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
@@ -179,31 +182,35 @@ impl Recorded<'_> {
         if let Detail::Unilateral(own) = &step.detail {
             // Where a node closes divides a step, so that this is a number like others.
             run.numbers.insert(
-                name("load"),
+                of(Quantity::Load),
                 Numbers::list("", [own.load], Rounded { bound: None, floor: ROUNDED }),
             );
             let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
-            run.facts.insert(name("statuses"), json!(statuses));
+            run.facts.insert(of(Quantity::Statuses), json!(statuses));
         }
         let (faced, distances) = self.faced(step);
-        run.facts.insert(name("ct"), json!(faced));
-        run.numbers.insert(name("yt"), Numbers::list(&units.length, distances, yt));
+        run.facts.insert(of(Quantity::Ct), json!(faced));
+        run.numbers.insert(of(Quantity::Yt), Numbers::list(&units.length, distances, yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
-        run.facts.insert(name("dy"), json!(dy));
-        run.facts.insert(name("in contact"), json!(step.contact_set(self.model)));
+        run.facts.insert(of(Quantity::Dy), json!(dy));
+        run.facts.insert(of(Quantity::InContact), json!(step.contact_set(self.model)));
         let (mates, of_mates) = mates(step);
-        run.facts.insert(name("mates"), json!(mates));
-        run.numbers.insert(name("weights"), Numbers::list("", of_mates, weights));
+        run.facts.insert(of(Quantity::Mates), json!(mates));
+        run.numbers.insert(of(Quantity::Weights), Numbers::list("", of_mates, weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
-            Some(cycle) => run.numbers.get(&of_iteration(cycle.members[0], "MJS")).cloned(),
+            Some(cycle) => {
+                let iteration = Some(cycle.members[0]);
+                run.numbers.get(&Entry { iteration, quantity: Quantity::Mjs }).cloned()
+            }
             None => self.matrix(step, weights),
         };
-        run.numbers.extend(matrix.map(|matrix| (name("MJS"), matrix)));
+        run.numbers.extend(matrix.map(|matrix| (of(Quantity::Mjs), matrix)));
         let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
         let largest = Numbers::list(&units.length, Some(step.max_displacement), error);
-        run.numbers.insert(name("u"), largest);
-        run.facts.insert(name("cycle"), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
+        run.numbers.insert(of(Quantity::U), largest);
+        run.facts
+            .insert(of(Quantity::Cycle), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
     }
 
     /// Returns the number of each contact node's target edge, 0 for none, and its distance from it,
@@ -319,30 +326,30 @@ fn end(
         None => Rounded::default(),
         Some((bound, floor)) => Rounded { bound: bound.as_ref().map(of), floor: of(floor) },
     };
-    let mut set = |name: &str, numbers: Numbers| run.numbers.insert(name.into(), numbers);
+    let mut set = |of: Quantity, numbers: Numbers| run.numbers.insert(of.into(), numbers);
     let u = (1..).zip(solution.displacements());
-    set("u", Numbers::rows(&units.length, u, error(|errors| errors.displacement)));
+    set(Quantity::U, Numbers::rows(&units.length, u, error(|errors| errors.displacement)));
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
     let stresses = (1..).zip(stresses);
-    set("stress", Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)));
+    set(Quantity::Stress, Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)));
     let von_mises = largest(solution, |state| state.von_mises_stress);
     let von_mises = Numbers::list(&units.stress, von_mises, error(|errors| errors.von_mises));
-    set("largest von Mises stress", von_mises);
+    set(Quantity::VonMisesStress, von_mises);
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains, error(|errors| errors.strain));
-    set("largest von Mises strain", strains);
+    set(Quantity::VonMisesStrain, strains);
     let force = stiffness.times(&solution.u) - &model.load;
     let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
     let reactions = restrained.map(|node| {
         let (of_node, restrained) = (node.components(&force), model.restraints_of(node));
         (node.number(), [0, 1].map(|d| if restrained[d] { of_node[d] } else { 0.0 }))
     });
-    set("reactions", Numbers::rows(&units.force, reactions, error(|errors| errors.force)));
+    set(Quantity::Reactions, Numbers::rows(&units.force, reactions, error(|errors| errors.force)));
     let nodes = || solution.contact.iter();
     let gaps = nodes().map(|c| (c.node.number(), [c.gap]));
-    set("gap", Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
+    set(Quantity::Gap, Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
     let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
-    set("pressure", Numbers::rows(&units.stress, known, error(|errors| errors.pressure)));
+    set(Quantity::Pressure, Numbers::rows(&units.stress, known, error(|errors| errors.pressure)));
 }
 
 /// Returns the largest value of each body, by triangle.

@@ -5,13 +5,15 @@ use rayon::prelude::*;
 use super::changes::{Change, Side, changes};
 use super::compare::{Difference, compare};
 use super::first::{First, first};
-use super::place::iteration;
 use super::record::{Bounds, record};
+use super::{Entry, Quantity};
 use super::{Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
+use engine::Request;
 use engine::error::Result;
+use engine::estimates::perturbed_requests;
 use problem::modelling::Variant;
-use problem::scene::{Scene, SceneBuilder};
+use problem::scene::Scene;
 
 /// What came of verifying a snapshot.
 #[derive(Clone, Debug)]
@@ -125,7 +127,7 @@ fn verify_run(
     // Equal bits need no bounds, which take another run.
     let run = rerun(Bounds::LeftOut)?;
     let (differences, compared) = compare(old, &run);
-    let has_bits = |(name, was): (&String, &Numbers)| {
+    let has_bits = |(name, was): (&Entry, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     if differences.is_empty() && old.numbers.iter().all(has_bits) {
@@ -133,7 +135,7 @@ fn verify_run(
     }
     let run = rerun(Bounds::Computed)?;
     let (differences, _) = compare(old, &run);
-    if let Some(first) = decided_by_rounding(input, &run, &differences)? {
+    if let Some(first) = decided_by_rounding(&request, &run, &differences)? {
         let (_, compared) = compare(&without_path(old, first), &without_path(&run, first));
         let run = VerifiedRun::new(name, Presence::Both, run);
         return Ok(VerifiedRun { compared, path: Some(first), ..run });
@@ -158,34 +160,25 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
     Verified { input: new.input.clone(), runs: compared.chain(added).collect() }
 }
 
-/// The changes of the moduli by which rounding is tried, in units of 2^-52: as small as rounding itself.
-const TRIALS: [f64; 6] = [-1.0, 1.0, -2.0, 2.0, -3.0, 3.0];
-
 /// Returns the first iteration of the `differences` of a run from an earlier one where these are of the
-/// path alone, and rounding decides it: with moduli that differ in their last digit the run takes another
+/// path alone, and rounding decides it: with inputs that differ in their last digits the run takes another
 /// path there too, or before.
 ///
 /// # Errors
-/// The scene with such moduli is at fault.
+/// The scene with such inputs is at fault.
 fn decided_by_rounding(
-    input: &Input,
+    request: &Request,
     run: &Run,
     differences: &[Difference],
 ) -> Result<Option<usize>> {
     let Some(first) = first_iteration(differences) else { return Ok(None) };
     if run.options.variant != Some(Variant::Unilateral)
-        || !differences.iter().all(|d| is_of_path(&d.entry, first))
+        || !differences.iter().all(|d| is_of_path(d.entry, first))
     {
         return Ok(None);
     }
-    for units in TRIALS {
-        let mut description = input.scene.clone();
-        for (_, material) in &mut description.materials.0 {
-            material.e *= 1.0 + units * f64::EPSILON;
-        }
-        let (name, mesh) = (input.name.clone(), input.mesh.clone());
-        let scene = SceneBuilder { name, mesh, description }.build()?;
-        let changed = record(&run.options.request(&scene), Bounds::LeftOut)?;
+    for request in perturbed_requests(request) {
+        let changed = record(&request, Bounds::LeftOut)?;
         if first_iteration(&compare(run, &changed).0).is_some_and(|other| other <= first) {
             return Ok(Some(first));
         }
@@ -196,16 +189,16 @@ fn decided_by_rounding(
 /// Returns a run without its path from iteration `first` on.
 fn without_path(run: &Run, first: usize) -> Run {
     let mut run = run.clone();
-    run.facts.retain(|name, _| !is_of_path(name, first));
-    run.numbers.retain(|name, _| !is_of_path(name, first));
+    run.facts.retain(|name, _| !is_of_path(*name, first));
+    run.numbers.retain(|name, _| !is_of_path(*name, first));
     run
 }
 
-fn is_of_path(entry: &str, first: usize) -> bool {
-    entry == "iterations" || iteration(entry).is_some_and(|(k, _)| k >= first)
+fn is_of_path(entry: Entry, first: usize) -> bool {
+    entry == Quantity::Iterations.into() || entry.iteration.is_some_and(|k| k >= first)
 }
 
 /// Returns the first iteration of which something differs; None where nothing does.
 fn first_iteration(differences: &[Difference]) -> Option<usize> {
-    differences.iter().filter_map(|d| Some(iteration(&d.entry)?.0)).min()
+    differences.iter().filter_map(|d| d.entry.iteration).min()
 }

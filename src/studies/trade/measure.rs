@@ -6,18 +6,16 @@ use rayon::prelude::*;
 
 use super::Varied;
 use super::errors::{Errors, meshes, prolonged};
-use super::geometry::{geometry, places};
 use super::order::Order;
 use super::rows::{Row, Section, Trade};
-use super::trials::{ErrorReference, Setting, Trial, trials};
-use crate::audit::Case;
+use super::trials::{ErrorReference, Setting, Trial, judges, trials};
 use engine::error::Error;
 use engine::estimates::{Certainty, certain};
 use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
 use problem::scene::{Refined, Scene};
 
 /// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
-pub const PATIENCE: f64 = 0.05;
+const PATIENCE: f64 = 0.05;
 
 /// What is measured, and how often.
 #[derive(Clone, Debug)]
@@ -28,70 +26,37 @@ pub struct Options {
     pub only: Vec<Varied>,
 }
 
-/// Turns the parameters of `request` and measures what comes of each place. `peak` gives a trial's peak
-/// memory, of several trials at once, `watch` is called after each run with what was run.
+/// Turns the parameters of `request` and measures what comes of each place; `watch` is called after each run
+/// with what was run.
 ///
 /// # Errors
 /// The scene cannot be refined. A trial that fails is a row that says why.
-pub fn measure(
-    request: &Request,
-    options: &Options,
-    peak: impl Fn(&Trial) -> Option<u64> + Sync,
-    watch: impl Fn(&str) + Sync,
-) -> Result<Trade, Error> {
-    let model = &request.scene.model;
-    let reference = model.target().and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
-    let is_asked = |parameter: &Varied| options.only.contains(parameter);
-    let case = Case::from_request(request.clone())?;
-    let places = is_asked(&Varied::Geometry).then(|| places(request)).transpose()?;
-    let (mut sections, mut all) = (Vec::new(), Vec::new());
-    for parameter in Varied::ALL.iter().copied().filter(is_asked).filter(|k| *k != Varied::Geometry)
-    {
-        let trials = trials(request, parameter);
+pub fn measure(request: &Request, options: &Options, watch: impl Fn(&str)) -> Result<Trade, Error> {
+    let Request { scene, .. } = request;
+    let reference = scene.model.target();
+    let reference = reference.and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
+    let mut sections = Vec::new();
+    for parameter in Varied::ALL.iter().filter(|parameter| options.only.contains(parameter)) {
+        let trials = trials(request, *parameter);
         let runs = timed(request, &trials, options.runs, &watch)?;
         let is_refined = |trial: &&Trial| matches!(trial.setting, Setting::Refined(1..));
-        let meshes = meshes(&request.scene, trials.iter().filter(is_refined).count())?;
-        let reference = reference.as_ref();
+        let meshes = meshes(scene, trials.iter().filter(is_refined).count())?;
         let bench =
-            Bench { scene: &request.scene, trials: &trials, runs: &runs, meshes, reference };
-        sections.push(bench.section(parameter));
-        all.extend(trials);
+            Bench { scene, trials: &trials, runs: &runs, meshes, reference: reference.as_ref() };
+        sections.push(bench.section(*parameter));
     }
-    let peak_of = |trial: &Trial| {
-        let bytes = peak(trial);
-        watch("peak memory");
-        bytes
-    };
-    // Nothing more is timed: what is left is computed side by side, in other processes too.
-    let (peaks, geometry): (Vec<Option<u64>>, _) = rayon::join(
-        || all.par_iter().map(peak_of).collect(),
-        || places.map(|places| geometry(&case, &places, &watch)),
-    );
-    let rows = sections.iter_mut().flat_map(|section: &mut Section| &mut section.rows);
-    rows.zip(peaks)
-        .for_each(|(row, bytes)| row.peak_bytes = bytes.filter(|_| row.seconds.is_some()));
-    sections.extend(geometry);
     Ok(Trade {
-        scene: request.scene.name.clone(),
-        nodes: model.nodes.len(),
-        triangles: model.triangles.len(),
+        scene: scene.name.clone(),
+        nodes: scene.model.nodes.len(),
+        triangles: scene.model.triangles.len(),
         runs: options.runs,
         sections,
     })
 }
 
 /// How many times [`measure`] calls `watch`.
-///
-/// # Errors
-/// Those of the parameter *geometry*.
-pub fn steps(request: &Request, options: &Options) -> Result<usize, Error> {
-    options.only.iter().try_fold(0, |steps, parameter| {
-        Ok(steps
-            + match parameter {
-                Varied::Geometry => places(request)?.len(),
-                parameter => trials(request, *parameter).len() * (options.runs + 1),
-            })
-    })
+pub fn steps(request: &Request, options: &Options) -> usize {
+    options.only.iter().map(|parameter| trials(request, *parameter).len() * options.runs).sum()
 }
 
 /// The runs of a trial: how long each took, and what all of them computed.
@@ -132,7 +97,7 @@ fn timed(
                 }
                 runs[place].seconds.push(seconds);
             }
-            watch(&trial.name());
+            watch(&format!("{} {} {}", trial.parameter, trial.variant, trial.label));
         }
     }
     Ok(trials.par_iter().zip(runs).map(|(trial, run)| judged(trial.parameter, run)).collect())
@@ -146,18 +111,6 @@ fn judged(parameter: Varied, run: Run) -> Run {
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
         solution => Run { solution, ..run },
-    }
-}
-
-/// Whether a parameter is one of the paper's, whose verdict must not rest on rounding.
-fn judges(parameter: Varied) -> bool {
-    match parameter {
-        Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling => true,
-        Varied::Arithmetic
-        | Varied::Solver
-        | Varied::Mesh
-        | Varied::Symmetry
-        | Varied::Geometry => false,
     }
 }
 
@@ -182,9 +135,12 @@ impl Bench<'_> {
     fn section(&self, parameter: Varied) -> Section {
         let places = (0..self.trials.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
-        mark_front(&mut rows);
+        mark_front(&mut rows, |place| {
+            let times = self.runs[place].seconds.iter().copied();
+            [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)]
+        });
         let orders = if parameter == Varied::Mesh { self.orders() } else { Vec::new() };
-        Section { parameter, against: parameter.against(), rows, orders, claims: Vec::new() }
+        Section { parameter, against: parameter.against(), rows, orders }
     }
 
     fn row(&self, place: usize) -> Row {
@@ -193,14 +149,12 @@ impl Bench<'_> {
         let last = solution.and_then(|solution| solution.steps.last());
         Row {
             label: trial.label.clone(),
-            place: None,
             variant: trial.variant,
             equations: run.equations,
             in_contact: last.map(|last| last.in_contact),
             cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),
             seconds: solution.map(|_| median(&run.seconds)),
             runs: run.seconds.len(),
-            peak_bytes: None,
             error: match trial.against {
                 ErrorReference::Trial(best) => self.between(place, self.best_that_ran(place, best)),
                 ErrorReference::Reference => {
@@ -287,20 +241,39 @@ fn median(times: &[f64]) -> f64 {
     (times[low] + times[high]) / 2.0
 }
 
-/// Marks the rows that no other is quicker and nearer than.
-fn mark_front(rows: &mut [Row]) {
-    let place = |row: &Row| row.seconds.zip(row.error).map(|(time, e)| [time, e.displacement]);
-    let (at, points): (Vec<usize>, Vec<[f64; 2]>) =
-        rows.iter().enumerate().filter_map(|(k, row)| Some((k, place(row)?))).unzip();
+/// Marks the rows that no other is quicker and nearer than, from the times of each one's runs.
+fn mark_front(rows: &mut [Row], times: impl Fn(usize) -> [f64; 2]) {
+    let place = |row: &Row| row.seconds.and(row.error).map(|e| e.displacement);
+    let (at, points): (Vec<usize>, Vec<Point>) = rows
+        .iter()
+        .enumerate()
+        .filter_map(|(k, row)| Some((k, Point { seconds: times(k), error: place(row)? })))
+        .unzip();
     for (k, front) in at.into_iter().zip(pareto(&points)) {
         rows[k].pareto = front;
     }
 }
 
-/// Whether each point of (time, error) is on the Pareto front: no other is better in one and at
-/// least as good in the other.
-pub fn pareto(points: &[[f64; 2]]) -> Vec<bool> {
-    let beats =
-        |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && (a[0] < b[0] || a[1] < b[1]);
+/// What a run costs, and how far it is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// The least and the greatest time of its repetitions, seconds.
+    pub seconds: [f64; 2],
+    /// The difference of a displacement over the largest displacement.
+    pub error: f64,
+}
+
+/// Whether each point is on the Pareto front: no other is better in one and at least as good in the other, as far
+/// as noise tells: times of which the ranges meet are equal, and so are errors by rounding, below 1e-9, that are
+/// less than ten times each other.
+pub fn pareto(points: &[Point]) -> Vec<bool> {
+    const ROUNDING: f64 = 1e-9;
+    let quicker = |a: &Point, b: &Point| a.seconds[1] < b.seconds[0];
+    let nearer = |a: &Point, b: &Point| {
+        let noise = if b.error < ROUNDING { 0.1 } else { 1.0 };
+        a.error < noise * b.error
+    };
+    let better = |a: &Point, b: &Point| quicker(a, b) || nearer(a, b);
+    let beats = |a: &Point, b: &Point| better(a, b) && !better(b, a);
     points.iter().map(|b| !points.iter().any(|a| beats(a, b))).collect()
 }

@@ -2,36 +2,31 @@
 //! costs, and how accurate it is.
 //!
 //! ```text
-//!  Request, Varied --trials--> Trial --> Request --measure--> seconds, bytes, Solution
-//!                                                              |
+//!  Request, Varied --trials--> Trial --> Request --measure--> seconds, Solution
+//!                                                     |
 //!            Section (rows, orders of convergence) <-- errors, order, pareto
 //! ```
 //!
-//! Everything but times, peak memory and the Pareto front, which is drawn from the times, is the
-//! same on every run.
+//! Everything but times and the Pareto front, which is drawn from the times, is the same on every run.
 
 mod accuracy;
 mod errors;
-mod geometry;
 mod measure;
 mod order;
-pub mod peak;
 mod rows;
 mod trials;
 
 pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};
 pub use errors::Errors;
-pub use geometry::geometry;
-pub use measure::{Options, PATIENCE, measure, pareto, steps};
+pub use measure::{Options, Point, measure, pareto, steps};
 pub use order::Order;
 pub use rows::{Row, Section, Trade};
-pub use trials::{Trial, find, trials};
+pub use trials::{Trial, trials};
 
 use base::choices;
 
 choices! {
-    /// What is varied: number type, solver, mesh, a parameter of contact, half of a scene, or what the
-    /// paper leaves open.
+    /// What is varied: number type, solver, mesh, a parameter of contact, or half of a scene.
     Varied {
         /// The number type in which a run computes.
         Arithmetic = "arithmetic",
@@ -49,8 +44,6 @@ choices! {
         Coupling = "coupling",
         /// Half of a symmetric scene.
         Symmetry = "symmetry",
-        /// What the paper leaves open of its example: radii, mesh, shape of the stamp, unit of c_tol.
-        Geometry = "geometry",
     }
 }
 
@@ -65,11 +58,7 @@ impl Varied {
                  scene's own"
             }
             Varied::Symmetry => "the whole scene under the same variant",
-            Varied::Tolerance
-            | Varied::Iterations
-            | Varied::Status
-            | Varied::Coupling
-            | Varied::Geometry => {
+            Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling => {
                 "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)"
             }
         }

@@ -5,8 +5,6 @@ use serde::Serialize;
 use super::Varied;
 use super::errors::Errors;
 use super::order::Order;
-use crate::audit::claims::JudgedClaim;
-use crate::audit::range::ParameterValue;
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
 
@@ -36,20 +34,14 @@ pub struct Section {
     pub rows: Vec<Row>,
     /// Orders of convergence, of the element size only.
     pub orders: Vec<Order>,
-    /// The verdicts that rest on runs, over the range; of geometry only.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub claims: Vec<JudgedClaim>,
 }
 
-/// What was measured of a trial. Times and peaks are this machine's.
+/// What was measured of a trial. Times are this machine's.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Where the parameter stood, in words.
     #[serde(rename = "setting")]
     pub label: String,
-    /// The same in numbers; of geometry only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub place: Option<ParameterValue>,
     /// The variant that ran.
     pub variant: Variant,
     /// Number of degrees of freedom, restrained ones included.
@@ -62,8 +54,6 @@ pub struct Row {
     pub seconds: Option<f64>,
     /// How many times it was run.
     pub runs: usize,
-    /// The most memory of a process that did nothing else, bytes.
-    pub peak_bytes: Option<u64>,
     /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
     /// How far it is from the same variant where the scene has the parameter; nothing where the scene

@@ -109,32 +109,12 @@ impl Trial {
         }
         Ok(request)
     }
-
-    /// Parameter, variant and place: a name that no other trial has.
-    pub fn name(&self) -> String {
-        format!("{}/{}/{}", self.parameter, self.variant, self.label)
-    }
 }
 
-/// The trial of that name ([`Trial::name`]).
-pub fn find(request: &Request, name: &str) -> Option<Trial> {
-    let all = Varied::ALL.iter().flat_map(|parameter| trials(request, *parameter));
-    all.into_iter().find(|trial| trial.name() == name)
-}
-
-/// Everything to measure of a parameter of `request`, geometry aside, which has scenes of its own; nothing
-/// where its scene does not have the parameter.
+/// Everything to measure of a parameter of `request`; nothing where its scene does not have the parameter.
 pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
     let contact = request.scene.model.target().is_some();
-    let needs_contact = match parameter {
-        Varied::Arithmetic | Varied::Solver | Varied::Mesh | Varied::Symmetry => false,
-        Varied::Tolerance
-        | Varied::Iterations
-        | Varied::Status
-        | Varied::Coupling
-        | Varied::Geometry => true,
-    };
-    if needs_contact && !contact {
+    if !contact && judges(parameter) {
         return Vec::new();
     }
     match parameter {
@@ -142,7 +122,6 @@ pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
         Varied::Solver => solvers(request),
         Varied::Mesh => meshes(&request.scene),
         Varied::Symmetry => halves(request, contact),
-        Varied::Geometry => Vec::new(),
         Varied::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
@@ -160,6 +139,15 @@ pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
             let place = |c: Coupling| (c.to_string(), Setting::Coupling(c));
             turned(parameter, Coupling::ALL, request.contact.coupling, place)
         }
+    }
+}
+
+/// Whether a parameter is one of the paper's, which needs contact, and whose verdict must not rest on
+/// rounding.
+pub(super) fn judges(parameter: Varied) -> bool {
+    match parameter {
+        Varied::Tolerance | Varied::Iterations | Varied::Status | Varied::Coupling => true,
+        Varied::Arithmetic | Varied::Solver | Varied::Mesh | Varied::Symmetry => false,
     }
 }
 

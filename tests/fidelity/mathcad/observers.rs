@@ -1,7 +1,6 @@
 //! Observers that watch a run.
 
 use super::program;
-use crate::common::coverage::{Coverage, OperandCoverage};
 use plane_contact::mathcad::observe::Executed;
 use plane_contact::mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
 
@@ -45,28 +44,4 @@ fn the_recorder_hands_over_statements_without_names() {
     let mut shown = vec![];
     observe("1\nx\n2\n3", &mut Recorder::new(|executed| shown.push(show(executed))));
     assert_eq!(shown, ["2", "3 x[]=5", "4", "5"]);
-}
-
-#[test]
-fn coverage_counts_lines_and_conditions() {
-    let mut coverage = Coverage::default();
-    observe("for i ∈ 1 .. 3\n  y ← i if v[i] > 1\nif x < 0\n  y ← 0\ny", &mut coverage);
-    assert_eq!(coverage.lines.into_iter().collect::<Vec<_>>(), [(2, 1), (3, 3), (4, 1), (6, 1)]);
-    let conditions: Vec<_> =
-        coverage.conditions.into_iter().map(|(k, c)| (k, c.text, c.held, c.failed)).collect();
-    assert_eq!(conditions, [(3, "v[i] > 1".into(), 2, 1), (4, "x < 0".into(), 0, 1)]);
-}
-
-#[test]
-fn coverage_tells_which_operand_decided() {
-    let mut coverage = Coverage::default();
-    // i = 1: all true. i = 2: the second alone is false. i = 3: two are false, neither alone. v[0]
-    // and v[−1] fail.
-    observe("for i ∈ 1 .. 3\n  x > 4 ∧ i < 2 ∧ i < 3\nv[0] = 1 ∧ x < 0", &mut coverage);
-    let operand =
-        |text: &str, admitted, refused| OperandCoverage { text: text.into(), admitted, refused };
-    let first = &coverage.conjunctions[&(3, 0)];
-    assert_eq!(*first, [operand("x > 4", 1, 0), operand("i < 2", 1, 1), operand("i < 3", 1, 0)]);
-    assert_eq!(coverage.conjunctions[&(4, 0)], [operand("v[0] = 1", 0, 0), operand("x < 0", 0, 0)]);
-    assert!(first[0].decisive() && !first[0].decided_both_ways() && first[1].decided_both_ways());
 }

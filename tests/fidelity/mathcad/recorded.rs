@@ -209,10 +209,11 @@ fn executed(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
 fn told(outcome: &Fallible<Outcome>) -> String {
     match outcome {
         Ok(outcome) => {
-            let last = |(name, value)| format!(" {name} = {}", json::write(value));
+            let last =
+                |(name, value)| format!(" {name} = {}", serde_json::json!(json::Written(value)));
             let locals: String = outcome.locals.iter().map(last).collect();
             let trace = outcome.trace_output.join(" | ");
-            format!("= {}  [{trace}] {locals}", json::write(&outcome.value))
+            format!("= {}  [{trace}] {locals}", serde_json::json!(json::Written(&outcome.value)))
         }
         Err(failure) => format!("! {failure}"),
     }

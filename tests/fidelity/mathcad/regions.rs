@@ -63,16 +63,19 @@ fn unsupported_constructs_are_named() {
     let lambda = format!("<lambda><boundVars>{a}</boundVars>{b}</lambda>");
     let three = [one.clone(), one.clone(), one.clone()];
     for (expression, words) in [
-        (apply("summation", &[&a]), "`summation`"),
-        (apply("summation", &[&lambda]), "`summation`"),
-        (apply("product", &[&a, "<bounds/>"]), "`product`"),
+        (apply("summation", &[&a]), "the operator summation"),
+        (apply("summation", &[&lambda]), "a series over what is no range variable"),
+        (apply("product", &[&a, "<bounds/>"]), "the operator product"),
+        (apply("polyroots", &[&a]), "the function polyroots"),
+        (apply("gradient", &[&a]), "the operator gradient"),
+        (apply("vectorize", &[&apply("transpose", &[&one])]), "vectorize of `1ᵀ`"),
         (matrix(2, 2, &three), "a matrix that is not full"),
         (matrix(1, 2, &three), "a matrix that is not full"),
         (matrix(0, 0, &[]), "a matrix that is not full"),
         (matrix(3, 0, &[]), "a matrix that is not full"),
         (format!("<matrix rows=\"3\">{}</matrix>", three.concat()), "a matrix without its size"),
-        ("<str>a \"b\"</str>".into(), "`str`"),
-        ("<str>a\nb</str>".into(), "`str`"),
+        ("<str>a \"b\"</str>".into(), "a string with quotation marks or several lines"),
+        ("<str>a\nb</str>".into(), "a string with quotation marks or several lines"),
         ("<real>1e999</real>".into(), "the number \"1e999\""),
     ] {
         let checked = executed(&[eval(&expression, None)]);
@@ -88,26 +91,140 @@ fn unsupported_constructs_are_named() {
     }
 }
 
-/// A definition of several names at once leaves each of them unknown.
+/// The numbers of a matrix's entries, column by column as the file has them.
+fn numbers(rows: usize, cols: usize, entries: &[f64]) -> String {
+    matrix(rows, cols, &entries.iter().map(|x| real(*x)).collect::<Vec<_>>())
+}
+
+/// Executes definitions, and checks what expressions are below them, by their text.
+fn assert_values(definitions: &[String], expected: &[(String, &str)]) {
+    let evaluations = expected.iter().map(|(expression, _)| eval(expression, None));
+    let regions: Vec<String> = definitions.iter().cloned().chain(evaluations).collect();
+    let checked = executed(&regions);
+    for ((expression, value), region) in expected.iter().zip(&checked[definitions.len()..]) {
+        let found = region.value.as_ref().map(Value::to_string);
+        assert_eq!(found.as_deref(), Some(*value), "{expression}: {:?}", region.verdict);
+    }
+}
+
 #[test]
-fn several_names_at_once_are_all_unknown() {
-    let names = matrix(1, 2, &[id("a"), id("b")]);
-    let values = matrix(1, 2, &[real(1.0), real(2.0)]);
+fn several_names_get_the_entries_in_their_places() {
+    let names = matrix(2, 2, &[id("a"), id("b"), id("c"), id("d")]);
+    let swap = define(&matrix(1, 2, &[id("a"), id("b")]), &matrix(1, 2, &[id("b"), id("a")]));
+    let defined = [define(&names, &numbers(2, 2, &[1.0, 2.0, 3.0, 4.0])), swap];
+    let expected = [("a", "2"), ("b", "1"), ("c", "3"), ("d", "4")];
+    assert_values(&defined, &expected.map(|(name, value)| (id(name), value)));
+    // Of another size, and of what is unsupported, each is unknown.
+    let integral = apply("integral", &[&id("t")]);
     let checked = executed(&[
-        define(&id("a"), &real(7.0)),
-        define(&names, &values),
-        eval(&id("a"), None),
+        define(&names, &numbers(4, 1, &[1.0, 2.0, 3.0, 4.0])),
+        eval(&id("d"), None),
+        define(&names, &integral),
         eval(&id("b"), None),
     ]);
-    let construct = "a definition of several names at once";
-    let expected = [
-        Verdict::NothingSaved,
-        unsupported(construct),
-        unsupported(&format!("{construct} (it rests on a)")),
-        unsupported(&format!("{construct} (it rests on b)")),
-    ];
-    assert_eq!(verdicts(&checked), expected);
-    assert_eq!(checked[1].text, "a := ..., b := ...");
+    assert!(matches!(&checked[0].verdict, Verdict::Fails(why) if why.contains("2 x 2 ← 4 x 1")));
+    assert!(matches!(&checked[1].verdict, Verdict::Unsupported(why) if why.contains("rests on d")));
+    assert_eq!(checked[2].verdict, unsupported("an integral"));
+    assert_eq!(checked[3].verdict, unsupported("an integral (it rests on b)"));
+}
+
+#[test]
+fn columns_are_assigned_and_multiplied() {
+    let column = apply("matcol", &[&id("M"), &real(1.0)]);
+    let three = numbers(3, 1, &[1.0, 2.0, 3.0]);
+    let defined = [define(&column, &three), define(&id("v"), &three)];
+    let cross = apply("crossProduct", &[&id("v"), &numbers(3, 1, &[4.0, 5.0, 6.0])]);
+    let square = apply("vectorize", &[&apply("mult", &[&id("v"), &id("v")])]);
+    let one = |x: f64| numbers(1, 1, &[x]);
+    let rows = |of: &str| format!("<apply>{}{of}</apply>", id("rows"));
+    assert_values(
+        &defined,
+        &[
+            (id("M"), "0 1; 0 2; 0 3"),
+            (cross, "-3; 6; -3"),
+            (square, "1; 4; 9"),
+            (apply("determinant", &[&one(5.0)]), "5"),
+            (rows(&one(5.0)), "1"),
+            (rows(&real(5.0)), "0"),
+        ],
+    );
+}
+
+/// Of a table over two range variables the last one named changes first.
+#[test]
+fn range_variables_stand_in_sums_and_tables() {
+    let range = |from, to| format!("<range>{}{}</range>", real(from), real(to));
+    let lambda = format!("<lambda><boundVars>{0}</boundVars>{0}</lambda>", id("i"));
+    let defined = [define(&id("i"), &range(1.0, 3.0)), define(&id("j"), &range(5.0, 6.0))];
+    let table = |a, b| apply("minus", &[&apply("mult", &[&real(10.0), &id(a)]), &id(b)]);
+    assert_values(
+        &defined,
+        &[
+            (apply("summation", &[&lambda]), "6"),
+            (apply("product", &[&lambda]), "6"),
+            (table("i", "j"), "5; 4; 15; 14; 25; 24"),
+            (table("j", "i"), "49; 48; 47; 59; 58; 57"),
+        ],
+    );
+}
+
+/// A loop, a choice and an error, each within a product.
+#[test]
+fn programs_stand_within_expressions() {
+    let assign =
+        |name: &str, value: &str| format!("<localDefine>{}{value}</localDefine>", id(name));
+    let double = assign("s", &apply("mult", &[&id("s"), &real(2.0)]));
+    let range = format!("<range>{}{}</range>", real(1.0), real(3.0));
+    let power = format!(
+        "<parens><program>{}<for>{}{range}{double}</for>{}</program></parens>",
+        assign("s", &real(1.0)),
+        id("k"),
+        id("s")
+    );
+    let choice = format!(
+        "<program><ifThen>{}{}</ifThen><otherwise>{}</otherwise></program>",
+        apply("greaterThan", &[&real(1.0), &real(2.0)]),
+        real(7.0),
+        real(5.0)
+    );
+    let fails = apply("div", &[&real(1.0), &real(0.0)]);
+    let caught = format!("<program><tryCatch>{fails}{}</tryCatch></program>", real(3.0));
+    let twice = |x: &str| apply("mult", &[&real(2.0), x]);
+    assert_values(&[], &[(twice(&power), "16"), (twice(&choice), "10"), (twice(&caught), "6")]);
+    let back = format!("<program><return>{}</return></program>", real(3.0));
+    let checked = executed(&[eval(&twice(&back), None)]);
+    let words = "break, continue or return in a program within an expression";
+    assert_eq!(checked[0].verdict, unsupported(words));
+}
+
+/// Their order and signs are Mathcad's own, so that what differs in them alone is not called different.
+#[test]
+fn eigenvalues_agree_in_any_order() {
+    let call = |name: &str, m: &str| format!("<apply>{}{m}</apply>", id(name));
+    let m = numbers(2, 2, &[2.0, 0.0, 1.0, 3.0]);
+    let saved = |name: &str, result: &str| {
+        let text = format!("<eval>{}<result>{result}</result></eval>", call(name, &m));
+        executed(&[text]).remove(0).verdict
+    };
+    assert_eq!(saved("eigenvals", &numbers(2, 1, &[2.0, 3.0])), Verdict::Same);
+    let order = "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
+    assert_eq!(saved("eigenvals", &numbers(2, 1, &[3.0, 2.0])), unsupported(order));
+    let half = 0.5_f64.sqrt();
+    assert_eq!(saved("eigenvecs", &numbers(2, 2, &[half, half, -1.0, 0.0])), unsupported(order));
+    assert!(matches!(saved("eigenvals", &numbers(2, 1, &[2.0, 4.0])), Verdict::Differs { .. }));
+    // A rotation's are complex; those of a symmetric matrix are an orthogonal matrix.
+    let rotation = numbers(2, 2, &[0.0, 1.0, -1.0, 0.0]);
+    let checked = executed(&[eval(&call("eigenvals", &rotation), None)]);
+    assert_eq!(checked[0].verdict, unsupported("complex numbers"));
+    let double = numbers(2, 2, &[2.0, 0.0, 1.0, 2.0]);
+    let checked = executed(&[eval(&call("eigenvecs", &double), None)]);
+    assert_eq!(checked[0].verdict, unsupported("eigenvectors of an eigenvalue that occurs twice"));
+    let symmetric = numbers(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0]);
+    let checked = executed(&[eval(&call("eigenvals", &symmetric), None)]);
+    let Some(Value::Array(found)) = &checked[0].value else { panic!("{:?}", checked[0].verdict) };
+    for (x, root) in found.entries().iter().zip([-1.0, 0.0, 1.0]) {
+        approx::assert_relative_eq!(*x, 2.0 + root * 2.0_f64.sqrt(), max_relative = 1e-14);
+    }
 }
 
 /// What a name stood for is gone: a range, a function, a construct that is unsupported.

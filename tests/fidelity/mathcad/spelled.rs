@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use plane_contact::mathcad::Listing;
-use plane_contact::mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Statement, Step};
+use plane_contact::mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Spread, Statement, Step};
 
 /// Returns the listing as its syntax tree spells it: what was understood, for comparison with what
 /// was printed.
@@ -26,6 +26,18 @@ fn block(listing: &Listing, statements: &[Statement], level: usize, text: &mut S
             block(listing, below, level + 1, text);
         }
     }
+}
+
+/// Spells a program within an expression behind its bracket, up to the bracket that closes it.
+fn inline(listing: &Listing, statements: &[Statement], f: &mut Formatter<'_>) -> fmt::Result {
+    for (k, Statement { step, .. }) in statements.iter().enumerate() {
+        write!(f, "{}{}", if k > 0 { "; " } else { "" }, spell(listing, step))?;
+        for below in step.blocks() {
+            f.write_str(" {")?;
+            inline(listing, below, f)?;
+        }
+    }
+    f.write_str("}")
 }
 
 fn spell<'a, T>(listing: &'a Listing, item: &'a T) -> Spelled<'a, T> {
@@ -62,6 +74,16 @@ impl Display for Spelled<'_, Step> {
             Step::Try { .. } => f.write_str("try")?,
             Step::Assign { target, value, .. } => {
                 write!(f, "{} ← {}", spell(self.listing, target), show(value))?;
+            }
+            Step::Spread { to: Spread::Names { names, cols }, value, .. } => {
+                let name = |name: &Slot| spell(self.listing, name).to_string();
+                let row = |row: &[Slot]| row.iter().map(name).collect::<Vec<_>>().join("   ");
+                let rows: Vec<_> = names.chunks(*cols).map(row).collect();
+                write!(f, "({}) ← {}", rows.join("; "), show(value))?
+            }
+            Step::Spread { to: Spread::Column { name, column, .. }, value, .. } => {
+                let name = spell(self.listing, name);
+                write!(f, "{name}⟨{}⟩ ← {}", show(column), show(value))?
             }
             Step::Evaluate { value, .. } => write!(f, "{}", show(value))?,
             Step::Return { value, .. } => write!(f, "return {}", show(value))?,
@@ -105,7 +127,7 @@ impl Display for Spelled<'_, Expr> {
             Kind::Group(x) => write!(f, "({})", show(x)),
             Kind::Array { entries, cols } => {
                 let rows: Vec<_> = entries.chunks(*cols).map(|row| join(row, "   ")).collect();
-                write!(f, "({})", rows.join("; "))
+                write!(f, "({}{})", rows.join("; "), if entries.len() == 1 { ";" } else { "" })
             }
             Kind::Magnitude(x) => write!(f, "|{}|", show(x)),
             Kind::Negative(x) => write!(f, "−{}", show(x)),
@@ -126,9 +148,13 @@ impl Display for Spelled<'_, Expr> {
                 write!(f, "{}({})", spell(self.listing, name), join(arguments, ", "))
             }
             Kind::Series { function, name, parts } => {
-                let [from, to, term] = &**parts;
                 let (function, name) = (spell(self.listing, function), spell(self.listing, name));
-                write!(f, "{function}({name} ∈ {} .. {}, {})", show(from), show(to), show(term))
+                let (term, range) = parts.split_last().expect("a term");
+                write!(f, "{function}({name} ∈ {}, {})", join(range, " .. "), show(term))
+            }
+            Kind::Program(block) => {
+                f.write_str("{")?;
+                inline(self.listing, block, f)
             }
         }
     }

@@ -53,6 +53,12 @@ fn parentheses_stand_where_each_notation_needs_them() {
         "∑(i ∈ 1 .. 3, i^2) + ∏(i ∈ 1 .. 2, A[i]) + √(a) + √(3,a)",
         "trace(\"{0}\",a·b) + φ.12",
         "1E-09 + 0.1 + 123456789012345680000",
+        "(a;) + ((a;) b)",
+        "×(a,b)·→(a·b) + ∑(i ∈ i, A[i])",
+        "2·{x ← 1; for i ∈ 1 .. 3 {x ← 2·x; x ← 1 if x > 3}; try {1 / x} {0}}",
+        "{b if a > 0; otherwise {1}} + ({while a > b {a ← 1}})",
+        "(b   c) ← (a   1)",
+        "A⟨1⟩ ← A⟨2⟩ if a > 1",
     ] {
         let listing = Listing::parse("f", &format!("f(a,A) :=\n  {body}\n")).unwrap();
         let again = there_and_back(&listing).unwrap();

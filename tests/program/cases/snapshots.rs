@@ -196,11 +196,11 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: changed!(
-            "del r[\"numbers\"][\"stress\"]; r[\"facts\"][\"more\"] = 1",
+            "del r[\"numbers\"][\"stress\"]; r[\"facts\"][\"statuses\"] = 1",
             "plane-contact snapshot verify t.json"
         ),
         status: 1,
-        contains: &["stress: new", "more: missing"],
+        contains: &["stress: new", "statuses: missing"],
         lacks: &["changed"],
     },
     Case {

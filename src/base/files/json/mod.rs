@@ -81,8 +81,12 @@ fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json
             path if path == "." || path == "?" => place(""),
             path => place(path.trim_end_matches(".?")),
         };
-        let what = words(error.inner());
-        InputError::new(place, &what, meant(&what) + kind.fix)
+        let (what, error) = (words(error.inner()), error.inner());
+        let at = match (error.line(), error.column()) {
+            (0, _) => String::new(),
+            (line, column) => format!(", line {line}, column {}", column.max(1)),
+        };
+        InputError::new(place + &at, &what, meant(&what) + kind.fix)
     })
 }
 
@@ -136,7 +140,7 @@ fn words(error: &serde_json::Error, text: &str) -> String {
     let said = plain(error);
     let found = word(text, error.line(), error.column());
     let bare = found.trim_start_matches(['-', '+']).to_lowercase();
-    let expected = match said.split(" at line ").next().unwrap_or_default() {
+    let expected = match &*said {
         "number out of range" => return format!("{found} is a {said}"),
         "key must be a string" => "text in double quotes",
         "expected value" | "expected ident" | "invalid number" => {
@@ -150,8 +154,7 @@ fn words(error: &serde_json::Error, text: &str) -> String {
         }
         _ => return said,
     };
-    let (line, column) = (error.line(), error.column());
-    format!("{found} where {expected} is expected, at line {line} column {column}")
+    format!("{found} where {expected} is expected")
 }
 
 /// Returns the word at a place: letters and digits with what may stand in a number, or the one

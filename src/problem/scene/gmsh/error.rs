@@ -60,11 +60,11 @@ pub enum Fault {
     #[error("node {node} has the coordinate {value}, expected a finite number")]
     Coordinate { node: usize, value: f64 },
     #[error(
-        "element {element} is {kind}; only points, two-node edges and three-node triangles can be \
-         read: in Gmsh set Mesh.RecombineAll = 0 and Mesh.ElementOrder = 1, and mesh in two \
-         dimensions"
+        "element {element} is {kind} ({entity}); only points, two-node edges and three-node triangles \
+         can be read: in Gmsh take out Recombine Surface, set Mesh.RecombineAll = 0, \
+         Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh again in two dimensions (-2)"
     )]
-    Kind { element: usize, kind: String },
+    Kind { element: usize, kind: String, entity: String },
     #[error(
         "element {element} has dimension {found}, but it is listed in an entity of dimension \
          {expected}"

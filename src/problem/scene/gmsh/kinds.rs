@@ -1,10 +1,8 @@
-//! The names of Gmsh's elements and geometric entities.
+//! The names of Gmsh's elements.
 
 use super::error::{Fault, Result};
-use super::tokens::Tokens;
-use crate::scene::mesh::{KINDS, Kind};
-
-pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
+use super::reader::Reader;
+use crate::scene::mesh::{ENTITIES, KINDS, Kind};
 
 /// The names of the kinds of element that are not read, by Gmsh's element type; empty where there
 /// is none or the kind is read.
@@ -21,19 +19,32 @@ const OTHER_KINDS: [&str; 32] = [
     "a 56-node tetrahedron",
 ];
 
-/// Returns the kind of `element`, whose type has the number `number` in Gmsh.
-///
-/// # Errors
-/// The kind is not among those that are read.
-pub fn kind(tokens: &Tokens, element: usize, number: i32) -> Result<&'static Kind> {
-    KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
-        let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());
-        let kind = match other {
-            None | Some("") => format!("of Gmsh's type {number}"),
-            Some(name) => name.to_owned(),
-        };
-        tokens.error(Fault::Kind { element, kind })
-    })
+impl Reader<'_> {
+    /// Returns the kind of an element, whose type has the number `number` in Gmsh; `physical` and
+    /// `geometric` are its tags.
+    ///
+    /// # Errors
+    /// The kind is not among those that are read.
+    pub fn kind(
+        &self,
+        element: usize,
+        number: i32,
+        (physical, geometric): (&[usize], usize),
+    ) -> Result<&'static Kind> {
+        KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
+            let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());
+            let kind = match other {
+                None | Some("") => format!("of Gmsh's type {number}"),
+                Some(name) => name.to_owned(),
+            };
+            let dim = ["point", "edge", "angle"].iter().position(|word| kind.contains(word));
+            let dim = dim.unwrap_or(3);
+            let names = physical.iter().filter_map(|tag| self.names.get(&(dim, *tag)));
+            let names: String = names.map(|name| format!(", {name:?}")).collect();
+            let entity = format!("{} {geometric}{names}", ENTITIES[dim]);
+            self.tokens.error(Fault::Kind { element, kind, entity })
+        })
+    }
 }
 
 /// Returns a tag without its sign, which is an orientation in Gmsh.

@@ -1,10 +1,10 @@
 //! The sections `$Nodes` and `$Elements` of MSH 2.2.
 
 use super::error::Result;
-use super::kinds::{kind, magnitude};
+use super::kinds::magnitude;
 use super::reader::Reader;
 use super::tokens::Encoding;
-use crate::scene::mesh::{Element, NodeNumbers};
+use crate::scene::mesh::{Element, NodeNumbers, Tags};
 
 impl Reader<'_> {
     /// Reads `$Nodes`: a count, then `number x y z`.
@@ -49,7 +49,6 @@ impl Reader<'_> {
 
     /// Reads an element's tags, the first physical (0: none), the second geometric, and nodes.
     fn element_2(&mut self, number: usize, kind_number: i32, tags: usize) -> Result<()> {
-        let kind = kind(&self.tokens, number, kind_number)?;
         let mut first = [0; 2];
         for k in 0..tags {
             let tag = self.tokens.int("an element's tag").map(magnitude)?;
@@ -58,15 +57,11 @@ impl Reader<'_> {
             }
         }
         let [physical, geometric] = first;
+        let physical: Tags = (physical != 0).then_some(physical).into_iter().collect();
+        let kind = self.kind(number, kind_number, (&physical, geometric))?;
         let nodes: Result<NodeNumbers> = (0..kind.nodes)
             .map(|_| self.tokens.int_from(1, "a node's number, 1 or more"))
             .collect();
-        self.keep(Element {
-            number,
-            kind: kind.number,
-            physical: (physical != 0).then_some(physical).into_iter().collect(),
-            geometric,
-            nodes: nodes?,
-        })
+        self.keep(Element { number, kind: kind.number, physical, geometric, nodes: nodes? })
     }
 }

@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use super::error::{Fault, Result};
-use super::kinds::{ENTITIES, kind, magnitude};
+use super::kinds::magnitude;
 use super::reader::Reader;
-use crate::scene::mesh::{Element, NodeNumbers};
+use crate::scene::mesh::{ENTITIES, Element, NodeNumbers};
 
 impl Reader<'_> {
     /// Reads `$Entities`: counts of points, curves, surfaces and volumes, then each of them.
@@ -114,7 +114,7 @@ impl Reader<'_> {
         let kind_number = self.tokens.int("an element's type")?;
         for _ in 0..self.tokens.size("the number of elements of a block")? {
             let number = self.tokens.size_from(1, "an element's number, 1 or more")?;
-            let kind = kind(&self.tokens, number, kind_number)?;
+            let kind = self.kind(number, kind_number, (&physical, magnitude(tag)))?;
             if kind.dim != dim {
                 let fault = Fault::Dimension { element: number, found: kind.dim, expected: dim };
                 return Err(self.tokens.error(fault));

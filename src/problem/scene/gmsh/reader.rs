@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::{Fault, GmshError, Result};
-use super::kinds::{ENTITIES, magnitude};
+use super::kinds::magnitude;
 use super::numbered::Numbered;
 use super::tokens::{Encoding, Tokens};
-use crate::scene::mesh::{Element, Mesh, Node, PhysicalName};
+use crate::scene::mesh::{ENTITIES, Element, Mesh, Node, PhysicalName};
 
 /// Reads a mesh from the bytes of a `.msh` file.
 ///
@@ -90,7 +90,7 @@ pub struct Reader<'a> {
     version: Version,
     /// The names of the sections read so far, without those that are skipped.
     pub sections: BTreeSet<String>,
-    names: BTreeMap<(usize, usize), String>,
+    pub names: BTreeMap<(usize, usize), String>,
     pub entities: BTreeMap<(usize, i32), Vec<usize>>,
     pub nodes: Numbered<Node>,
     pub elements: Numbered<Element>,
@@ -138,6 +138,7 @@ impl Reader<'_> {
             nodes: self.nodes.into_values(),
             elements: self.elements.into_values(),
             names: self.names.into_iter().map(named).collect(),
+            adapted: Vec::new(),
         };
         mesh.join_groups();
         Ok(mesh)

@@ -24,7 +24,10 @@ impl Mesh {
         if (1..=r).contains(&n) {
             return Ok(());
         }
-        let what = format!("node number {n} is beyond R = {r}");
+        let what = match n {
+            0 => "there is no node number 0".into(),
+            _ => format!("node number {n} is beyond R = {r}"),
+        };
         let fix = "the paper's tables are indexed by node number: nodes are numbered 1 to R \
                    (in Gmsh: Mesh.Renumber = 1)";
         Err(InputError::new(place, what, fix))
@@ -116,7 +119,8 @@ impl Mesh {
             (corners, triangle.number)
         }));
         if triangles.is_empty() {
-            let fix = "in Gmsh, mesh the surfaces (-2) and save their physical groups";
+            let fix = "in Gmsh, mesh the surfaces (-2); where there are physical groups, only theirs are \
+                       saved: add groups as Physical Surface(\"body\") = {1};";
             return Err(InputError::new(place, "the mesh has no triangle", fix));
         }
         triangles.sort_unstable();
@@ -134,7 +138,7 @@ impl Mesh {
     fn check_element(&self, element: &Element) -> Result<()> {
         let place = "the mesh's elements";
         let (number, nodes, count) = (element.number, &element.nodes, self.elements.len());
-        if number == 0 || number > 16 * count + 1024 {
+        if number == 0 || number > Mesh::largest_number(count) {
             let what = format!("element number {number} for {count} elements");
             let fix = "elem is indexed by element number: number the elements 1, 2, 3, ...";
             return Err(InputError::new(place, what, fix));
@@ -163,8 +167,11 @@ impl Mesh {
             return Ok(());
         }
         let (what, fix) = if area < 0.0 {
-            let what = format!("runs clockwise: its area is {}", six_digits(area));
-            (what, "list its nodes counter-clockwise (in Gmsh: ReverseMesh Surface)")
+            let surface = self.whereabouts(triangle);
+            let what = format!("runs clockwise: its area is {} ({surface})", six_digits(area));
+            let fix = "list its nodes counter-clockwise; where triangles of one surface in Gmsh run \
+                       both ways, it folds over itself: mesh it again";
+            (what, fix)
         } else if area == 0.0 && is_flat(&self.corners(triangle)) {
             ("has the area 0".into(), "move or merge its nodes")
         } else {

@@ -8,6 +8,7 @@
 
 mod builder;
 mod check;
+mod gmsh;
 mod join;
 mod tables;
 
@@ -36,6 +37,9 @@ pub struct Mesh {
     /// once, with two tags, in one of version 4.1.
     #[schemars(with = "Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>")]
     pub elements: Vec<Element>,
+    /// What a Gmsh file has in another form, in sentences for people.
+    #[serde(skip)]
+    pub adapted: Vec<String>,
 }
 
 /// A node of the mesh file.
@@ -130,6 +134,9 @@ impl From<PhysicalName> for (usize, usize, String) {
     }
 }
 
+/// The geometric entities of Gmsh, by dimension.
+pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
+
 pub struct Kind {
     pub number: usize,
     pub dim: usize,
@@ -158,6 +165,17 @@ impl Mesh {
     /// Returns the coordinates of the corners of a triangle, length.
     pub fn corners(&self, triangle: &Element) -> Corners<f64> {
         [0, 1, 2].map(|k| self.xy(triangle.nodes[k]))
+    }
+
+    /// Names the geometric entity of an element and its physical groups, as in `surface 2, "punch"`.
+    pub(in crate::scene) fn whereabouts(&self, element: &Element) -> String {
+        let dim = element.dim();
+        let group = |tag: &usize| match self.names.iter().find(|n| n.dim == dim && n.tag == *tag) {
+            Some(name) => format!(", {:?}", name.name),
+            None => format!(", group {tag}"),
+        };
+        let groups: String = element.physical.iter().map(group).collect();
+        format!("{} {}{groups}", ENTITIES[dim], element.geometric)
     }
 
     /// Returns the nodes that belong to no triangle, ascending.

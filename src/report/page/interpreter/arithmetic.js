@@ -212,5 +212,5 @@ const FUNCTIONS = {
 /** Those that the Rust interpreter has and the page has not. */
 const ELSEWHERE = new Set(
   ("sin cos tan cot sec csc asin acos atan sinh cosh tanh asinh acosh atanh exp ln floor ceil trunc log mod factorial last " +
-    "mean sort round augment stack submatrix determinant ∑ ∏").split(" "),
+    "mean sort round augment stack submatrix determinant ∑ ∏ × → eigenvals eigenvecs").split(" "),
 );

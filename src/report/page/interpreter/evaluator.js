@@ -110,6 +110,7 @@ class Run {
     }
     if (step === "for") return this.repeat(statement);
     if (step === "if") return this.block(body);
+    if (step === "spread") throw this.failure(unsupported("an assignment to several entries in the page"));
     if (step === "assign") this.assign(statement.target, this.eval(value));
     else if (value) this.last = this.eval(value);
     return step === "assign" || step === "evaluate" ? "next" : step;
@@ -264,10 +265,11 @@ class Run {
 
   call({ name, parts }) {
     if (!this.has(name)) throw this.undefinedName(name, true);
-    const values = parts.map((part) => this.eval(part));
+    // Vectorize takes its argument apart.
+    const values = name === "→" ? [] : parts.map((part) => this.eval(part));
     const { functions, programs } = this.worksheet;
     if (functions.has(name)) return functions.get(name)(values);
-    if (programs.has(name)) return this.program(programs.get(name), values);
+    if (programs.has(name)) return this.inWorksheet(programs.get(name), values);
     if (ELSEWHERE.has(name)) throw unsupported(`the function ${name} in the page`);
     if (name === "trace") return this.trace(values);
     if (name === "identity" && values[0] > 0) this.checkSize(values[0] * values[0]);
@@ -282,11 +284,14 @@ class Run {
   }
 
   /** Runs a function of the worksheet; its steps count with those of the caller. */
-  program(listing, values) {
+  inWorksheet(listing, values) {
     if (this.calls >= this.limits.calls) throw this.failure(overLimit(this.limits.calls, "levels of calls"));
     return new Run(listing, this.worksheet, this.settings, { limits: this.limits, caller: this }).execute(values);
   }
 
+  program() {
+    throw unsupported("a program within an expression in the page");
+  }
   group({ parts }) {
     return this.eval(parts[0]);
   }

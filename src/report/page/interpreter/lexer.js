@@ -12,7 +12,7 @@ const OPERATORS = [
 const KEYWORDS = "for while if otherwise try return break continue in and or not transpose".split(" ");
 
 /** The signs, the longest first. */
-const SIGNS = [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩"]
+const SIGNS = [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", ")", "[", "]", "⟨", "⟩", "{", "}"]
   .concat(OPERATORS.flatMap(({ sign, typed }) => [sign, typed]))
   .filter((sign) => !/^[a-z]/.test(sign))
   .sort((a, b) => b.length - a.length);
@@ -20,7 +20,7 @@ const SIGNS = [":=", "..", "<-", "←", "∈", "^", "ᵀ", "|", ",", ";", "(", "
 const ARROW =
   "`<` and `-` without brackets, which may mean two things: write `x <- 1` to assign 1, or `x < (-1)` to compare with -1";
 
-const NAME = /^(?!ᵀ)[\p{Alphabetic}_√∑∏](?:(?!ᵀ)[\p{Alphabetic}_√∑∏\p{N}']|\.(?=(?!ᵀ)[\p{Alphabetic}_√∑∏\p{N}']))*/u;
+const NAME = /^(?!ᵀ)[\p{Alphabetic}_√∑∏×→](?:(?!ᵀ)[\p{Alphabetic}_√∑∏×→\p{N}']|\.(?=(?!ᵀ)[\p{Alphabetic}_√∑∏×→\p{N}']))*/u;
 const NUMBER = /^\d+(?:\.\d+)?(?:[eE][+\-−]?\d+)?/;
 
 /** The sign as printed that a sign or keyword stands for. `<-` stays: the grammar knows where it assigns. */
@@ -49,9 +49,9 @@ function quoted(c) {
 }
 
 const isSign = (token, ...signs) => token?.type === "sign" && signs.includes(token.value);
-const endsOperand = (token) => ["number", "text", "name", "bar"].includes(token?.type) || isSign(token, ")", "]", "⟩", "ᵀ");
+const endsOperand = (token) => ["number", "text", "name", "bar"].includes(token?.type) || isSign(token, ")", "]", "⟩", "}", "ᵀ");
 const startsOperand = (token) =>
-  ["number", "text", "name", "function"].includes(token.type) || isSign(token, "(", "|", "if");
+  ["number", "text", "name", "function"].includes(token.type) || isSign(token, "(", "|", "{", "if");
 
 /** Splits a line into tokens; from `#` on it is a remark. Throws a complaint, also of brackets more than
  * `depth` deep. */
@@ -67,8 +67,8 @@ function tokensOf(text, depth) {
     if (open.at(-1) === "(" && endsOperand(found.at(-1)) && !isSign(token, ")", ",", ";") && spaces >= wanted) {
       found.push({ type: "gap", start: at - spaces, end: at });
     }
-    if (isSign(token, "(", "[", "⟨", "|")) open.push(token.value);
-    if (isSign(token, ")", "]", "⟩") || token.type === "bar") open.pop();
+    if (isSign(token, "(", "[", "⟨", "|", "{")) open.push(token.value);
+    if (isSign(token, ")", "]", "⟩", "}") || token.type === "bar") open.pop();
     if (open.length > depth) throw new Complaint(at, `found brackets more than ${depth} deep`);
     found.push(token);
   }

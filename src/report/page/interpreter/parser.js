@@ -75,6 +75,12 @@ class LineParser {
 
   /** Reads a line of a program; blocks below it are left empty, that of `x otherwise` is `x`. */
   statement() {
+    const statement = this.step();
+    this.end();
+    return statement;
+  }
+
+  step() {
     const start = this.start;
     const word = this.token?.type === "sign" && !this.isChoice() ? this.token.value : "";
     const parse = { for: "loop", while: "block", if: "block", otherwise: "block", try: "block", return: "value", break: "jump", continue: "jump" }[word];
@@ -82,11 +88,23 @@ class LineParser {
     const statement = { line: this.line, ...(parse ? this[parse](word) : this.assignment()) };
     if (!statement.body && this.takes("otherwise")) {
       if (statement.condition) throw new Complaint(start, "found `if` and `otherwise` on one line");
-      this.end();
       return { line: this.line, step: "otherwise", body: [statement] };
     }
-    this.end();
     return statement;
+  }
+
+  /** Reads a program within an expression, the bracket of which is taken. */
+  program() {
+    const block = [];
+    const inner = () => (this.need("{"), this.program());
+    for (;;) {
+      const statement = this.step();
+      if (statement.body?.length === 0) statement.body = inner();
+      if (statement.fallback) statement.fallback = inner();
+      block.push(statement);
+      if (this.takes("}")) return block;
+      this.need(";");
+    }
   }
 
   loop() {
@@ -109,11 +127,16 @@ class LineParser {
   /** Reads an assignment, or a value alone. */
   assignment() {
     const value = this.expression();
-    if (value.kind === "read") {
+    const isName = ({ kind, parts }) => kind === "read" && parts.length === 0;
+    const isColumn = value.kind === "column" && isName(value.parts[0]);
+    const isSpread = isColumn || (value.kind === "array" && value.parts.every(isName));
+    if (value.kind === "read" || isSpread) {
       this.expect("`←`");
       if (isSign(this.token, "←", "<-", ":=")) {
         this.next += 1;
-        return { step: "assign", target: value, value: this.expression(), condition: this.guard() };
+        const names = isColumn ? [value.parts[0].name] : value.parts.map((part) => part.name);
+        const to = isSpread ? { step: "spread", names, target: isColumn ? { parts: [value.parts[1]] } : undefined } : { step: "assign", target: value };
+        return { ...to, value: this.expression(), condition: this.guard() };
       }
     }
     return { step: "evaluate", value, condition: this.guard() };
@@ -260,6 +283,10 @@ class LineParser {
     if (token?.type === "name") return this.node("read", start, { name: token.value, parts: [] });
     if (token?.type === "function") return this.call(token.value, start);
     if (isSign(token, "(")) return this.rows(start);
+    if (isSign(token, "{")) {
+      const block = this.program();
+      return this.node("program", start, { block, parts: block.flatMap(expressionsOf) });
+    }
     if (isSign(token, "if")) return this.choice(start);
     if (isSign(token, "transpose")) return this.transposed(start);
     if (isSign(token, "|")) {
@@ -289,7 +316,11 @@ class LineParser {
     if (!isSign(this.tokens[this.next + 2], "∈")) return this.node("call", start, { name, parts: this.inBrackets(() => this.expression()) });
     this.need("(");
     const variable = this.named("name");
-    const parts = ["∈", "..", ","].map((sign) => (this.need(sign), this.expression()));
+    this.need("∈");
+    const parts = [this.expression()];
+    if (this.takes("..")) parts.push(this.expression());
+    this.need(",");
+    parts.push(this.expression());
     this.need(")");
     return this.node("series", start, { name, variable, parts });
   }
@@ -303,6 +334,7 @@ class LineParser {
       if (!this.takesToken("gap", "the space between two elements")) {
         this.need(";");
         ends.push(parts.length);
+        if (parts.length === 1 && this.takes(")")) return this.node("array", start, { cols: 1, parts });
       }
       parts.push(this.expression());
     }
@@ -311,6 +343,26 @@ class LineParser {
     if (ends.some((end, row) => end !== (row + 1) * cols)) throw new Complaint(open, "found rows of different lengths");
     return parts.length === 1 ? this.node("group", start, { parts }) : this.node("array", start, { cols, parts });
   }
+}
+
+/** The expressions on a statement's own line. */
+const ownExpressions = ({ range, target, value, condition }) =>
+  [range?.from, range?.second, range?.to, ...(range?.values ?? []), ...(target?.parts ?? []), value, condition].filter(Boolean);
+
+/** The expressions of a statement and of those below it. */
+const expressionsOf = (statement) => [...ownExpressions(statement), ...blocksOf(statement).flatMap(expressionsOf)];
+
+const blocksOf = ({ body = [], fallback = [] }) => [...body, ...fallback];
+
+/** How deep statements stand below one, itself included. */
+const levelsOf = (statement) => 1 + Math.max(0, ...blocksOf(statement).map(levelsOf));
+
+/** The names that a statement writes to, with those below it and those of programs within its expressions. */
+function writtenBy(statement) {
+  const { step, name, names, target } = statement;
+  const own = { for: [name], assign: [target?.name], spread: names }[step] ?? [];
+  const inner = (part) => (part.kind === "program" ? part.block.flatMap(writtenBy) : part.parts.flatMap(inner));
+  return [...own, ...ownExpressions(statement).flatMap(inner), ...blocksOf(statement).flatMap(writtenBy)];
 }
 
 /** Where and why a text leaves the notation: the printed line, and the line and the column in the text,
@@ -343,11 +395,7 @@ function readListing(name, lines) {
   const program = body ? [body] : reader.block(1);
   const line = lines[reader.next];
   if (line) reader.refuse(line, 0, line.level === 0 ? "found a line beside the header, expected it indented" : "found a line below a function whose body stands behind `:=`");
-  const written = ({ step, name, target, body = [], fallback = [] }) => [
-    ...(step === "for" ? [name] : step === "assign" ? [target.name] : []),
-    ...[...body, ...fallback].flatMap(written),
-  ];
-  return { name, lines, parameters, program, assigned: new Set(program.flatMap(written)) };
+  return { name, lines, parameters, program, assigned: new Set(program.flatMap(writtenBy)) };
 }
 
 /** Reads the lines of a listing one after another, blocks with what stands in them. */
@@ -382,7 +430,7 @@ class ListingReader {
     if (behind.length === 0) return { parameters };
     const body = this.on(line, () => new LineParser(behind, 0).statement());
     this.checkDepth(line, body);
-    if (!["assign", "evaluate", "return"].includes(body.step)) this.refuse(line, 0, "found a block behind `:=`, expected it indented below");
+    if (!["assign", "spread", "evaluate", "return"].includes(body.step)) this.refuse(line, 0, "found a block behind `:=`, expected it indented below");
     return { parameters, body };
   }
 
@@ -423,10 +471,8 @@ class ListingReader {
   }
 
   checkDepth(line, statement) {
-    const depth = ({ parts }) => 1 + Math.max(0, ...parts.map(depth));
-    const own = ({ range, target, value, condition }) =>
-      [range?.from, range?.second, range?.to, ...(range?.values ?? []), ...(target?.parts ?? []), value, condition].filter(Boolean);
-    const deep = [statement, ...(statement.body ?? [])].flatMap(own).find((part) => depth(part) > MOST.depth);
+    const depth = ({ parts, block = [] }) => 1 + Math.max(0, ...block.map(levelsOf)) + Math.max(0, ...parts.map(depth));
+    const deep = [statement, ...(statement.body ?? [])].flatMap(ownExpressions).find((part) => depth(part) > MOST.depth);
     if (deep) this.refuse(line, deep.start, `found operators and brackets more than ${MOST.depth} deep`);
   }
 }

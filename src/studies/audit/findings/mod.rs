@@ -93,7 +93,7 @@ impl Finding {
 
     /// Returns the smallest scene that shows the finding.
     pub fn scene(&self) -> Scene {
-        Scene::open(&format!("findings/{}", self.id)).expect("a finding's scene is sound")
+        Scene::open(format!("findings/{}", self.id)).expect("a finding's scene is sound")
     }
 }
 

@@ -1,0 +1,87 @@
+//! Triangles of one body that lie over each other, as in a mesh that folds over itself: their stiffness would
+//! count twice. Two bodies may lie inside each other; contact pushes them apart.
+
+use super::mesh::Mesh;
+use crate::element::Corners;
+use crate::model::{Body, Model, TriangleId};
+use base::error::{InputError, Result};
+
+/// How deep one triangle may lie in another, over their longest side: what rounding does where the nodes
+/// along a crack are doubled.
+const DEPTH: f64 = 1e-9;
+
+/// Checks that no triangles of one body lie over each other.
+///
+/// # Errors
+/// Names two that do.
+pub fn check(mesh: &Mesh, model: &Model) -> Result<()> {
+    let Some(ids) = model.bodies.iter().find_map(|body| overlap(model, body)) else {
+        return Ok(());
+    };
+    let numbers: Vec<usize> = mesh.of_dimension(2).map(|triangle| triangle.number).collect();
+    let [a, b] = ids.map(|id| numbers[id.index()]);
+    let what = format!("triangles {} and {} of one body lie over each other", a.min(b), a.max(b));
+    let fix = "remove one, or move its nodes: the mesh folds over itself";
+    Err(InputError::new("the mesh's triangles", what, fix))
+}
+
+/// A triangle with the rectangle around it.
+struct Boxed {
+    id: TriangleId,
+    corners: Corners<f64>,
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+/// Returns two triangles of a body that lie over each other; None where there are none.
+fn overlap(model: &Model, body: &Body) -> Option<[TriangleId; 2]> {
+    let boxed = |id: &TriangleId| {
+        let corners @ [a, b, c] = model.corners(*id);
+        let bound = |by: fn(f64, f64) -> f64| [0, 1].map(|k| by(by(a[k], b[k]), c[k]));
+        Boxed { id: *id, corners, low: bound(f64::min), high: bound(f64::max) }
+    };
+    let mut triangles: Vec<Boxed> = body.triangles.iter().map(boxed).collect();
+    // A line sweeps the body along the axis on which it crosses fewer triangles at a time.
+    let crossed = [0, 1].map(|k| {
+        let along: f64 = triangles.iter().map(|one| one.high[k] - one.low[k]).sum();
+        let low = triangles.iter().map(|one| one.low[k]).fold(f64::INFINITY, f64::min);
+        let high = triangles.iter().map(|one| one.high[k]).fold(f64::NEG_INFINITY, f64::max);
+        along / (high - low)
+    });
+    let axis = usize::from(crossed[1] < crossed[0]);
+    triangles.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
+    let mut crossed: Vec<&Boxed> = Vec::new();
+    for one in &triangles {
+        crossed.retain(|other| other.high[axis] > one.low[axis]);
+        if let Some(other) = crossed.iter().find(|other| other.overlaps(one)) {
+            return Some([other.id, one.id]);
+        }
+        crossed.push(one);
+    }
+    None
+}
+
+impl Boxed {
+    fn overlaps(&self, other: &Boxed) -> bool {
+        let meets = |k: usize| self.low[k] < other.high[k] && other.low[k] < self.high[k];
+        let depth = DEPTH * self.longest_side().max(other.longest_side());
+        meets(0) && meets(1) && !self.is_apart(other, depth) && !other.is_apart(self, depth)
+    }
+
+    fn longest_side(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+        length(a, b).max(length(b, c)).max(length(c, a))
+    }
+
+    /// Returns whether the other triangle lies beyond one of this one's sides, but for `depth`.
+    fn is_apart(&self, other: &Boxed, depth: f64) -> bool {
+        let [a, b, c] = self.corners;
+        [[a, b], [b, c], [c, a]].into_iter().any(|[from, to]| {
+            let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+            let inside =
+                |p: &[f64; 2]| (dx * (p[1] - from[1]) - dy * (p[0] - from[0])) / dx.hypot(dy);
+            other.corners.iter().all(|p| inside(p) <= depth)
+        })
+    }
+}
