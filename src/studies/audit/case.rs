@@ -15,10 +15,6 @@ use problem::model::Model;
 use problem::modelling::{ContactModel, Friction, Variant};
 use problem::scene::Scene;
 
-/// The cases that mean the same. A third takes a third longer, of an audit of a minute or more, and moved no other
-/// figure on `strand`, `fig1` and `two-blocks`.
-const EQUIVALENTS: usize = 2;
-
 /// The relative distance from the least coefficient of friction at which two runs confirm it.
 const BESIDE: f64 = 1e-3;
 
@@ -194,8 +190,7 @@ impl Case {
     /// The cases that mean the same ([`equivalent`]): what is another number there is decided by rounding.
     pub fn equivalents(&self) -> &[Case] {
         let case = |request| Case::from_request(request).expect("the reading allows the model");
-        self.equivalents
-            .get_or_init(|| equivalent(&self.base).take(EQUIVALENTS).map(case).collect())
+        self.equivalents.get_or_init(|| equivalent(&self.base).map(case).collect())
     }
 
     /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread
