@@ -29,6 +29,8 @@ pub struct Case {
     finer: OnceLock<Result<Solution, Error>>,
     unilateral: Arc<Unilateral>,
     equivalents: OnceLock<Vec<Case>>,
+    /// The most of those.
+    most_equivalents: usize,
 }
 
 /// The runs of `unilateral`, which no reading changes but by the model.
@@ -73,6 +75,7 @@ impl Case {
             finer: OnceLock::new(),
             unilateral: Arc::default(),
             equivalents: OnceLock::new(),
+            most_equivalents: usize::MAX,
         })
     }
 
@@ -84,6 +87,12 @@ impl Case {
     /// The reading under which the scene is audited.
     pub fn reading(&self) -> &Reading {
         &self.base.reading
+    }
+
+    /// The case with one input that means the same, as one of many: each takes as long as the case itself.
+    #[must_use]
+    pub fn of_many(self) -> Self {
+        Case { most_equivalents: 1, ..self }
     }
 
     /// The case of the same request under another reading.
@@ -190,7 +199,8 @@ impl Case {
     /// The cases that mean the same ([`equivalent`]): what is another number there is decided by rounding.
     pub fn equivalents(&self) -> &[Case] {
         let case = |request| Case::from_request(request).expect("the reading allows the model");
-        self.equivalents.get_or_init(|| equivalent(&self.base).map(case).collect())
+        self.equivalents
+            .get_or_init(|| equivalent(&self.base).take(self.most_equivalents).map(case).collect())
     }
 
     /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread
