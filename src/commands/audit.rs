@@ -31,8 +31,9 @@ tables: the readings (what each other value changes), the findings (present, not
 contradicted; with a number), and the variants side by side. --finding explains one on its smallest
 scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
 threshold, value, and the verdict under each other reading. --reading audits under another reading
-than the default, to see whether it rescues a claim. The whole takes 60 to 120 times as long
-as solve.
+than the default, to see whether it rescues a claim. All figures are repeated on inputs that
+mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
+takes 150 to 300 times as long as solve.
 
 A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
 status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
@@ -66,12 +67,12 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
-    /// back, and show what each costs. It takes some 10 seconds on strand. Of --reading only what
-    /// changes the model matters (R6, R8); with --range it is done over the range, in some ten minutes.
+    /// back, and show what each costs. It takes half a minute on strand. Of --reading only what
+    /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
     #[arg(long, conflicts_with_all = ["finding", "claim"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
-    /// put back, each time the one that leaves the least error. It takes a minute or two on strand.
+    /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
     #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
     #[command(flatten)]

@@ -15,10 +15,6 @@ use problem::model::Model;
 use problem::modelling::{ContactModel, Friction, Variant};
 use problem::scene::Scene;
 
-/// The cases that mean the same. A third takes a third longer, of an audit of a minute or more, and moved no other
-/// figure on `strand`, `fig1` and `two-blocks`.
-const EQUIVALENTS: usize = 2;
-
 /// The relative distance from the least coefficient of friction at which two runs confirm it.
 const BESIDE: f64 = 1e-3;
 
@@ -33,6 +29,8 @@ pub struct Case {
     finer: OnceLock<Result<Solution, Error>>,
     unilateral: Arc<Unilateral>,
     equivalents: OnceLock<Vec<Case>>,
+    /// The most of those.
+    most_equivalents: usize,
 }
 
 /// The runs of `unilateral`, which no reading changes but by the model.
@@ -77,6 +75,7 @@ impl Case {
             finer: OnceLock::new(),
             unilateral: Arc::default(),
             equivalents: OnceLock::new(),
+            most_equivalents: usize::MAX,
         })
     }
 
@@ -88,6 +87,12 @@ impl Case {
     /// The reading under which the scene is audited.
     pub fn reading(&self) -> &Reading {
         &self.base.reading
+    }
+
+    /// The case with one input that means the same, as one of many: each takes as long as the case itself.
+    #[must_use]
+    pub fn of_many(self) -> Self {
+        Case { most_equivalents: 1, ..self }
     }
 
     /// The case of the same request under another reading.
@@ -195,7 +200,7 @@ impl Case {
     pub fn equivalents(&self) -> &[Case] {
         let case = |request| Case::from_request(request).expect("the reading allows the model");
         self.equivalents
-            .get_or_init(|| equivalent(&self.base).take(EQUIVALENTS).map(case).collect())
+            .get_or_init(|| equivalent(&self.base).take(self.most_equivalents).map(case).collect())
     }
 
     /// Makes the runs that claims, findings and variants ask for, each in a job of its own. A thread

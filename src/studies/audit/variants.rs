@@ -61,7 +61,7 @@ pub enum End {
 }
 
 impl End {
-    /// Returns the figures of a result, each over the scale of its kind.
+    /// Returns the figures of a result at its end, each over the scale of its kind.
     fn figures(&self) -> Vec<Option<f64>> {
         let End::Result {
             in_contact,
@@ -77,7 +77,7 @@ impl End {
         else {
             return Vec::new();
         };
-        let counts = in_contact.iter().chain([&pulling.len()]).map(|n| Some(*n as f64)).collect();
+        let count = |n: usize| Some(n as f64);
         let distance = distance.as_ref().map(|from| from.energy_relative);
         let depth = penetration.as_ref().map(|found| found.relative);
         let period = cycle.as_ref().map(|cycle| cycle.length as f64);
@@ -86,8 +86,9 @@ impl End {
             let sizes = sizes(body).into_iter().enumerate();
             sizes.map(move |(k, size)| Some(over(size, largest(k))))
         });
+        let last = in_contact.last().copied().and_then(count);
         let others = [Some(*target_share), distance, *friction_needed, depth, period];
-        [counts, others.to_vec(), of_bodies.collect()].concat()
+        [vec![last, count(pulling.len())], others.to_vec(), of_bodies.collect()].concat()
     }
 }
 
