@@ -178,13 +178,6 @@ pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
     Ok(Array::column((0..3).map(entry).collect::<Result<_, _>>()?).into())
 }
 
-fn three(value: &Value) -> Result<&[f64], Cause> {
-    match value {
-        Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
-        other => Err(kind("a column of three numbers", other)),
-    }
-}
-
 /// Returns the eigenvalues of a square matrix, in ascending order.
 ///
 /// # Errors
