@@ -153,7 +153,7 @@ fn others<'a>(solution: &'a Solution) -> [Option<OtherSolution<'a>>; 2] {
 /// the bodies into contact.
 fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
     let path = solution.equilibrium.as_ref()?.path.as_ref()?;
-    let counts = matches!(path.start, Start::Held | Start::Closed | Start::Released);
+    let counts = !matches!(path.start, Start::Loose | Start::Overlapping);
     half.filter(|_| counts).map(|u| (u - &solution.u).amax())
 }
 

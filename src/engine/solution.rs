@@ -186,6 +186,9 @@ pub enum Start {
     /// They overlapped, and contact alone holds them: they were moved apart as rigid ones, to where a vanishing
     /// load holds them without friction, or by their only motion.
     Released,
+    /// They overlapped, and neither contact nor the load holds them without friction: they were moved apart as rigid
+    /// ones, so that all nodes that overlapped touch and none slipped.
+    Unslipped,
     /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
     /// changes the result.
     Loose,

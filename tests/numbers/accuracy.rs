@@ -179,18 +179,28 @@ fn square(at: f64, e: f64, pressure: f64) -> Value {
     })
 }
 
-/// What overflows, vanishes or collapses in `f32` is taken to the next precision.
+/// f32 is never the cheapest: what overflows, vanishes or collapses in it takes no other precision than the rest.
+/// What overflows in f64 is taken to the next precision that has it.
 #[test]
-fn what_f32_cannot_represent_climbs() {
-    for (what, scene) in [
-        ("an overflow", square(0.0, 1e40, 1e38)),
-        ("a load that vanishes", square(0.0, 1.0, 1e-50)),
-        ("an edge that collapses", square(1e9, 1.0, 0.1)),
+fn what_a_precision_cannot_represent_climbs() {
+    for (what, scene, tried) in [
+        ("an overflow of f32", square(0.0, 1e40, 1e38), &[ScalarName::Bounded][..]),
+        ("a load that vanishes in f32", square(0.0, 1.0, 1e-50), &[ScalarName::Bounded]),
+        ("an edge that collapses in f32", square(1e9, 1.0, 0.1), &[ScalarName::Bounded]),
+        (
+            "an overflow of f64",
+            square(0.0, 1.5e308, 1e300),
+            &[ScalarName::Bounded, ScalarName::BoundedDouble, ScalarName::Exact],
+        ),
     ] {
         let reached =
             case(&scene, Variant::Tied, 1e-3).unwrap_or_else(|why| panic!("{what}: {why}"));
-        assert!(matches!(reached.attempts[0].outcome, Outcome::Failed(_)), "{what}: {reached:?}");
-        assert_eq!(reached.solution.request.arithmetic.scalar, ScalarName::Bounded, "{what}");
+        let (last, failed) = reached.attempts.split_last().expect("one was tried");
+        let failed = failed.iter().inspect(|attempt| {
+            assert!(matches!(attempt.outcome, Outcome::Failed(_)), "{what}: {attempt:?}");
+        });
+        let all = failed.chain([last]).map(|attempt| attempt.arithmetic.scalar);
+        assert_eq!(all.collect::<Vec<_>>(), tried, "{what}");
     }
 }
 
@@ -318,7 +328,7 @@ fn what_no_precision_reaches_is_refused_with_every_reason() {
             "of exact displacements 40 digits are written",
             open("two-blocks").variant(Variant::Tied),
             1e-45,
-            &["f32: its digits are too few", "exact: its digits are too few"],
+            &["f64-bounded: its digits are too few", "exact: its digits are too few"],
         ),
     ];
     for (what, request, accuracy, words) in cases {

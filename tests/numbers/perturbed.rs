@@ -2,7 +2,7 @@
 
 use crate::decisions::block_and_stamp;
 use plane_contact::engine::estimates::{Perturbed, perturbed};
-use plane_contact::engine::{Margin, NearestDecision, Request, solve};
+use plane_contact::engine::{Margin, NearestDecision, Request, last_under_each_load, solve};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
@@ -33,12 +33,35 @@ fn rounding_decides_nothing_in_the_references() {
     }
 }
 
-/// In fig1 nodes overlap, and whether they close before any load turns on the last digit.
+/// A node that closes within the first thousandth of a step does not divide it. Where it closes at that limit, its
+/// last digit decides from where its slip counts.
 #[test]
 fn a_path_that_turns_on_the_last_digit_is_found() {
-    let request = Request::new(&Scene::open("fig1").unwrap()).equilibrium();
-    let found = measured(&request);
-    assert!(found.other_steps > 0 && found.displacement > Some(1e-6), "{found:?}");
+    let contact = json!({
+        "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": "stick", "geometry": "initial", "load_steps": 1
+    });
+    let request = |gap: f64| {
+        block_and_stamp([[0.3, gap], [2.0, 1.0], [0.0, 1.0]], &contact, Variant::Unilateral)
+    };
+    let divides = |gap: f64| {
+        let solution = solve(&request(gap), &mut |_| ()).expect("the stamp is held");
+        last_under_each_load(&solution.steps).len() > 1
+    };
+    let (near, far) = last_digits_between(1e-6, 1e-2, |gap| !divides(gap));
+    let at_the_limit = [near, far].map(|gap| measured(&request(gap))).into_iter();
+    let at_the_limit = at_the_limit.max_by_key(|found| found.other_steps).expect("two runs");
+    assert!(at_the_limit.other_steps > 0, "{at_the_limit:?}");
+    assert!(at_the_limit.displacement > Some(1e-6), "{at_the_limit:?}");
+}
+
+/// Returns the last number of a range of which something holds, and the next one.
+fn last_digits_between(mut near: f64, mut far: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
+    assert!(holds(near) && !holds(far));
+    while near.next_up() < far {
+        let middle = f64::midpoint(near, far);
+        if holds(middle) { near = middle } else { far = middle }
+    }
+    (near, far)
 }
 
 /// The contact node rests past the target's end as far as 5 % of its edge. Where it stands at that limit, its
@@ -56,13 +79,8 @@ fn a_node_at_the_limit_of_what_it_faces_is_found() {
         let solution = solve(&request(x), &mut |_| ()).expect("the stamp is held");
         solution.in_contact().count() == 1
     };
-    let (mut near, mut far) = (1.04_f64, 1.06_f64);
-    assert!(faces(near) && !faces(far));
-    assert_eq!(measured(&request(near)).contact, None);
-    while near.next_up() < far {
-        let middle = f64::midpoint(near, far);
-        if faces(middle) { near = middle } else { far = middle }
-    }
+    assert_eq!(measured(&request(1.04)).contact, None);
+    let (near, far) = last_digits_between(1.04, 1.06, faces);
     // The random numbers are the same: what they push over the limit from one side they do not from the other.
     let mut at_the_limit = [near, far].map(|x| measured(&request(x))).into_iter();
     let at_the_limit = at_the_limit.find(|found| found.contact.is_some());

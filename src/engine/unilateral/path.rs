@@ -60,8 +60,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
         run.keeps_all = problem.can_enumerate(&config, total);
         if problem.overlaps(&config) {
             run.start = Start::Closed;
-            if let Some(u) = problem.released()? {
-                (run.start, point.u) = (Start::Released, u);
+            if let Some(released) = problem.released()? {
+                (run.start, point.u) = released;
             } else if let Ok(closed) = run.advance(&point, 0.0, 0) {
                 point = Point::after(0.0, closed);
             } else {

@@ -102,12 +102,15 @@ pub(super) fn escape(
 pub(super) enum Release {
     /// In one place: in that to which a vanishing load brings them without friction, or by their only motion.
     There(DVector<f64>),
+    /// In one place in which all nodes that overlap touch and none has slipped.
+    Unslipped(DVector<f64>),
     /// In no place more than in another one.
     Anywhere(DVector<f64>),
 }
 
-/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, where they can
-/// come apart; None where they cannot, and where nothing is known. `pairings` have their gaps, length.
+/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, or else without
+/// slip, where they can come apart; None where they cannot, and where nothing is known. `pairings` have their gaps,
+/// length, and are `closed` up to one of these.
 ///
 /// ```text
 ///   the least ½ ε dᵀ d − fᵀ d with A d + g ≥ 0
@@ -122,11 +125,13 @@ pub(super) fn release(
     (model, shape): (&Model, &[[f64; 2]]),
     pairings: &[(&Pairing, f64)],
     load: &DVector<f64>,
+    closed: f64,
 ) -> Option<Release> {
     let motions = RigidMotions::new(model, shape);
     let basis = free_part(&motions.restrained());
     let deepest = pairings.iter().map(|(_, gap)| -gap).fold(0.0, f64::max);
-    let opening = |p: &Pairing| basis.tr_mul(&motions.relative(p.node, &p.masters, p.normal));
+    let along = |p: &Pairing, to| basis.tr_mul(&motions.relative(p.node, &p.masters, to));
+    let opening = |p: &Pairing| along(p, p.normal);
     let mut near = pairings.to_vec();
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
     near.truncate(MOST);
@@ -152,9 +157,29 @@ pub(super) fn release(
         .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
         .flatten()
         .filter(|motion| motion.norm() <= FAR * deepest);
-    Some(match under_load {
-        Some(motion) => Release::There(in_all(motion)),
-        None if basis.ncols() == 1 => Release::There(in_all(least_under(&none, 1.0, 0.0)?)),
+    if let Some(motion) = under_load {
+        return Some(Release::There(in_all(motion)));
+    }
+    if basis.ncols() == 1 {
+        return Some(Release::There(in_all(least_under(&none, 1.0, 0.0)?)));
+    }
+    // Every node that overlaps comes to touch, and none moves along the target.
+    let rows = near
+        .iter()
+        .filter(|(_, gap)| *gap <= closed)
+        .flat_map(|(p, gap)| [(opening(p), -gap), (along(p, tangent(p)), 0.0)]);
+    let (rows, apart_by): (Vec<_>, Vec<f64>) = rows.unzip();
+    let rows = DMatrix::from_columns(&rows).transpose();
+    let svd = rows.clone().svd(true, true);
+    let holds = svd.rank(FREE.sqrt() * svd.singular_values.max()) == basis.ncols();
+    let motion = svd.solve(&DVector::from(apart_by.clone()), 0.0).ok().filter(|motion| {
+        let missed = (rows * motion - DVector::from(apart_by)).amax();
+        holds
+            && missed <= closed
+            && pairings.iter().all(|(p, gap)| gap + opening(p).dot(motion) >= -closed)
+    });
+    Some(match motion {
+        Some(motion) => Release::Unslipped(in_all(motion)),
         None => Release::Anywhere(in_all(apart)),
     })
 }

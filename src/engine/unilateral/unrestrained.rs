@@ -10,6 +10,7 @@ use crate::contact::{BEND, Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, NoEquilibrium};
 use crate::range::{beyond_range, inside_out};
+use crate::solution::Start;
 use base::error::InputError;
 use base::plain::six_digits;
 use numbers::solve::SparseCholesky;
@@ -126,24 +127,25 @@ impl Problem<'_> {
     }
 
     /// Returns the displacements with which bodies that overlap, and that contact alone keeps in place, come to
-    /// touch as rigid ones, before any load; None where restraints or other contacts press them together.
+    /// touch as rigid ones, before any load, and how; None where restraints or other contacts press them together.
     ///
     /// # Errors
     /// They come apart in several ways, the load presses them together in none, and friction counts from there.
-    pub(super) fn released(&self) -> Result<Option<DVector<f64>>, NoEquilibrium> {
-        let mut u = DVector::zeros(self.model.dofs());
+    pub(super) fn released(&self) -> Result<Option<(Start, DVector<f64>)>, NoEquilibrium> {
+        let (mut start, mut u) = (Start::Released, DVector::zeros(self.model.dofs()));
         for _ in 0..RELEASES {
             let config = self.configuration(&u);
             let gaps = self.gaps(&config, &u);
             let facing = config.pairings.iter().zip(gaps);
             let facing: Vec<_> = facing.filter_map(|(p, gap)| p.as_ref().zip(gap)).collect();
             if facing.iter().all(|(_, gap)| *gap >= -self.closed) {
-                return Ok(Some(u));
+                return Ok(Some((start, u)));
             }
             let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
-            match rigid::release((self.model, shape), &facing, &self.load(1.0)) {
+            match rigid::release((self.model, shape), &facing, &self.load(1.0), self.closed) {
                 None => return Ok(None),
                 Some(Release::There(more)) => u += more,
+                Some(Release::Unslipped(more)) => (start, u) = (Start::Unslipped, u + more),
                 Some(Release::Anywhere(motion)) => return Err(self.starts_anywhere(&motion)),
             }
         }
@@ -153,8 +155,8 @@ impl Problem<'_> {
     fn starts_anywhere(&self, motion: &DVector<f64>) -> NoEquilibrium {
         let what = format!(
             "the start is not determined: before any load bodies overlap that contact alone holds, as at {}; \
-             they come apart in many ways, the load without friction holds them in none, and friction counts \
-             from there; restrain the body until one motion at most is free, or move it until it touches",
+             they come apart in many ways, in none the load holds them without friction or all that overlap touch \
+             without slip, and friction counts from there; restrain the body until one motion at most is free, or move it until it touches",
             self.model
                 .all_dofs()
                 .nth(motion.iamax())

@@ -57,16 +57,26 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> 
     Report::default()
         .table("Path of the load", table)
         .note(format!("{} steps a stage{halved}", path.steps))
-        .notes((path.start == Start::Released).then_some(
-            "The start is not determined by the overlap: before any load the bodies were moved apart as rigid \
-             ones, to where a vanishing load holds them without friction; friction counts from there",
-        ))
+        .notes(released(path.start))
         .note(match assessment.path_change {
             Some(change) => step_error(solution, path, change),
             None => {
                 format!("The error of the size of the steps is {}", why_unknown(path, assessment))
             }
         })
+}
+
+/// Says where bodies that overlapped start from, where contact alone holds them.
+fn released(start: Start) -> Option<String> {
+    let place = match start {
+        Start::Held | Start::Closed | Start::Loose | Start::Overlapping => return None,
+        Start::Released => "to where a vanishing load holds them without friction",
+        Start::Unslipped => "so that all nodes that overlapped touch and none slipped",
+    };
+    Some(format!(
+        "The start is not determined by the overlap: before any load the bodies were moved apart as rigid \
+         ones, {place}; friction counts from there"
+    ))
 }
 
 /// Says what half as many steps of the load change.
@@ -95,14 +105,12 @@ fn why_unknown(path: &Path, assessment: &Assessment) -> &'static str {
             "unknown: nodes that overlap the target close with the first step, as no equilibrium was \
              found without load"
         }
-        Start::Held | Start::Closed | Start::Released if path.steps % 2 == 1 => {
-            "unknown: it takes an even number of steps"
-        }
-        Start::Held | Start::Closed | Start::Released if assessment.estimates.is_none() => {
-            "not asked for"
-        }
-        Start::Held | Start::Closed | Start::Released => {
-            "unknown: half as many steps find no equilibrium"
+        Start::Held | Start::Closed | Start::Released | Start::Unslipped => {
+            match (path.steps % 2, &assessment.estimates) {
+                (1, _) => "unknown: it takes an even number of steps",
+                (_, None) => "not asked for",
+                (_, Some(_)) => "unknown: half as many steps find no equilibrium",
+            }
         }
     }
 }
