@@ -15,8 +15,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::tangent;
 use super::lemke::complementary;
-use super::problem::Outcome;
-use super::search::StateSearch;
+use super::problem::{Outcome, StateSearch};
 use crate::contact::{Pairing, Sense, Status};
 use crate::elimination::{Constraint, Motion};
 

@@ -3,8 +3,7 @@
 use nalgebra::DVector;
 
 use super::condensed::Condensed;
-use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSolution};
-use super::search::StateSearch;
+use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSearch, StateSolution};
 use crate::contact::{Sense, Status};
 use crate::solution::{NearestDecision, OtherEquilibrium, Uniqueness};
 use problem::model::NodeId;
@@ -16,15 +15,12 @@ const WEAK: f64 = 1e-9;
 /// The difference of displacements, over the largest, beyond which two equilibria differ.
 const DISTINCT: f64 = 1e-6;
 
-/// The number of equations that may be factored in all to try contact states.
+/// The number of equations that may be factored in all to try the neighbours of a contact state.
 const WORK: usize = 500_000;
 
-/// The number of contact states of a step up to which all of them are tried: those of six nodes under
-/// friction, or of twelve without.
-const ALL: usize = 4096;
-
-/// The same on the contact nodes alone: those of ten nodes under friction, in about a second.
-const CONDENSED: usize = 1 << 20;
+/// The number of contact states up to which all of them are tried, on the contact nodes alone: those of ten nodes
+/// under friction, in about a second.
+const ALL: usize = 1 << 20;
 
 /// Contact states that were tried.
 struct States {
@@ -72,9 +68,10 @@ pub(super) fn uniqueness(
     }
     let every = |steps: &[TakenStep]| -> Option<Vec<States>> {
         let of_step = |step: &TakenStep| {
+            let number = problem.number_of_states(&step.config, steps.len())?;
             let setting = setting(problem, step);
             let search = problem.search(&step.config, &setting);
-            search.every(Condensed::new(&search).as_ref(), steps.len())
+            Some(States { number, worth: Condensed::new(&search)?.equilibria() })
         };
         steps.iter().map(of_step).collect()
     };
@@ -139,52 +136,20 @@ impl StateSearch<'_> {
     /// None where there are none, and where there are too many to be tried.
     pub(super) fn condensed(&self) -> Option<Vec<Status>> {
         let holds = |statuses: &Vec<Status>| self.try_statuses(statuses).is_some();
-        let condensed = Condensed::new(self);
-        let by_pivots = condensed.as_ref().and_then(Condensed::by_pivots);
-        by_pivots
-            .filter(holds)
-            .or_else(|| self.every(condensed.as_ref(), 1)?.worth.into_iter().find(holds))
-    }
-
-    /// Tries the contact states of one of so many steps; None where they are too many.
-    fn every(&self, condensed: Option<&Condensed>, steps: usize) -> Option<States> {
-        let StateSearch { problem, config, .. } = self;
-        let number = problem.number_of_states(config).filter(|n| *n <= CONDENSED / steps)?;
-        if let Some(condensed) = condensed {
-            return Some(States { number, worth: condensed.equilibria() });
-        }
-        let most = ALL.min(problem.most_states() / steps);
-        (number <= most).then(|| States { number, worth: problem.every(config) })
+        let condensed = Condensed::new(self)?;
+        condensed.by_pivots().filter(holds).or_else(|| {
+            self.problem.number_of_states(self.config, 1)?;
+            condensed.equilibria().into_iter().find(holds)
+        })
     }
 }
 
 impl Problem<'_> {
-    /// Returns whether all contact states of so many steps, whose nodes face what they do in a place, may be
+    /// Returns the number of all contact states in a place; None where those of so many steps are too many to be
     /// tried.
-    pub(super) fn can_enumerate(&self, config: &Configuration, steps: usize) -> bool {
-        self.number_of_states(config).is_some_and(|number| number <= CONDENSED / steps)
-    }
-
-    /// Returns the number of contact states that are tried at most: fewer of a large model.
-    fn most_states(&self) -> usize {
-        1 + WORK / self.model.dofs()
-    }
-
-    /// Returns the number of all contact states in a place; None of more than fit an integer.
-    fn number_of_states(&self, config: &Configuration) -> Option<usize> {
+    pub(super) fn number_of_states(&self, config: &Configuration, steps: usize) -> Option<usize> {
         let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
-        choices.try_fold(1_usize, usize::checked_mul)
-    }
-
-    /// Returns every contact state in a place.
-    fn every(&self, config: &Configuration) -> Vec<Vec<Status>> {
-        (0..config.pairings.len()).fold(vec![Vec::new()], |states, i| {
-            let choices = self.choices(config, i);
-            let with = |state: &Vec<Status>| {
-                choices.iter().map(|c| [&state[..], &[*c]].concat()).collect::<Vec<_>>()
-            };
-            states.iter().flat_map(with).collect()
-        })
+        choices.try_fold(1_usize, usize::checked_mul).filter(|number| *number <= ALL / steps)
     }
 
     /// Returns the equilibria of a step among some states, each once, other than the one that it led to.
@@ -222,7 +187,7 @@ impl Problem<'_> {
             })
         };
         let near = (0..statuses.len()).filter(near).flat_map(with);
-        let worth: Vec<_> = near.take(self.most_states()).collect();
+        let worth: Vec<_> = near.take(1 + WORK / self.model.dofs()).collect();
         States { number: worth.len(), worth }
     }
 

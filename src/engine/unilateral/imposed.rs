@@ -4,9 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{self, Contact, ContactForce, forces};
-use super::problem::{Configuration, Outcome, Problem, Setting, StateSolution};
+use super::problem::{Configuration, Outcome, Problem, Setting, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
-use super::search::StateSearch;
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};

@@ -25,7 +25,7 @@
 //!    Opsearch 11 (1974)). Where they do not restrain the bodies, the node that the load's motion brings to
 //!    the target first closes; where no node comes nearer, those with the least gaps close.
 //! 2. Complementary pivots on the contact nodes alone (`condensed`, `lemke`).
-//! 3. All statuses that there are, where they are few (`condensed`, `equilibria`).
+//! 3. All statuses that there are on these, where they are few (`condensed`, `equilibria`).
 //! 4. Under friction, all of this for the step of the load in two halves (`path`).
 //! 5. The first three again with the bodies on springs, which vanish as they come to rest (`springs`).
 //!

@@ -57,7 +57,7 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     let mut run = Run::new(problem, watch);
     if with_friction {
         let config = problem.configuration(&point.u);
-        run.keeps_all = problem.can_enumerate(&config, total);
+        run.keeps_all = problem.number_of_states(&config, total).is_some();
         if problem.overlaps(&config) {
             run.start = Start::Closed;
             if let Some(released) = problem.released()? {

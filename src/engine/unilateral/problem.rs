@@ -7,7 +7,6 @@ use nalgebra::DVector;
 
 use super::forces::{ContactForce, tangent};
 use super::rigid;
-use super::search::StateSearch;
 use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
 use crate::elimination::{Constraint, Motion};
@@ -71,6 +70,14 @@ pub(super) struct Setting<'a> {
     pub(super) before: &'a DVector<f64>,
     /// The statuses from which the search starts; none at the beginning of the path.
     pub(super) statuses: Option<&'a [Status]>,
+}
+
+/// The search for a contact state in one configuration and one setting.
+#[derive(Clone, Copy)]
+pub(super) struct StateSearch<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) config: &'a Configuration,
+    pub(super) setting: &'a Setting<'a>,
 }
 
 /// A shape and the target that each contact node faces in it.
@@ -208,6 +215,14 @@ impl<'a> Problem<'a> {
     ) -> Setting<'s> {
         let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
         Setting { load, reduced, whole: false, before, statuses }
+    }
+
+    pub(super) fn search<'s>(
+        &'s self,
+        config: &'s Configuration,
+        setting: &'s Setting<'s>,
+    ) -> StateSearch<'s> {
+        StateSearch { problem: self, config, setting }
     }
 
     /// Returns whether contact is measured in the current shape.

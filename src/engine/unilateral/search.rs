@@ -7,8 +7,8 @@ use nalgebra::DVector;
 
 use super::forces::{ContactForce, tangent};
 use super::problem::{
-    CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSolution, Watch,
-    violation,
+    CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSearch,
+    StateSolution, Watch, violation,
 };
 use super::status::{History, first_closed, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
@@ -38,23 +38,7 @@ pub(super) const STALLED: f64 = 1e-8;
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
-/// The search for a contact state in one configuration and one setting.
-#[derive(Clone, Copy)]
-pub(super) struct StateSearch<'a> {
-    pub(super) problem: &'a Problem<'a>,
-    pub(super) config: &'a Configuration,
-    pub(super) setting: &'a Setting<'a>,
-}
-
 impl Problem<'_> {
-    pub(super) fn search<'s>(
-        &'s self,
-        config: &'s Configuration,
-        setting: &'s Setting<'s>,
-    ) -> StateSearch<'s> {
-        StateSearch { problem: self, config, setting }
-    }
-
     /// Finds the equilibrium of a setting in the shape that it leads to.
     pub(super) fn equilibrium(
         &self,

@@ -3,9 +3,8 @@
 use nalgebra::DVector;
 
 use super::path::part_of_load;
-use super::problem::{Configuration, Problem};
+use super::problem::{Configuration, Problem, StateSearch};
 use super::rigid::{self, Release};
-use super::search::StateSearch;
 use crate::contact::{BEND, Pairing, Status};
 use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, NoEquilibrium};
