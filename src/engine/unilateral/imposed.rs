@@ -57,13 +57,13 @@ impl StateSearch<'_> {
         let mut reaction = bodies.reaction(&u);
         let mut forces = self.problem.forces(self.config, statuses, &reaction);
         let mut friction = Vec::new();
-        if let Some(slide) = self.slide(statuses, &forces, bodies)? {
-            let Some(solved) = bodies.displacements(&slide.friction) else { return Ok(None) };
+        if let Some((slide, sizes)) = self.slide(statuses, &forces, bodies)? {
+            let Some(solved) = bodies.displacements(&slide) else { return Ok(None) };
             (u, residual) = solved;
             reaction = bodies.reaction(&u);
-            forces = self.problem.forces(self.config, statuses, &(&reaction - &slide.friction));
-            slide.sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
-            let of_dof = Dof::all(slide.friction.len()).zip(slide.friction.iter().copied());
+            forces = self.problem.forces(self.config, statuses, &(&reaction - &slide));
+            sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
+            let of_dof = Dof::all(slide.len()).zip(slide.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
         }
         Ok(Some(StateSolution { u, forces, friction, reaction, residual }))
@@ -113,13 +113,16 @@ impl StateSearch<'_> {
         });
         let matrix = matrix.lu();
         let sizes = matrix.solve(&right).filter(|sizes| sizes.iter().all(|x| x.is_finite()));
-        let sizes = sizes.ok_or_else(jammed)?;
+        let sizes = sizes.ok_or_else(|| NoEquilibrium {
+            cause: Cause::NotFound,
+            what: "the sliding nodes jam: no friction agrees with its own normal forces".into(),
+        })?;
         let mut friction = DVector::zeros(dofs);
         for (load, size) in loads.iter().zip(&sizes) {
             friction.axpy(*size, load, 1.0);
         }
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
-        Ok(Some(Slide { friction, sizes }))
+        Ok(Some((friction, sizes)))
     }
 }
 
@@ -147,15 +150,6 @@ impl Problem<'_> {
     }
 }
 
-/// What friction does to nodes that slide.
-struct Slide {
-    /// By degree of freedom, force.
-    friction: DVector<f64>,
-    /// The entries that slide, each with its force along the tangent.
-    sizes: Vec<(usize, f64)>,
-}
-
-fn jammed() -> NoEquilibrium {
-    let what = "the sliding nodes jam: no friction agrees with its own normal forces".into();
-    NoEquilibrium { cause: Cause::NotFound, what }
-}
+/// What friction does to nodes that slide: by degree of freedom, and along the tangent of each entry that slides,
+/// force.
+type Slide = (DVector<f64>, Vec<(usize, f64)>);

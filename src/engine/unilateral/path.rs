@@ -54,7 +54,17 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
     let total = stages * per_stage;
     let mut point = Point { load: 0.0, u: DVector::zeros(problem.model.dofs()), statuses: None };
-    let mut run = Run::new(problem, watch);
+    let mut run = Run {
+        problem,
+        watch,
+        steps: Vec::new(),
+        factored: 0,
+        halved: 0,
+        closings: 0,
+        start: Start::Held,
+        keeps_all: false,
+        taken: Vec::new(),
+    };
     if with_friction {
         let config = problem.configuration(&point.u);
         run.keeps_all = problem.number_of_states(&config, total).is_some();
@@ -152,20 +162,6 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(problem: &'a Problem<'a>, watch: &'a mut dyn FnMut(&Step)) -> Self {
-        Run {
-            problem,
-            watch,
-            steps: Vec::new(),
-            factored: 0,
-            halved: 0,
-            closings: 0,
-            start: Start::Held,
-            keeps_all: false,
-            taken: Vec::new(),
-        }
-    }
-
     /// Takes a step of the path from a point to the load `to`: on springs where no equilibrium is found
     /// without.
     fn step_of_path(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {

@@ -12,25 +12,19 @@ use numbers::solve::{Singular, SparseCholesky};
 /// The equations of the bodies under constraints and a load, factored.
 pub(super) enum HeldBodies<'a> {
     /// Those of the surfaces.
-    Reduced(ReducedBodies<'a>),
+    Reduced {
+        problem: &'a Problem<'a>,
+        state: ReducedState<'a>,
+        setting: &'a Setting<'a>,
+        load: &'a ReducedLoad,
+    },
     /// The whole ones.
-    Whole(Box<WholeBodies<'a>>),
-}
-
-/// The equations of the surfaces.
-pub(super) struct ReducedBodies<'a> {
-    problem: &'a Problem<'a>,
-    state: ReducedState<'a>,
-    setting: &'a Setting<'a>,
-    load: &'a ReducedLoad,
-}
-
-/// The whole equations.
-pub(super) struct WholeBodies<'a> {
-    problem: &'a Problem<'a>,
-    t: Elimination,
-    load: &'a DVector<f64>,
-    factors: SparseCholesky,
+    Whole {
+        problem: &'a Problem<'a>,
+        t: Elimination,
+        load: &'a DVector<f64>,
+        factors: Box<SparseCholesky>,
+    },
 }
 
 /// Constraints that do not hold the bodies.
@@ -49,7 +43,7 @@ impl<'a> HeldBodies<'a> {
     ) -> Option<Self> {
         let (reduction, load) = (problem.reduction.as_ref()?, setting.reduced.as_ref()?);
         let state = ReducedState::new(reduction, constraints)?;
-        Some(HeldBodies::Reduced(ReducedBodies { problem, state, setting, load }))
+        Some(HeldBodies::Reduced { problem, state, setting, load })
     }
 
     /// Factors the whole equations.
@@ -63,9 +57,7 @@ impl<'a> HeldBodies<'a> {
     ) -> Result<Self, Unheld> {
         let t = Elimination::closing(&problem.model.restrained, constraints);
         match SparseCholesky::new(problem.stiffness.reduced(&t)) {
-            Ok(factors) => {
-                Ok(HeldBodies::Whole(Box::new(WholeBodies { problem, t, load, factors })))
-            }
+            Ok(factors) => Ok(HeldBodies::Whole { problem, t, load, factors: Box::new(factors) }),
             Err(singular) => Err(Unheld { t, singular }),
         }
     }
@@ -74,19 +66,18 @@ impl<'a> HeldBodies<'a> {
     /// surface; and the relative residual. None where the equations of the surfaces do not serve.
     pub(super) fn displacements(&self, more: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
         match self {
-            HeldBodies::Reduced(ReducedBodies { problem, state, setting, load }) => {
+            HeldBodies::Reduced { problem, state, setting, load } => {
                 if !setting.whole {
                     return state.displacements(load, more);
                 }
                 let all = problem.model.free_part(&(&setting.load + more));
                 state.refined(&problem.stiffness, &all, (load, more))
             }
-            HeldBodies::Whole(whole) => {
-                let WholeBodies { problem, t, load, factors } = &**whole;
+            HeldBodies::Whole { problem, t, load, factors } => {
                 let Problem { model, stiffness, .. } = problem;
                 let load = model.free_part(&(*load + more));
                 let f = t.load(&(load - stiffness.times(t.shift())));
-                let (q, residual) = refined(stiffness, t, factors, &f);
+                let (q, residual) = refined(stiffness, t, &**factors, &f);
                 Some((t.expand(&q), residual))
             }
         }
@@ -96,20 +87,20 @@ impl<'a> HeldBodies<'a> {
     /// contact.
     pub(super) fn reaction(&self, u: &DVector<f64>) -> DVector<f64> {
         match self {
-            HeldBodies::Reduced(ReducedBodies { problem, setting, .. }) if setting.whole => {
+            HeldBodies::Reduced { problem, setting, .. } if setting.whole => {
                 problem.stiffness.times(u) - &setting.load
             }
-            HeldBodies::Reduced(ReducedBodies { state, load, .. }) => state.reaction(u, load),
-            HeldBodies::Whole(whole) => whole.problem.stiffness.times(u) - whole.load,
+            HeldBodies::Reduced { state, load, .. } => state.reaction(u, load),
+            HeldBodies::Whole { problem, load, .. } => problem.stiffness.times(u) - *load,
         }
     }
 
     /// Returns for each of some loads on the contact surface, by degree of freedom, K u − f of the
     /// displacements under it without the shift of the constraints, force.
     pub(super) fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
-        let WholeBodies { problem, t, factors, .. } = match self {
-            HeldBodies::Reduced(reduced) => return reduced.state.responses(loads),
-            HeldBodies::Whole(whole) => &**whole,
+        let (problem, t, factors) = match self {
+            HeldBodies::Reduced { state, .. } => return state.responses(loads),
+            HeldBodies::Whole { problem, t, factors, .. } => (problem, t, factors),
         };
         let Problem { model, stiffness, surface_triangles, .. } = problem;
         let f: Vec<_> = loads.iter().map(|load| t.load(&model.free_part(load))).collect();
