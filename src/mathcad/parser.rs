@@ -345,8 +345,8 @@ impl<'t> Parser<'t> {
     fn operator(&mut self, level: Level) -> Option<Operator> {
         let compares = level == Level::Comparison;
         self.expect(Token::Words(if compares { "a comparison" } else { "an operator" }));
-        let is_next = |sign| self.token() == Some(&Token::Sign(sign));
-        let found = OPERATORS.iter().find(|row| row.level == level && is_next(row.sign))?;
+        let mut rows = OPERATORS.iter().filter(|row| row.level == level);
+        let found = rows.find(|row| self.token() == Some(&Token::Sign(row.sign)))?;
         self.next += 1;
         Some(found.operator)
     }

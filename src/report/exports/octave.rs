@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::{CorrectedExport, Export};
 use ::mathcad::syntax::{
-    Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step,
+    Comparison, Expr, Kind, Operation, Operator, Range, Reference, Slot, Statement, Step,
 };
 use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
@@ -386,21 +386,17 @@ impl Translator<'_> {
                 format!("ordered({}, {})", self.expr(x), self.expr(y))
             }
             Kind::Arithmetic(operation, x, y) => {
-                let sign = match operation {
-                    Operation::Add => "+",
-                    Operation::Subtract => "-",
-                    _ => "*",
-                };
+                let sign = Operator::Calculate(*operation).spelling().typed;
                 format!("{} {sign} {}", self.expr(x), self.expr(y))
             }
             Kind::Compare(comparison, x, y) => {
                 let sign = match comparison {
                     Comparison::Equal => "==",
                     Comparison::Unequal => "~=",
-                    Comparison::Less => "<",
-                    Comparison::LessOrEqual => "<=",
-                    Comparison::Greater => ">",
-                    Comparison::GreaterOrEqual => ">=",
+                    Comparison::Less
+                    | Comparison::LessOrEqual
+                    | Comparison::Greater
+                    | Comparison::GreaterOrEqual => Operator::Compare(*comparison).spelling().typed,
                 };
                 format!("{} {sign} {}", self.expr(x), self.expr(y))
             }

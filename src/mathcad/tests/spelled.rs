@@ -2,8 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use plane_contact::mathcad::Listing;
-use plane_contact::mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Spread, Statement, Step};
+use mathcad::Listing;
+use mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Spread, Statement, Step};
 
 /// Returns the listing as its syntax tree spells it: what was understood, for comparison with what
 /// was printed.
