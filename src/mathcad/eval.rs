@@ -134,12 +134,12 @@ impl<O: Observer> Run<'_, '_, O> {
                     outcome => outcome,
                 };
             }
-            step if !self.admits(step, held)? => return Ok(Flow::Next),
-            Step::For { name, range, body, .. } => return self.repeat(*name, range, body),
+            _ if !self.admits(statement, held)? => return Ok(Flow::Next),
+            Step::For { name, range, body } => return self.repeat(*name, range, body),
             Step::If { body, .. } => return self.block(body),
-            Step::Break { .. } => return Ok(Flow::Break),
-            Step::Continue { .. } => return Ok(Flow::Continue),
-            Step::Assign { target, value, .. } => {
+            Step::Break => return Ok(Flow::Break),
+            Step::Continue => return Ok(Flow::Continue),
+            Step::Assign { target, value } => {
                 let value = self.eval(value)?;
                 // Lets go of an array first: shared with the value of the last statement, it would be
                 // copied.
@@ -152,14 +152,14 @@ impl<O: Observer> Run<'_, '_, O> {
                 }
                 self.last = Some(value);
             }
-            Step::Spread { to, value, .. } => {
+            Step::Spread { to, value } => {
                 let span = value.span.clone();
                 let value = self.eval(value)?;
                 self.spread(to, &value, &span)?;
                 self.last = Some(value);
             }
-            Step::Evaluate { value, .. } => self.last = Some(self.eval(value)?),
-            Step::Return { value, .. } => {
+            Step::Evaluate { value } => self.last = Some(self.eval(value)?),
+            Step::Return { value } => {
                 self.last = Some(self.eval(value)?);
                 return Ok(Flow::Return);
             }
@@ -168,8 +168,8 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Returns whether the statement's condition is true; one without a condition always runs.
-    fn admits(&mut self, step: &Step, held: &mut bool) -> Fallible<bool> {
-        let Some(condition) = step.condition() else {
+    fn admits(&mut self, statement: &Statement, held: &mut bool) -> Fallible<bool> {
+        let Some(condition) = statement.condition() else {
             return Ok(true);
         };
         let truth = self.condition(condition)?;

@@ -68,7 +68,7 @@ fn shown(text: &str) -> Cow<'_, str> {
 /// What the evaluation of a listing gives, or where and why it failed.
 pub type Fallible<T> = Result<T, Box<Failure>>;
 
-/// A failure without its place, which [`Run`](super::state::Run) adds where it is known: a line of 0.
+/// A failure without its place, on line 0, until the run adds where it was.
 impl From<Cause> for Box<Failure> {
     fn from(cause: Cause) -> Self {
         let (listing, text, statement) = Default::default();

@@ -298,18 +298,18 @@ impl Translator<'_> {
     }
 
     fn block(&self, block: &[Statement], level: usize, text: &mut String) {
-        for Statement { line, step } in block {
-            let line = &self.listing.lines()[*line];
+        for statement in block {
+            let line = &self.listing.lines()[statement.line];
             *text += &format!("{:1$}% {2}: {3}\n", "", 2 * level, line.printed, line.text);
-            self.statement(step, level, text);
+            self.statement(statement, level, text);
         }
     }
 
-    fn statement(&self, step: &Step, level: usize, text: &mut String) {
+    fn statement(&self, statement: &Statement, level: usize, text: &mut String) {
         let mut put = |level: usize, line: &str| {
             *text += &format!("{:1$}{line}\n", "", 2 * level);
         };
-        let guard = step.condition().filter(|_| !matches!(step, Step::If { .. }));
+        let Statement { step, guard, .. } = statement;
         if let Some(guard) = guard {
             put(level, &format!("if {}", self.expr(guard)));
         }
