@@ -37,6 +37,9 @@ pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> R
 }
 
 /// Returns `x^y`: by repeated squaring from the last bit where y is whole.
+/// ```
+/// assert_eq!(mathcad::evaluate("(2^10   2^−1   2^0.5)").unwrap().to_string(), "1024 0.5 1.4142135623730951");
+/// ```
 pub fn power(x: f64, y: f64) -> Result<f64, Cause> {
     let result = if y.fract() != 0.0 || y.abs() >= 1e15 {
         x.powf(y)
@@ -65,6 +68,9 @@ fn whole_power(x: f64, mut n: u64) -> f64 {
 }
 
 /// Returns whether `x` and `y` compare so, under the worksheet's `exact-boolean`.
+/// ```
+/// assert_eq!(mathcad::evaluate("(1 < 2   2 ≤ 1   0.1 + 0.2 = 0.3)").unwrap().to_string(), "1 0 0");
+/// ```
 pub fn compare(comparison: Comparison, x: f64, y: f64, settings: &Settings) -> bool {
     let [x, y] = [x, y].map(|x| if settings.tiny_is_zero && x.abs() < 1e-307 { 0.0 } else { x });
     let same = x == y || !settings.exact_boolean && nearly_equal(x, y);
@@ -96,6 +102,9 @@ pub fn cost(operation: Operation, left: &Value, right: &Value) -> (u64, usize) {
 }
 
 /// Returns what one of the four operations makes of two numbers or arrays.
+/// ```
+/// assert_eq!(mathcad::evaluate("(1 2; 3 4) − 1").unwrap().to_string(), "0 1; 2 3");
+/// ```
 pub fn operate(
     operation: Operation,
     left: Value,
@@ -131,19 +140,14 @@ pub fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Resul
     Ok(Value::Array(array))
 }
 
-fn sizes(operation: Operation, a: &Array, b: &Array) -> Cause {
-    let size = |a: &Array| format!("{} x {}", a.rows(), a.cols());
-    Cause::Sizes { operation: operation.sign(), left: size(a), right: size(b) }
-}
-
 fn zip(
     operation: Operation,
     mut a: Rc<Array>,
     b: &Array,
     f: impl Fn(f64, f64) -> Result<f64, Cause>,
 ) -> Result<Value, Cause> {
-    if (a.rows(), a.cols()) != (b.rows(), b.cols()) {
-        return Err(sizes(operation, &a, b));
+    if a.size() != b.size() {
+        return Err(Cause::sizes(operation.sign(), a.size(), b.size()));
     }
     for (x, y) in Rc::make_mut(&mut a).entries_mut().iter_mut().zip(b.entries()) {
         *x = f(*x, *y)?;
@@ -153,6 +157,10 @@ fn zip(
 
 /// Returns the matrix product; of two columns of one length, the scalar product. What has one entry
 /// is a number.
+/// ```
+/// assert_eq!(mathcad::evaluate("(1 2; 3 4)·(5; 6)").unwrap().to_string(), "17; 39");
+/// assert_eq!(mathcad::evaluate("(1; 2; 3)·(4; 5; 6)").unwrap().to_string(), "32");
+/// ```
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
     if column(a) && column(b) && a.rows() == b.rows() {
@@ -160,13 +168,11 @@ fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
             .map(Value::Number);
     }
     if a.cols() != b.rows() {
-        return Err(sizes(Operation::Multiply, a, b));
+        return Err(Cause::sizes("·", a.size(), b.size()));
     }
-    let entry = |i: usize, j: usize, k: usize| {
-        a.entries()[i * a.cols() + k] * b.entries()[k * b.cols() + j]
-    };
-    let product =
-        Array::from_fn(a.rows(), b.cols(), |i, j| sum((0..a.cols()).map(|k| entry(i, j, k))));
+    let product = Array::from_fn(a.rows(), b.cols(), |i, j| {
+        sum((0..a.cols()).map(|k| a.entries()[i * a.cols() + k] * b.entries()[k * b.cols() + j]))
+    });
     product.entries().iter().try_for_each(|&x| finite(x).map(drop))?;
     match product.entries() {
         [x] => Ok(Value::Number(*x)),
@@ -189,6 +195,9 @@ pub fn negative(value: Value) -> Result<Value, Cause> {
 }
 
 /// Returns `xᵀ`; a number is its own transpose.
+/// ```
+/// assert_eq!(mathcad::evaluate("(1 2; 3 4)ᵀ").unwrap().to_string(), "1 3; 2 4");
+/// ```
 pub fn transpose(value: Value) -> Result<Value, Cause> {
     match value {
         Value::Number(_) => Ok(value),
@@ -208,6 +217,9 @@ pub fn identity(n: usize) -> Value {
 
 /// Combines all numbers of the values by `f`, one after another: Mathcad's `min` and `max` flatten
 /// their arguments.
+/// ```
+/// assert_eq!(mathcad::evaluate("(max(1, (7; 3))   min((4 2; 5 6)))").unwrap().to_string(), "7 2");
+/// ```
 pub fn fold(values: &[Value], f: impl Fn(f64, f64) -> f64) -> Result<Value, Cause> {
     let mut result = None;
     let mut take = |x| result = Some(result.map_or(x, |old| f(old, x)));

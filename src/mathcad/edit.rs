@@ -81,11 +81,11 @@ impl Edit {
     /// Returns the lines that the edit replaces, such as `c_cnt 14-30`.
     #[must_use]
     pub fn places(&self) -> Vec<String> {
-        let place = |change: &Change| match change {
+        let places = self.changes.iter().map(|change| match change {
             Change { listing, first, last, .. } if first == last => format!("{listing} {first}"),
             Change { listing, first, last, .. } => format!("{listing} {first}-{last}"),
-        };
-        self.changes.iter().map(place).collect()
+        });
+        places.collect()
     }
 
     /// Returns what the edit changes in the listing of that name.

@@ -1,22 +1,324 @@
-//! The values of expressions.
+//! Running a program: its statements, their expressions, and the functions that they call.
+//!
+//! What fails has the place of the innermost expression that could not be evaluated; a limit has that of
+//! the line.
 
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
-use super::entry::entry_of;
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function, Meaning};
+use super::function::{Builtin, FUNCTION, Function, Meaning, each, real};
 use super::matrices;
-use super::observe::{Observer, Operand};
+use super::observe::Observer;
 use super::settings::Conjunction;
-use super::state::Run;
-use super::syntax::{Comparison, Expr, Kind, Operation, Range, Reference, Slot, Span};
+use super::sheet::{Defined, Numbers};
+use super::state::{Outcome, Run, Variable};
+use super::syntax::{
+    Comparison, Expr, Kind, Operation, Range, Reference, Slot, Span, Spread, Statement, Step,
+};
 use super::value::{Array, Grid, Value};
 
 /// The largest power of a matrix: numbers up to it are whole or not.
 const LARGEST_POWER: f64 = 9_007_199_254_740_992.0;
 
+/// What part of a step a range may pass its end by: rounding's. At least 1.1e-13 is Mathcad's (see
+/// README.md).
+const RANGE_END: f64 = 1e-12;
+
+/// Where a program goes on after a statement.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    Next,
+    Break,
+    Continue,
+    Return,
+}
+
+/// The values that a loop or a series gives its variable.
+enum Turns {
+    /// From the first number by the step, up or down to `end`.
+    Span {
+        from: f64,
+        step: f64,
+        end: f64,
+    },
+    Over(Value),
+}
+
+impl Turns {
+    fn value(&self, turn: usize) -> Option<Value> {
+        match self {
+            Turns::Span { from, step, end } => {
+                let x = from + step * turn as f64;
+                (if *step > 0.0 { x <= *end } else { x >= *end }).then_some(Value::Number(x))
+            }
+            Turns::Over(value @ (Value::Number(_) | Value::Text(_))) => {
+                (turn == 0).then(|| value.clone())
+            }
+            Turns::Over(array) => {
+                let rows = array.size().0.max(1);
+                array.entry(turn % rows, turn / rows)
+            }
+        }
+    }
+}
+
 impl<O: Observer> Run<'_, '_, O> {
-    pub fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
+    /// Runs the program to its end, and returns what it leaves behind.
+    pub fn run(mut self, arguments: &[Value]) -> Fallible<Outcome> {
+        let (expected, found) = (self.listing.parameters.len(), arguments.len());
+        if expected != found {
+            return Err(self.fail_line(Cause::Arguments { expected, found }));
+        }
+        for (&slot, argument) in self.listing.parameters.iter().zip(arguments) {
+            self.cells[slot].value = Some(argument.clone());
+        }
+        let values = self.cells.iter().filter_map(|cell| cell.value.as_ref());
+        self.stored += values.map(Value::count).sum::<usize>();
+        self.room(0)?;
+        if let Flow::Break | Flow::Continue = self.block(&self.listing.program)? {
+            return Err(self.fail_line(Cause::OutsideLoop));
+        }
+        let Some(value) = self.last.take() else {
+            return Err(self.fail_line(Cause::NoValue));
+        };
+        let names = self.listing.names.all().zip(self.cells);
+        let locals = names.filter(|(_, cell)| cell.local);
+        let locals = locals.filter_map(|(name, cell)| Some((name.into(), cell.value?))).collect();
+        Ok(Outcome { value, locals, trace_output: self.trace })
+    }
+
+    /// Returns the value of a program within an expression, whose names are those of the program around
+    /// it.
+    fn inner(&mut self, block: &[Statement]) -> Fallible<Value> {
+        let outer = self.last.take();
+        let flow = self.block(block);
+        let value = std::mem::replace(&mut self.last, outer);
+        match (flow?, value) {
+            (Flow::Next, Some(value)) => Ok(value),
+            (Flow::Next, None) => Err(Cause::NoValue.into()),
+            (Flow::Break | Flow::Continue | Flow::Return, _) => {
+                let construct = "break, continue or return in a program within an expression";
+                Err(Cause::Unsupported { construct: construct.into() }.into())
+            }
+        }
+    }
+
+    fn block(&mut self, block: &[Statement]) -> Fallible<Flow> {
+        // Whether an `if` was true since the block's last `otherwise`.
+        let mut held = false;
+        for statement in block {
+            let flow = self.statement(statement, &mut held)?;
+            if flow != Flow::Next {
+                return Ok(flow);
+            }
+        }
+        Ok(Flow::Next)
+    }
+
+    fn statement(&mut self, statement: &Statement, held: &mut bool) -> Fallible<Flow> {
+        self.line = statement.line;
+        if O::ACTIVE {
+            self.observer.statement(&self.listing.lines[self.line]);
+        }
         self.spend(1)?;
+        match &statement.step {
+            Step::While { condition, body } => return self.repeat_while(condition, body),
+            Step::Otherwise { body } => {
+                return if std::mem::take(held) { Ok(Flow::Next) } else { self.block(body) };
+            }
+            Step::Try { body, fallback } => {
+                return match self.block(body) {
+                    Err(failure) if !failure.is_limit() => {
+                        self.spend_on(&failure)?;
+                        self.block(fallback)
+                    }
+                    outcome => outcome,
+                };
+            }
+            _ if !self.admits(statement, held)? => return Ok(Flow::Next),
+            Step::For { name, range, body } => return self.repeat(*name, range, body),
+            Step::If { body, .. } => return self.block(body),
+            Step::Break => return Ok(Flow::Break),
+            Step::Continue => return Ok(Flow::Continue),
+            Step::Assign { target, value } => {
+                let value = self.eval(value)?;
+                // Lets go of an array first: shared with the value of the last statement, it would be
+                // copied.
+                self.last = None;
+                match self.subscripts(target)? {
+                    None => self.store(target.name, value.clone())?,
+                    Some(subscripts) => self
+                        .write(target.name, subscripts, value.clone())
+                        .map_err(|failure| self.placed(failure, &target.span))?,
+                }
+                self.last = Some(value);
+            }
+            Step::Spread { to, value } => {
+                let span = value.span.clone();
+                let value = self.eval(value)?;
+                self.spread(to, &value, &span)?;
+                self.last = Some(value);
+            }
+            Step::Evaluate { value } => self.last = Some(self.eval(value)?),
+            Step::Return { value } => {
+                self.last = Some(self.eval(value)?);
+                return Ok(Flow::Return);
+            }
+        }
+        Ok(Flow::Next)
+    }
+
+    /// Returns whether the statement's condition is true; one without a condition always runs.
+    fn admits(&mut self, statement: &Statement, held: &mut bool) -> Fallible<bool> {
+        let Some(condition) = statement.condition() else {
+            return Ok(true);
+        };
+        let truth = self.condition(condition)?;
+        *held |= truth;
+        if !truth && self.settings.last_if_is_zero {
+            self.last = Some(Value::Number(0.0));
+        }
+        Ok(truth)
+    }
+
+    fn condition(&mut self, condition: &Expr) -> Fallible<bool> {
+        let truth = self.truth(condition)?;
+        if O::ACTIVE {
+            let place = self.place(&condition.span);
+            self.observer.condition(place, truth);
+        }
+        Ok(truth)
+    }
+
+    fn repeat_while(&mut self, condition: &Expr, body: &[Statement]) -> Fallible<Flow> {
+        let line = self.line;
+        while self.condition(condition)? {
+            match self.block(body)? {
+                Flow::Next | Flow::Continue => {}
+                Flow::Break => break,
+                Flow::Return => return Ok(Flow::Return),
+            }
+            self.line = line;
+            self.spend(1)?;
+        }
+        Ok(Flow::Next)
+    }
+
+    /// Runs the body for each number of the range, which is fixed on entry.
+    fn repeat(&mut self, name: Slot, range: &Range, body: &[Statement]) -> Fallible<Flow> {
+        let line = self.line;
+        let turns = self.turns(range)?;
+        let mut turn = 0;
+        while let Some(value) = turns.value(turn) {
+            self.line = line;
+            self.spend(1)?;
+            self.store(name, value)?;
+            match self.block(body)? {
+                Flow::Next | Flow::Continue => {}
+                Flow::Break => break,
+                Flow::Return => return Ok(Flow::Return),
+            }
+            turn += 1;
+        }
+        Ok(Flow::Next)
+    }
+
+    /// Returns the values of a loop's variable.
+    fn turns(&mut self, range: &Range) -> Fallible<Turns> {
+        match range {
+            Range::Over(values) => match self.range_variable(values) {
+                Some(numbers) => self.span(numbers),
+                None => self.values(values).map(Turns::Over),
+            },
+            Range::Span { from, second, to } => {
+                let from = self.number(from)?;
+                let second = second.as_ref().map(|second| self.number(second)).transpose()?;
+                let to = self.number(to)?;
+                self.span((from, second, to))
+            }
+        }
+    }
+
+    /// Returns the numbers of a range.
+    ///
+    /// # Errors
+    /// Its step leads away from its end.
+    ///
+    /// ```
+    /// assert_eq!(mathcad::evaluate("for i ∈ 0, 0.5 .. 1.7\n  a[2·i+1] ← i\na").unwrap().to_string(), "0; 0.5; 1; 1.5");
+    /// assert_eq!(mathcad::evaluate("for i ∈ 3 .. 1\n  a[4−i] ← i\na").unwrap().to_string(), "3; 2; 1");
+    /// ```
+    fn span(&self, (from, second, to): Numbers) -> Fallible<Turns> {
+        let step = match second {
+            Some(second) => second - from,
+            None if from <= to || self.settings.descending_is_empty => 1.0,
+            None => -1.0,
+        };
+        if second.is_none() || (to - from) * step > 0.0 || to == from && step != 0.0 {
+            return Ok(Turns::Span { from, step, end: to + RANGE_END * step });
+        }
+        Err(self.fail_line(Cause::Range { from, second: second.unwrap_or(from), to }))
+    }
+
+    /// Returns the numbers of the worksheet's range variable, if a loop runs over one.
+    fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
+        let [Expr { kind: Kind::Read(Reference { name, row: None, .. }), .. }] = values else {
+            return None;
+        };
+        let has_value = self.cells[*name].value.is_some();
+        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(*name))
+    }
+
+    /// Returns what a loop runs over: a value, or the entries of several as one column.
+    fn values(&mut self, values: &[Expr]) -> Fallible<Value> {
+        let mut entries = self.held(values, Self::eval)?;
+        let count = entries.iter().map(Value::count).sum();
+        self.afford(count)?;
+        if entries.len() == 1 {
+            return Ok(entries.remove(0));
+        }
+        self.spend(FUNCTION * count as u64)?;
+        let entries = entries.into_iter().map(Turns::Over);
+        let entries = entries.flat_map(|turns| (0..).map_while(move |turn| turns.value(turn)));
+        let entries: Vec<Value> = entries.collect();
+        self.check_nesting(entries.iter().map(Value::depth).max().unwrap_or(0))?;
+        Ok(Value::grid(Grid::column(entries)))
+    }
+
+    /// Assigns the entries of a value to names that stand as they do, or to a column of an array.
+    fn spread(&mut self, to: &Spread, value: &Value, span: &Span) -> Fallible<()> {
+        self.last = None;
+        let rows = match to {
+            Spread::Names { names, cols } => names.len() / cols,
+            Spread::Column { name, .. } => {
+                let held = self.cells[*name].value.as_ref();
+                held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)))
+                    .map_or(value.size().0, |held| held.size().0)
+            }
+        };
+        let cols = if let Spread::Names { cols, .. } = to { *cols } else { 1 };
+        let entries = matrices::spread(value, rows, cols).map_err(|why| self.fail(span, why))?;
+        self.afford(value.count())?;
+        match to {
+            Spread::Names { names, .. } => {
+                names.iter().zip(entries).try_for_each(|(name, entry)| self.store(*name, entry))
+            }
+            Spread::Column { name, span, column } => {
+                let col = Some(self.number(column)?);
+                let origin = f64::from(self.settings.origin);
+                entries.into_iter().enumerate().try_for_each(|(k, entry)| {
+                    let subscripts = Subscripts { row: origin + k as f64, col };
+                    self.write(*name, subscripts, entry).map_err(|why| self.placed(why, span))
+                })
+            }
+        }
+    }
+
+    fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
+        self.spend(1)?;
+        self.value_of(expr).map_err(|failure| self.placed(failure, &expr.span))
+    }
+
+    fn value_of(&mut self, expr: &Expr) -> Fallible<Value> {
         match &expr.kind {
             Kind::Number(x) => Ok(Value::Number(*x)),
             Kind::Text(text) => Ok(Value::Text(text.clone())),
@@ -25,52 +327,71 @@ impl<O: Observer> Run<'_, '_, O> {
                 self.read(reference, subscripts)
             }
             Kind::Group(x) => self.eval(x),
-            Kind::Entry { of, subscripts } => self.entry_of(of, subscripts, &expr.span),
+            Kind::Entry { of, subscripts } => {
+                let value = self.eval(of)?;
+                let row = self.number(&subscripts[0])?;
+                let col = subscripts.get(1).map(|col| self.number(col)).transpose()?;
+                let name = || self.place(&of.span).text.into();
+                let origin = self.settings.origin;
+                Ok(matrices::entry(&value, Subscripts { row, col }, origin, &name)?)
+            }
             Kind::Array { entries, cols } => self.array(entries, *cols),
             Kind::Magnitude(x) => {
                 let x = self.eval(x)?;
                 self.spend(matrices::steps(&x))?;
-                matrices::magnitude(&x).map_err(|cause| self.fail(&expr.span, cause))
+                Ok(matrices::magnitude(&x)?)
             }
             Kind::Not(x) => Ok(truth_value(!self.truth(x)?)),
             Kind::Power(x, y) => {
                 let (x, y) = (self.eval(x)?, self.number(y)?);
                 self.spend(FUNCTION)?;
-                let power = match x {
-                    Value::Number(x) => power(x, y).map(Value::Number),
+                Ok(match x {
+                    Value::Number(x) => Value::Number(power(x, y)?),
                     matrix if y == -1.0 => {
                         self.afford(matrix.count())?;
                         // The elimination, and twice as much for the unit columns.
                         self.spend(3 * matrices::steps(&matrix))?;
-                        matrices::inverse(&matrix)
+                        matrices::inverse(&matrix)?
                     }
                     Value::Array(column) if column.cols() == 1 => {
                         self.afford(column.rows())?;
                         self.spend(FUNCTION * column.rows() as u64)?;
-                        map(column, |x| power(x, y))
+                        map(column, |x| power(x, y))?
                     }
                     matrix if (1.0..=LARGEST_POWER).contains(&y) && y.fract() == 0.0 => {
-                        return self.repeated(matrix, y, &expr.span);
+                        self.repeated(matrix, y)?
                     }
-                    other => Err(kind(
-                        "a number, a column, or a matrix to a power of −1, 1, 2, ...",
-                        &other,
-                    )),
-                };
-                power.map_err(|cause| self.fail(&expr.span, cause))
+                    other => {
+                        let expected =
+                            "a number, a column, or a matrix to a power of −1, 1, 2, ...";
+                        return Err(kind(expected, &other).into());
+                    }
+                })
             }
             Kind::Column(x, j) => {
                 let (x, j) = (self.eval(x)?, self.number(j)?);
                 self.afford(x.count())?;
-                let column = matrices::column(&x, j, self.settings.origin);
-                column.map_err(|cause| self.fail(&expr.span, cause))
+                Ok(matrices::column(&x, j, self.settings.origin)?)
             }
-            Kind::Series { function, name, parts } => {
-                self.series(*function, *name, parts, &expr.span)
+            Kind::Series { function, name, parts } => self.series(*function, *name, parts),
+            Kind::Negative(x) => {
+                let x = self.eval(x)?;
+                self.afford(x.count())?;
+                Ok(negative(x)?)
             }
-            Kind::Negative(x) => self.change(x, &expr.span, negative),
-            Kind::Transpose(x) => self.change(x, &expr.span, transpose),
-            Kind::Arithmetic(operation, x, y) => self.arithmetic(*operation, x, y, &expr.span),
+            Kind::Transpose(x) => {
+                let x = self.eval(x)?;
+                self.afford(x.count())?;
+                Ok(transpose(x)?)
+            }
+            Kind::Arithmetic(operation, x, y) => {
+                let x = self.eval(x)?;
+                // The left operand counts as stored while the right one is evaluated.
+                self.stored += x.count();
+                let y = self.eval(y);
+                self.stored -= x.count();
+                self.operate(*operation, x, y?)
+            }
             Kind::Compare(comparison, x, y) => {
                 let left = self.eval(x)?;
                 self.compared(*comparison, (x, &left), y).map(|(truth, _)| truth_value(truth))
@@ -78,18 +399,18 @@ impl<O: Observer> Run<'_, '_, O> {
             Kind::Chain(x, rest) => self.chain(x, rest).map(truth_value),
             Kind::All(operands) => self.decide(operands, false, Some(&expr.span)),
             Kind::Any(operands) => self.decide(operands, true, None),
-            Kind::Call(name, _) if self.functions[*name].is_none() => {
-                Err(self.undefined(*name, true, &expr.span))
-            }
-            Kind::Call(name, arguments) if self.is_vectorize(*name) && arguments.len() == 1 => {
-                self.vectorized(&arguments[0])
-            }
-            Kind::Program(block) => self.inner(block, &expr.span),
-            Kind::Call(name, arguments) => {
-                let arguments = self.arguments(arguments)?;
-                self.spend(FUNCTION)?;
-                self.call(*name, &arguments, &expr.span)
-            }
+            Kind::Program(block) => self.inner(block),
+            Kind::Call(name, arguments) => match (&self.functions[*name], arguments.as_slice()) {
+                (None, _) => Err(self.undefined(*name, true).into()),
+                (Some(Function::Builtin(Builtin { meaning: Meaning::Vectorize, .. })), [x]) => {
+                    self.vectorized(x)
+                }
+                (Some(_), arguments) => {
+                    let arguments = self.held(arguments, Self::eval)?;
+                    self.spend(FUNCTION)?;
+                    self.call(*name, &arguments)
+                }
+            },
             Kind::If(parts) => {
                 let [condition, x, y] = &**parts;
                 if self.truth(condition)? { self.eval(x) } else { self.eval(y) }
@@ -97,7 +418,7 @@ impl<O: Observer> Run<'_, '_, O> {
         }
     }
 
-    pub fn number(&mut self, expr: &Expr) -> Fallible<f64> {
+    fn number(&mut self, expr: &Expr) -> Fallible<f64> {
         match self.eval(expr)? {
             Value::Number(x) => Ok(x),
             other => Err(self.fail(&expr.span, kind("a number", &other))),
@@ -144,12 +465,12 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Returns whether an expression is true: everything but 0 is.
-    pub fn truth(&mut self, expr: &Expr) -> Fallible<bool> {
+    fn truth(&mut self, expr: &Expr) -> Fallible<bool> {
         Ok(self.number(expr)? != 0.0)
     }
 
     /// Returns the subscripts of a name, or nothing where it has none.
-    pub fn subscripts(&mut self, reference: &Reference) -> Fallible<Option<Subscripts>> {
+    fn subscripts(&mut self, reference: &Reference) -> Fallible<Option<Subscripts>> {
         let Some(row) = &reference.row else {
             return Ok(None);
         };
@@ -158,20 +479,7 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(Some(Subscripts { row, col }))
     }
 
-    /// Checks that an array may hold what goes `depth` deep.
-    pub fn check_nesting(&self, depth: usize) -> Fallible<()> {
-        if depth < self.limits.depth {
-            return Ok(());
-        }
-        let limit = self.limits.depth as u64;
-        Err(self.fail_line(Cause::Limit { limit, of: "arrays within arrays" }))
-    }
-
-    /// Returns the values of arguments; each counts as stored while the next is evaluated.
-    pub fn arguments(&mut self, arguments: &[Expr]) -> Fallible<Vec<Value>> {
-        self.held(arguments, Self::eval)
-    }
-
+    /// Returns the values of expressions; each counts as stored while the next is evaluated.
     fn held<'e>(
         &mut self,
         exprs: impl IntoIterator<Item = &'e Expr>,
@@ -189,48 +497,14 @@ impl<O: Observer> Run<'_, '_, O> {
         values
     }
 
-    fn arithmetic(
-        &mut self,
-        operation: Operation,
-        x: &Expr,
-        y: &Expr,
-        span: &Span,
-    ) -> Fallible<Value> {
-        let x = self.eval(x)?;
-        // The left operand counts as stored while the right one is evaluated.
-        self.stored += x.count();
-        let y = self.eval(y);
-        self.stored -= x.count();
-        self.operate(operation, x, y?, span)
-    }
-
-    fn operate(
-        &mut self,
-        operation: Operation,
-        x: Value,
-        y: Value,
-        span: &Span,
-    ) -> Fallible<Value> {
-        let result = if let (Value::Number(x), Value::Number(y)) = (&x, &y) {
-            calculate(operation, *x, *y, self.settings).map(Value::Number)
-        } else {
-            let (steps, entries) = cost(operation, &x, &y);
-            self.room(entries)?;
-            self.spend(steps)?;
-            operate(operation, x, y, self.settings)
-        };
-        result.map_err(|cause| self.fail(span, cause))
-    }
-
-    fn change(
-        &mut self,
-        x: &Expr,
-        span: &Span,
-        by: fn(Value) -> Result<Value, Cause>,
-    ) -> Fallible<Value> {
-        let x = self.eval(x)?;
-        self.afford(x.count())?;
-        by(x).map_err(|cause| self.fail(span, cause))
+    fn operate(&mut self, operation: Operation, x: Value, y: Value) -> Fallible<Value> {
+        if let (Value::Number(x), Value::Number(y)) = (&x, &y) {
+            return Ok(Value::Number(calculate(operation, *x, *y, self.settings)?));
+        }
+        let (steps, entries) = cost(operation, &x, &y);
+        self.room(entries)?;
+        self.spend(steps)?;
+        Ok(operate(operation, x, y, self.settings)?)
     }
 
     fn array(&mut self, entries: &[Expr], cols: usize) -> Fallible<Value> {
@@ -242,7 +516,7 @@ impl<O: Observer> Run<'_, '_, O> {
                 other => {
                     let mut values: Vec<_> = numbers.into_iter().map(Value::Number).collect();
                     values.push(other);
-                    values.extend(self.arguments(&entries[k + 1..])?);
+                    values.extend(self.held(&entries[k + 1..], Self::eval)?);
                     self.afford(values.iter().map(Value::count).sum())?;
                     let depth = values.iter().map(Value::depth).max().unwrap_or(0);
                     self.check_nesting(depth)?;
@@ -255,69 +529,51 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(Array::from_rows(cols, numbers).into())
     }
 
-    fn entry_of(&mut self, of: &Expr, subscripts: &[Expr], span: &Span) -> Fallible<Value> {
-        let value = self.eval(of)?;
-        let row = self.number(&subscripts[0])?;
-        let col = subscripts.get(1).map(|col| self.number(col)).transpose()?;
-        let name = || self.place(&of.span).text.into();
-        let entry = entry_of(&value, Subscripts { row, col }, self.settings.origin, &name);
-        entry.map_err(|cause| self.fail(span, cause))
-    }
-
     /// Returns a matrix to a whole power by repeated squaring, the smallest square on the right.
-    fn repeated(&mut self, matrix: Value, power: f64, span: &Span) -> Fallible<Value> {
+    /// ```
+    /// assert_eq!(mathcad::evaluate("(1 1; 0 1)^5").unwrap().to_string(), "1 5; 0 1");
+    /// ```
+    fn repeated(&mut self, matrix: Value, power: f64) -> Fallible<Value> {
         let (mut rest, mut square, mut product) = (power as u64, matrix, None);
         loop {
             if rest % 2 == 1 {
                 product = Some(match product {
                     None => square.clone(),
-                    Some(product) => {
-                        self.operate(Operation::Multiply, square.clone(), product, span)?
-                    }
+                    Some(product) => self.operate(Operation::Multiply, square.clone(), product)?,
                 });
             }
             rest /= 2;
             match product {
                 Some(product) if rest == 0 => return Ok(product),
-                _ => {
-                    square = self.operate(Operation::Multiply, square.clone(), square, span)?;
-                }
+                _ => square = self.operate(Operation::Multiply, square.clone(), square)?,
             }
         }
     }
 
     /// Returns a sum or product of terms, added or multiplied one after another from the first; the
     /// variable is the series' own.
-    fn series(
-        &mut self,
-        function: Slot,
-        name: Slot,
-        parts: &[Expr],
-        span: &Span,
-    ) -> Fallible<Value> {
+    /// ```
+    /// assert_eq!(mathcad::evaluate("∑(i ∈ 1 .. 4, i^2)").unwrap().to_string(), "30");
+    /// ```
+    fn series(&mut self, function: Slot, name: Slot, parts: &[Expr]) -> Fallible<Value> {
         let operation = match &self.functions[function] {
             Some(Function::Builtin(Builtin { name: "∑", .. })) => Operation::Add,
             Some(Function::Builtin(Builtin { name: "∏", .. })) => Operation::Multiply,
-            _ => return Err(self.undefined(function, true, span)),
+            _ => return Err(self.undefined(function, true).into()),
         };
-        let numbers: Box<dyn Fn(usize) -> Option<Value>> = match parts {
-            [from, to, _] => {
-                let (from, to) = (self.number(from)?, self.number(to)?);
-                let number = move |turn: usize| from + turn as f64;
-                Box::new(move |turn| (number(turn) <= to).then(|| Value::Number(number(turn))))
+        let (range, term) = parts.split_at(parts.len() - 1);
+        let turns = match (range, self.range_variable(range)) {
+            ([from, to], _) => {
+                Turns::Span { from: self.number(from)?, step: 1.0, end: self.number(to)? }
             }
-            [range, _] if self.range_variable(std::slice::from_ref(range)).is_some() => {
-                let turns = self.turns(&Range::Over(vec![range.clone()]))?;
-                Box::new(move |turn| turns.value(turn))
-            }
-            _ => {
+            (_, Some(numbers)) => self.span(numbers)?,
+            (_, None) => {
                 let construct = "a series over what is no range variable".into();
-                return Err(self.fail(span, Cause::Unsupported { construct }));
+                return Err(Cause::Unsupported { construct }.into());
             }
         };
-        let term = parts.last().expect("a series has a term");
         let outer = self.cells[name].value.take();
-        let series = self.terms(operation, name, &*numbers, term, span);
+        let series = self.terms(operation, name, &turns, &term[0]);
         self.cells[name].value = outer;
         series.map(Value::Number)
     }
@@ -326,35 +582,33 @@ impl<O: Observer> Run<'_, '_, O> {
         &mut self,
         operation: Operation,
         name: Slot,
-        numbers: &dyn Fn(usize) -> Option<Value>,
+        turns: &Turns,
         term: &Expr,
-        span: &Span,
     ) -> Fallible<f64> {
         let mut result = None;
-        let mut turn = 0;
-        while let Some(number) = numbers(turn) {
+        for number in (0..).map_while(|turn| turns.value(turn)) {
             self.spend(1)?;
             self.cells[name].value = Some(number);
             let term = self.number(term)?;
-            let next = match result {
-                None => Ok(term),
-                Some(result) => calculate(operation, result, term, self.settings),
-            };
-            result = Some(next.map_err(|cause| self.fail(span, cause))?);
-            turn += 1;
+            result = Some(match result {
+                None => term,
+                Some(result) => calculate(operation, result, term, self.settings)?,
+            });
         }
         Ok(result.unwrap_or(if operation == Operation::Add { 0.0 } else { 1.0 }))
     }
 
-    fn is_vectorize(&self, name: Slot) -> bool {
-        let function = self.functions[name].as_ref();
-        matches!(function, Some(Function::Builtin(Builtin { meaning: Meaning::Vectorize, .. })))
-    }
-
     /// Returns an expression's value where each operation and function takes its arrays entry by entry;
     /// they must be of one size.
+    /// ```
+    /// assert_eq!(mathcad::evaluate("→((1; 2)·(3; 4))").unwrap().to_string(), "3; 8");
+    /// ```
     fn vectorized(&mut self, expr: &Expr) -> Fallible<Value> {
         self.spend(1)?;
+        self.entry_by_entry(expr).map_err(|failure| self.placed(failure, &expr.span))
+    }
+
+    fn entry_by_entry(&mut self, expr: &Expr) -> Fallible<Value> {
         match &expr.kind {
             Kind::Group(x) => return self.vectorized(x),
             Kind::Number(_)
@@ -364,7 +618,7 @@ impl<O: Observer> Run<'_, '_, O> {
             | Kind::Array { .. }
             | Kind::Column(..) => return self.eval(expr),
             Kind::Call(name, _) if self.functions[*name].is_none() => {
-                return Err(self.undefined(*name, true, &expr.span));
+                return Err(self.undefined(*name, true).into());
             }
             Kind::Magnitude(_)
             | Kind::Negative(_)
@@ -381,16 +635,14 @@ impl<O: Observer> Run<'_, '_, O> {
             | Kind::Series { .. }
             | Kind::Program(_) => {
                 let construct = format!("vectorize of `{}`", self.place(&expr.span).text);
-                return Err(self.fail(&expr.span, Cause::Unsupported { construct }));
+                return Err(Cause::Unsupported { construct }.into());
             }
         }
         let operands = self.held(expr.parts(), Self::vectorized)?;
         let mut arrays = operands.iter().filter(|operand| operand.number().is_none());
         let Some(first) = arrays.next() else { return self.applied(expr, &operands) };
         if let Some(other) = arrays.find(|other| other.size() != first.size()) {
-            let size = |a: &Value| format!("{} x {}", a.size().0, a.size().1);
-            let (left, right) = (size(first), size(other));
-            return Err(self.fail(&expr.span, Cause::Sizes { operation: "→", left, right }));
+            return Err(Cause::sizes("→", first.size(), other.size()).into());
         }
         let (rows, cols) = first.size();
         self.afford(rows * cols)?;
@@ -408,7 +660,7 @@ impl<O: Observer> Run<'_, '_, O> {
         self.spend(FUNCTION)?;
         let numbers: Option<Vec<f64>> = operands.iter().map(Value::number).collect();
         let result = match (&expr.kind, numbers.as_deref()) {
-            (Kind::Call(name, _), _) => return self.call(*name, operands, &expr.span),
+            (Kind::Call(name, _), _) => return self.call(*name, operands),
             (Kind::Magnitude(_), Some([x])) => Ok(x.abs()),
             (Kind::Negative(_), Some([x])) => Ok(-x),
             (Kind::Power(..), Some([x, y])) => power(*x, *y),
@@ -420,11 +672,23 @@ impl<O: Observer> Run<'_, '_, O> {
             }
             (_, _) => Err(kind("a number or an array of numbers", &operands[0])),
         };
-        result.map(Value::Number).map_err(|cause| self.fail(&expr.span, cause))
+        Ok(Value::Number(result?))
     }
 
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
     /// evaluating `∧`: one that is `decisive` decides alone. An `∧` has its `span` for the observer.
+    /// ```
+    /// use mathcad::{Conjunction, Limits, Listing, Settings};
+    /// let listing = Listing::parse("f", "f(v) :=\n  v[1] > 1 ∧ v[0] > 1").unwrap();
+    /// let v = mathcad::evaluate("(1; 2)").unwrap();
+    /// let under = |conjunction| {
+    ///     let settings = Settings { conjunction, ..Settings::default() };
+    ///     listing.runner(&settings, &Limits::default()).call(&[v.clone()]).is_ok()
+    /// };
+    /// // The first operand is false, and v has no entry 0.
+    /// let methods = [Conjunction::Guarded, Conjunction::LeftToRight, Conjunction::Eager];
+    /// assert_eq!(methods.map(under), [true, true, false]);
+    /// ```
     fn decide(
         &mut self,
         operands: &[Expr],
@@ -456,7 +720,10 @@ impl<O: Observer> Run<'_, '_, O> {
         if O::ACTIVE
             && let Some(span) = span
         {
-            self.report_conjunction(operands, &seen, span);
+            let seen = seen.into_iter().chain(std::iter::repeat(None));
+            let operands = operands.iter().map(|x| self.place(&x.span).text);
+            let operands: Vec<_> = operands.zip(seen).collect();
+            self.observer.conjunction(self.place(span), &operands);
         }
         match failure {
             Some(failure) if !decided => Err(failure),
@@ -464,11 +731,82 @@ impl<O: Observer> Run<'_, '_, O> {
         }
     }
 
-    fn report_conjunction(&mut self, operands: &[Expr], seen: &[Option<bool>], span: &Span) {
-        let seen = seen.iter().copied().chain(std::iter::repeat(None));
-        let operand = |(x, held): (&Expr, _)| Operand { text: self.place(&x.span).text, held };
-        let operands: Vec<_> = operands.iter().zip(seen).map(operand).collect();
-        self.observer.conjunction(self.place(span), &operands);
+    /// Returns the value of the function that the name `slot` stands for.
+    fn call(&mut self, slot: Slot, arguments: &[Value]) -> Fallible<Value> {
+        let builtin = match &mut self.functions[slot] {
+            None => return Err(self.undefined(slot, true).into()),
+            Some(Function::Program(program)) => {
+                let program = program.clone();
+                return self.call_program(&program, arguments);
+            }
+            Some(Function::Outside(function)) => {
+                let name = self.listing.names.name(slot);
+                let value = function(arguments);
+                return Ok(value.map_err(|message| Cause::Function { name: name.into(), message })?);
+            }
+            Some(Function::Builtin(builtin)) => *builtin,
+        };
+        let (numbers, steps) = (builtin.cost)(arguments);
+        self.room(numbers)?;
+        self.spend(steps)?;
+        let name = builtin.name;
+        Ok(match builtin.meaning {
+            Meaning::Elementary(function) => each(arguments, |x| real(function(x), x, name))?,
+            Meaning::Numbers(function) => Value::Number(function(arguments, name)?),
+            Meaning::Values(function) => function(arguments)?,
+            Meaning::Subscripts(function) => function(arguments, self.settings.origin)?,
+            Meaning::Vectorize => {
+                return Err(Cause::Arguments { expected: 1, found: arguments.len() }.into());
+            }
+            Meaning::Trace => {
+                let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
+                let value = Value::Text(line.as_str().into());
+                self.stored += value.count();
+                self.trace.push(line);
+                value
+            }
+        })
+    }
+
+    /// Runs a function of the worksheet; its steps and numbers count with those of the caller.
+    fn call_program(&mut self, defined: &Defined, arguments: &[Value]) -> Fallible<Value> {
+        let program = &*defined.program;
+        let depth = self.depth + program.depth;
+        if depth > self.limits.calls {
+            let limit = self.limits.calls as u64;
+            return Err(self.fail_line(Cause::Limit { limit, of: "levels of calls" }));
+        }
+        // Each name is looked up in the worksheet.
+        self.spend(16 + 8 * program.names.len() as u64)?;
+        let names = || program.names.all();
+        let sheet = defined.above.as_deref().or(self.sheet);
+        let value = |name| sheet.and_then(|sheet| sheet.value(name));
+        // Its own name is itself where nothing above it has that name.
+        let function = |name| {
+            let itself =
+                || (name == program.function()).then(|| Function::Program(defined.clone()));
+            Function::named(sheet, name).or_else(itself)
+        };
+        let cells = names().map(|name| Variable { value: value(name), local: false }).collect();
+        let mut functions: Vec<_> = names().map(function).collect();
+        let run = Run {
+            listing: program,
+            sheet,
+            settings: self.settings,
+            limits: self.limits,
+            cells,
+            functions: &mut functions,
+            observer: &mut (),
+            line: 0,
+            spent: self.spent,
+            stored: self.stored,
+            depth,
+            last: None,
+            trace: vec![],
+        };
+        let outcome = run.run(arguments)?;
+        self.trace.extend(outcome.trace_output);
+        Ok(outcome.value)
     }
 }
 

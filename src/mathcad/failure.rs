@@ -68,6 +68,14 @@ fn shown(text: &str) -> Cow<'_, str> {
 /// What the evaluation of a listing gives, or where and why it failed.
 pub type Fallible<T> = Result<T, Box<Failure>>;
 
+/// A failure without its place, on line 0, until the run adds where it was.
+impl From<Cause> for Box<Failure> {
+    fn from(cause: Cause) -> Self {
+        let (listing, text, statement) = Default::default();
+        Box::new(Failure { listing, line: 0, column: 0, text, statement, cause })
+    }
+}
+
 impl Failure {
     /// Returns whether a limit was reached: no method of evaluating `∧` passes over that.
     pub fn is_limit(&self) -> bool {
@@ -132,6 +140,18 @@ pub enum Cause {
     /// The listing asks for more than [`Limits`](super::settings::Limits) allows.
     #[error("The limit of {limit} {of} is reached.")]
     Limit { limit: u64, of: &'static str },
+}
+
+impl Cause {
+    /// Returns the failure of an operation on values of so many rows and columns.
+    pub(super) fn sizes(
+        operation: &'static str,
+        left: (usize, usize),
+        right: (usize, usize),
+    ) -> Self {
+        let [left, right] = [left, right].map(|(rows, cols)| format!("{rows} x {cols}"));
+        Cause::Sizes { operation, left, right }
+    }
 }
 
 /// One subscript or two, as evaluated; shown as `[i]` or `[i,j]`.

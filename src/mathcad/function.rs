@@ -89,11 +89,11 @@ static BUILTINS: [Builtin; 46] = {
         // So many products, at most.
         row("factorial", |_| (0, 50), Numbers(factorial)),
         // identity(n), the n x n matrix.
-        row("identity", square, Values(|n| one(n).and_then(whole).map(identity))),
+        row("identity", square, Values(|n| exactly(n).and_then(|[n]| whole(n)).map(identity))),
         // The numbers of rows and of columns; 0 for what is no array.
-        row("rows", free, Values(|v| one(v).map(|v| extent(v).0.into()))),
-        row("cols", free, Values(|v| one(v).map(|v| extent(v).1.into()))),
-        row("length", free, Values(|v| one(v).map(|v| extent(v).0.into()))),
+        row("rows", free, Values(|v| exactly(v).map(|[v]| extent(v).0.into()))),
+        row("cols", free, Values(|v| exactly(v).map(|[v]| extent(v).1.into()))),
+        row("length", free, Values(|v| exactly(v).map(|[v]| extent(v).0.into()))),
         // The subscript of the last entry of a column.
         row("last", free, Subscripts(last)),
         // Of all the numbers of all arguments.
@@ -110,16 +110,31 @@ static BUILTINS: [Builtin; 46] = {
         // submatrix(x, row, last row, column, last column).
         row("submatrix", copied, Subscripts(submatrix)),
         // lsolve(m, v), the solution of m·x = v.
-        row("lsolve", eliminated, Values(|mv| two(mv).and_then(|(m, v)| matrices::lsolve(m, v)))),
-        row("determinant", eliminated, Values(|m| one(m).and_then(matrices::determinant))),
+        row(
+            "lsolve",
+            eliminated,
+            Values(|mv| exactly(mv).and_then(|[m, v]| matrices::lsolve(m, v))),
+        ),
+        row(
+            "determinant",
+            eliminated,
+            Values(|m| exactly(m).and_then(|[m]| matrices::determinant(m))),
+        ),
         // Of a column; over a range they are series.
-        row("∑", copied, Values(|v| one(v).and_then(total))),
-        row("∏", copied, Values(|_| Err(only_a_series()))),
+        row("∑", copied, Values(|v| exactly(v).and_then(|[v]| total(v)))),
+        row(
+            "∏",
+            copied,
+            Values(|_| {
+                let message = "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into();
+                Err(Cause::Function { name: "∏".into(), message })
+            }),
+        ),
         // ×(a, b), of columns of three.
-        row("×", free, Values(|ab| two(ab).and_then(|(a, b)| matrices::cross(a, b)))),
+        row("×", free, Values(|ab| exactly(ab).and_then(|[a, b]| matrices::cross(a, b)))),
         // Of a matrix whose eigenvalues are real, in ascending order.
-        row("eigenvals", eigen, Values(|m| one(m).and_then(matrices::eigenvals))),
-        row("eigenvecs", vectors, Values(|m| one(m).and_then(matrices::eigenvecs))),
+        row("eigenvals", eigen, Values(|m| exactly(m).and_then(|[m]| matrices::eigenvals(m)))),
+        row("eigenvecs", vectors, Values(|m| exactly(m).and_then(|[m]| matrices::eigenvecs(m)))),
         row("→", free, Vectorize),
         row("trace", written, Trace),
     ]
@@ -151,7 +166,7 @@ fn copied(arguments: &[Value]) -> (usize, u64) {
 }
 
 fn square(arguments: &[Value]) -> (usize, u64) {
-    let n = one(arguments).and_then(whole).unwrap_or(0);
+    let n = exactly(arguments).and_then(|[n]| whole(n)).unwrap_or(0);
     (n.saturating_mul(n), n.saturating_mul(n) as u64)
 }
 
@@ -201,11 +216,10 @@ fn size(values: &[Value]) -> usize {
     values.iter().map(Value::count).sum()
 }
 
-fn one(arguments: &[Value]) -> Result<&Value, Cause> {
-    match arguments {
-        [argument] => Ok(argument),
-        _ => Err(Cause::Arguments { expected: 1, found: arguments.len() }),
-    }
+/// Returns the arguments, which must be so many.
+fn exactly<const N: usize>(arguments: &[Value]) -> Result<&[Value; N], Cause> {
+    let found = arguments.len();
+    arguments.try_into().map_err(|_| Cause::Arguments { expected: N, found })
 }
 
 fn whole(value: &Value) -> Result<usize, Cause> {
@@ -215,20 +229,10 @@ fn whole(value: &Value) -> Result<usize, Cause> {
     }
 }
 
-fn two(arguments: &[Value]) -> Result<(&Value, &Value), Cause> {
-    match arguments {
-        [x, y] => Ok((x, y)),
-        _ => Err(Cause::Arguments { expected: 2, found: arguments.len() }),
-    }
-}
-
 /// Returns the arguments, which must be numbers.
 fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
-    if arguments.len() != N {
-        return Err(Cause::Arguments { expected: N, found: arguments.len() });
-    }
     let mut numbers = [0.0; N];
-    for (number, argument) in numbers.iter_mut().zip(arguments) {
+    for (number, argument) in numbers.iter_mut().zip(exactly::<N>(arguments)?) {
         *number = argument.number().ok_or_else(|| kind("a number", argument))?;
     }
     Ok(numbers)
@@ -239,7 +243,8 @@ pub fn each(
     arguments: &[Value],
     function: impl Fn(f64) -> Result<f64, Cause>,
 ) -> Result<Value, Cause> {
-    match one(arguments)? {
+    let [argument] = exactly(arguments)?;
+    match argument {
         Value::Number(x) => function(*x).map(Value::Number),
         Value::Array(array) => map(array.clone(), function),
         other => Err(kind("a number or an array of numbers", other)),
@@ -269,7 +274,7 @@ fn extent(value: &Value) -> (usize, usize) {
 
 /// Returns the subscript of a column's last entry.
 fn last(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
-    let value = one(arguments)?;
+    let [value] = exactly(arguments)?;
     match (value, value.size()) {
         (Value::Array(_) | Value::Nested(_), (rows, 1)) if rows > 0 => {
             Ok(Value::Number(f64::from(origin) + rows as f64 - 1.0))
@@ -286,7 +291,7 @@ fn mean(arguments: &[Value]) -> Result<Value, Cause> {
 }
 
 fn sort(arguments: &[Value]) -> Result<Value, Cause> {
-    let value = one(arguments)?;
+    let [value] = exactly(arguments)?;
     match value {
         Value::Array(column) if column.cols() == 1 => {
             let mut entries = column.entries().to_vec();
@@ -302,7 +307,7 @@ fn round(arguments: &[Value]) -> Result<Value, Cause> {
     let (x, places) = match arguments {
         [_] => (arguments, 0.0),
         _ => {
-            two(arguments)?;
+            exactly::<2>(arguments)?;
             let [places] = numbers(&arguments[1..])?;
             (&arguments[..1], places)
         }
@@ -345,9 +350,7 @@ fn factorial(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
 }
 
 fn submatrix(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
-    let Some((array, places)) = arguments.split_first() else {
-        return Err(Cause::Arguments { expected: 5, found: 0 });
-    };
+    let [array, places @ ..] = exactly::<5>(arguments)?;
     matrices::part(array, numbers(places)?, origin)
 }
 
@@ -356,9 +359,4 @@ fn total(value: &Value) -> Result<Value, Cause> {
         Value::Array(a) => finite(sum(a.entries().iter().copied())).map(Value::Number),
         other => Err(kind("an array of numbers", other)),
     }
-}
-
-fn only_a_series() -> Cause {
-    let message = "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into();
-    Cause::Function { name: "∏".into(), message }
 }

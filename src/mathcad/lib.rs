@@ -15,9 +15,9 @@
 //!
 //! | modules, each using only those above it | what they contain |
 //! |---|---|
-//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
+//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -25,7 +25,7 @@
 //! | [`unsupported`] | Mathcad's functions and units that are not here |
 //! | [`json`] | values as JSON |
 //! | [`sheet`] | what a worksheet defines above a program |
-//! | `state`, `entry`, `call`, `eval`, [`run`] | running a listing |
+//! | `state`, `eval`, [`run`] | a listing as it runs: its names and what it has used, its program, the worksheet around it |
 //! | [`xmcd`] | the second notation: worksheets as Mathcad saves them |
 //! | `words` | what Mathcad's error messages mean |
 //! | [`worksheet`] | executing a worksheet beside its saved results |
@@ -48,11 +48,8 @@ pub mod worksheet;
 pub mod xmcd;
 
 mod arithmetic;
-mod call;
-mod entry;
 mod eval;
 mod function;
-
 mod lexer;
 mod matrices;
 mod parser;
@@ -66,7 +63,8 @@ pub use edit::Edit;
 pub use failure::{Cause, Failure, ParseError};
 pub use listing::{Line, Listing};
 pub use observe::{Observer, Recorder};
-pub use run::{Outcome, Runner};
+pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;
+pub use state::Outcome;
 pub use value::{Array, Value};

@@ -58,9 +58,9 @@ fn uses(block: &[Statement], used: &mut [bool]) {
         expr.parts().into_iter().for_each(|part| expression(part, own, used));
         own.truncate(depth);
     }
-    for Statement { step, .. } in block {
-        step.expressions().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
-        step.blocks().into_iter().for_each(|block| uses(block, used));
+    for statement in block {
+        statement.on_line().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
+        statement.step.blocks().into_iter().for_each(|block| uses(block, used));
     }
 }
 
@@ -76,11 +76,11 @@ fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
 /// other.
 fn survey(block: &[Statement], written: &mut dyn FnMut(Slot)) -> usize {
     let mut depth = 0;
-    for Statement { step, .. } in block {
-        step.written().into_iter().for_each(&mut *written);
-        step.expressions().into_iter().for_each(|expr| within(expr, written));
-        let own = step.expressions().into_iter().map(|expr| expr.depth(usize::MAX)).max();
-        let below = step.blocks().into_iter().map(|block| survey(block, written)).max();
+    for statement in block {
+        statement.step.written().into_iter().for_each(&mut *written);
+        statement.on_line().into_iter().for_each(|expr| within(expr, written));
+        let own = statement.on_line().into_iter().map(|expr| expr.depth(usize::MAX)).max();
+        let below = statement.step.blocks().into_iter().map(|block| survey(block, written)).max();
         depth = depth.max(1 + own.max(below).unwrap_or(0));
     }
     depth
@@ -221,7 +221,7 @@ impl<'a> Reader<'a> {
             return Ok((parameters, None));
         }
         let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
-        self.check_depth(line, &body.step)?;
+        self.check_depth(line, &body)?;
         match body.step {
             Step::Assign { .. }
             | Step::Spread { .. }
@@ -262,7 +262,7 @@ impl<'a> Reader<'a> {
         let tokens = self.tokens(line)?;
         let mut statement = parser::statement(&tokens, self.next)
             .map_err(|complaint| self.error(line, complaint))?;
-        self.check_depth(line, &statement.step)?;
+        self.check_depth(line, &statement)?;
         self.next += 1;
         match &mut statement.step {
             Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
@@ -305,13 +305,12 @@ impl<'a> Reader<'a> {
         tokens.map_err(|complaint| self.error(line, complaint))
     }
 
-    fn check_depth(&self, line: &Line, step: &Step) -> Result<(), ParseError> {
+    fn check_depth(&self, line: &Line, statement: &Statement) -> Result<(), ParseError> {
         let limit = self.limits.depth;
         let deep = |expr: &&Expr| expr.depth(limit + 1) > limit;
         // What stands on the line: `x otherwise` has it in its block.
-        let inside = step.blocks().into_iter().flatten();
-        let inside = inside.flat_map(|statement| statement.step.expressions());
-        match step.expressions().into_iter().chain(inside).find(deep) {
+        let inside = statement.step.blocks().into_iter().flatten().flat_map(Statement::on_line);
+        match statement.on_line().into_iter().chain(inside).find(deep) {
             Some(expr) => {
                 let message = format!("found operators and brackets more than {limit} deep");
                 Err(self.error(line, (expr.span.start, message)))

@@ -1,8 +1,7 @@
 //! What functions make of matrices: parts, joins, lengths, determinants, systems of equations.
 
 use super::arithmetic::{finite, kind, sum};
-use super::entry::offset;
-use super::failure::Cause;
+use super::failure::{Cause, Subscripts};
 use super::value::{Array, Grid, Value};
 use nalgebra::linalg::{Schur, SymmetricEigen};
 use nalgebra::{DMatrix, DVector};
@@ -24,6 +23,9 @@ pub fn steps(matrix: &Value) -> u64 {
 }
 
 /// Returns the magnitude of a number, the length of a column or the determinant of a square matrix.
+/// ```
+/// assert_eq!(mathcad::evaluate("(|−2|   |(3; 4)|   |(1 2; 3 4)|)").unwrap().to_string(), "2 5 -2");
+/// ```
 pub fn magnitude(value: &Value) -> Result<Value, Cause> {
     match value {
         Value::Number(x) => Ok(Value::Number(x.abs())),
@@ -36,6 +38,9 @@ pub fn magnitude(value: &Value) -> Result<Value, Cause> {
 }
 
 /// Returns the determinant of a square matrix.
+/// ```
+/// assert_eq!(mathcad::evaluate("determinant((2 1; 1 3))").unwrap().to_string(), "5");
+/// ```
 pub fn determinant(value: &Value) -> Result<Value, Cause> {
     let a = square(value)?;
     let determinant = match a.entries() {
@@ -52,14 +57,16 @@ pub fn determinant(value: &Value) -> Result<Value, Cause> {
 ///
 /// # Errors
 /// The sizes do not match, or the matrix is singular.
+/// ```
+/// assert_eq!(mathcad::evaluate("lsolve((2 1; 1 3), (5; 10))").unwrap().to_string(), "1; 3");
+/// ```
 pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (Value::Array(a), Value::Array(b)) = (a, b) else {
         return Err(kind("a square matrix and a column", if a.number().is_some() { a } else { b }));
     };
     let n = a.rows();
     if n != a.cols() || n != b.rows() || b.cols() != 1 {
-        let size = |a: &Array| format!("{} x {}", a.rows(), a.cols());
-        return Err(Cause::Sizes { operation: "lsolve", left: size(a), right: size(b) });
+        return Err(Cause::sizes("lsolve", a.size(), b.size()));
     }
     let x = if n > DENSE { sparse(a, b) } else { substituted(&factor(a), b.entries()) };
     x.map(|x| Array::column(x).into())
@@ -79,12 +86,17 @@ fn sparse(a: &Array, b: &Array) -> Result<Vec<f64>, Cause> {
 }
 
 /// Returns the inverse of a square matrix, the solution for each unit column.
+/// ```
+/// assert_eq!(mathcad::evaluate("(2 0; 0 4)^−1").unwrap().to_string(), "0.5 0; 0 0.25");
+/// ```
 pub fn inverse(value: &Value) -> Result<Value, Cause> {
     let a = square(value)?;
     let n = a.rows();
     let factors = factor(a);
-    let unit = |j| (0..n).map(|i| f64::from(i == j)).collect::<Vec<_>>();
-    let columns = (0..n).map(|j| substituted(&factors, &unit(j)));
+    let columns = (0..n).map(|j| {
+        let unit: Vec<f64> = (0..n).map(|i| f64::from(i == j)).collect();
+        substituted(&factors, &unit)
+    });
     let columns = columns.collect::<Result<Vec<_>, _>>()?;
     Ok(Array::from_fn(n, n, |i, j| columns[j][i]).into())
 }
@@ -150,11 +162,12 @@ fn factor(a: &Array) -> Factors {
 }
 
 /// Returns the entries row by row of a value that has so many rows and columns.
+/// ```
+/// assert_eq!(mathcad::evaluate("(a   b) ← (1   2)\n(a   b) ← (b   a)\na").unwrap().to_string(), "2");
+/// ```
 pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cause> {
     if value.size() != (rows, cols) {
-        let size = |(rows, cols)| format!("{rows} x {cols}");
-        let (left, right) = (size((rows, cols)), size(value.size()));
-        return Err(Cause::Sizes { operation: "←", left, right });
+        return Err(Cause::sizes("←", (rows, cols), value.size()));
     }
     let places = (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j)));
     Ok(places.map(|(i, j)| value.entry(i, j).unwrap_or_else(|| value.clone())).collect())
@@ -169,19 +182,22 @@ fn three(value: &Value) -> Result<&[f64], Cause> {
 }
 
 /// Returns the cross product of two columns of three numbers.
+/// ```
+/// assert_eq!(mathcad::evaluate("×((1; 2; 3), (4; 5; 6))").unwrap().to_string(), "-3; 6; -3");
+/// ```
 pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (a, b) = (three(a)?, three(b)?);
-    let entry = |k: usize| {
-        let (k, l) = ((k + 1) % 3, (k + 2) % 3);
-        finite(a[k] * b[l] - a[l] * b[k])
-    };
-    Ok(Array::column((0..3).map(entry).collect::<Result<_, _>>()?).into())
+    let entries = [(1, 2), (2, 0), (0, 1)].map(|(k, l)| finite(a[k] * b[l] - a[l] * b[k]));
+    Ok(Array::column(entries.into_iter().collect::<Result<_, _>>()?).into())
 }
 
 /// Returns the eigenvalues of a square matrix, in ascending order.
 ///
 /// # Errors
 /// Some are complex.
+/// ```
+/// assert_eq!(mathcad::evaluate("eigenvals((3 0; 0 1))").unwrap().to_string(), "1; 3");
+/// ```
 pub fn eigenvals(value: &Value) -> Result<Value, Cause> {
     Ok(Array::column(eigen(value)?.0).into())
 }
@@ -190,6 +206,9 @@ pub fn eigenvals(value: &Value) -> Result<Value, Cause> {
 ///
 /// # Errors
 /// Some are complex, or, of a matrix that is not symmetric, two eigenvalues are the same.
+/// ```
+/// assert_eq!(mathcad::evaluate("eigenvecs((3 0; 0 1))").unwrap().to_string(), "0 1; 1 0");
+/// ```
 pub fn eigenvecs(value: &Value) -> Result<Value, Cause> {
     let (values, vectors) = eigen(value)?;
     let vectors = match vectors {
@@ -241,7 +260,47 @@ fn null_vectors(matrix: &DMatrix<f64>, values: &[f64]) -> Result<DMatrix<f64>, C
     Ok(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
 }
 
+/// Returns the entry of a value, which messages call `name`.
+pub fn entry(
+    value: &Value,
+    subscripts: Subscripts,
+    origin: i32,
+    name: &dyn Fn() -> String,
+) -> Result<Value, Cause> {
+    let (i, j) = offsets(subscripts, origin, name)?;
+    if let Value::Number(_) | Value::Text(_) = value {
+        return Err(kind("an array", value));
+    }
+    let (rows, cols) = value.size();
+    let entry = value.entry(i, j).filter(|_| subscripts.col.is_some() || cols == 1);
+    entry.ok_or_else(|| Cause::IndexOutside { name: name(), subscripts, rows, cols })
+}
+
+/// Returns row and column from 0; the column of a lone subscript is the first.
+pub fn offsets(
+    subscripts: Subscripts,
+    origin: i32,
+    name: &dyn Fn() -> String,
+) -> Result<(usize, usize), Cause> {
+    let offset = |x: f64| {
+        let whole = x as i64;
+        if whole as f64 == x && whole >= i64::from(origin) {
+            Ok((whole - i64::from(origin)) as usize)
+        } else if x.fract() != 0.0 {
+            Err(Cause::IndexNotWhole { name: name(), subscripts })
+        } else if x < f64::from(origin) {
+            Err(Cause::IndexBelowOrigin { name: name(), subscripts, origin })
+        } else {
+            Ok((x - f64::from(origin)) as usize)
+        }
+    };
+    Ok((offset(subscripts.row)?, subscripts.col.map_or(Ok(0), offset)?))
+}
+
 /// Returns the column `j` of an array, counted from `origin`.
+/// ```
+/// assert_eq!(mathcad::evaluate("(1 2; 3 4)⟨2⟩").unwrap().to_string(), "2; 4");
+/// ```
 pub fn column(array: &Value, j: f64, origin: i32) -> Result<Value, Cause> {
     let rows = array.size().0;
     part(array, [origin.into(), f64::from(origin) + rows as f64 - 1.0, j, j], origin)
@@ -249,18 +308,20 @@ pub fn column(array: &Value, j: f64, origin: i32) -> Result<Value, Cause> {
 
 /// Returns rows and columns of an array, from the first and third of `at` to the second and fourth,
 /// counted from `origin`.
+/// ```
+/// assert_eq!(mathcad::evaluate("submatrix((1 2; 3 4; 5 6), 2, 3, 1, 1)").unwrap().to_string(), "3; 5");
+/// ```
 pub fn part(array: &Value, at: [f64; 4], origin: i32) -> Result<Value, Cause> {
     if let Value::Number(_) | Value::Text(_) = array {
         return Err(kind("an array", array));
     }
     let name = || "the array".into();
-    let mut places = [0; 4];
-    for (place, x) in places.iter_mut().zip(at) {
-        *place = offset(x, origin, &name)?;
-    }
-    let ([i, last_i, j, last_j], (rows, cols)) = (places, array.size());
+    let [i, last_i, j, last_j] =
+        at.map(|row| offsets(Subscripts { row, col: None }, origin, &name).map(|(i, _)| i));
+    let (i, last_i, j, last_j) = (i?, last_i?, j?, last_j?);
+    let (rows, cols) = array.size();
     if last_i < i || last_j < j || last_i >= rows || last_j >= cols {
-        let subscripts = super::failure::Subscripts { row: at[1], col: Some(at[3]) };
+        let subscripts = Subscripts { row: at[1], col: Some(at[3]) };
         return Err(Cause::IndexOutside { name: name(), subscripts, rows, cols });
     }
     let entry = |k, l| array.entry(i + k, j + l).unwrap_or_default();
@@ -268,18 +329,22 @@ pub fn part(array: &Value, at: [f64; 4], origin: i32) -> Result<Value, Cause> {
 }
 
 /// Puts arrays side by side, or one below the other.
+/// ```
+/// assert_eq!(mathcad::evaluate("stack((1 2), augment((3;), (4;)))").unwrap().to_string(), "1 2; 3 4");
+/// ```
 pub fn join(arrays: &[Value], below: bool) -> Result<Value, Cause> {
     let along = |a: &Value| if below { a.size().1 } else { a.size().0 };
-    let across = |a: &Value| if below { a.size().0 } else { a.size().1 };
     let Some(first) = arrays.first() else {
         return Err(Cause::Arguments { expected: 2, found: 0 });
     };
     if let Some(other) = arrays.iter().find(|a| along(a) != along(first)) {
-        let size = |a: &Value| format!("{} x {}", a.size().0, a.size().1);
         let operation = if below { "stack" } else { "augment" };
-        return Err(Cause::Sizes { operation, left: size(first), right: size(other) });
+        return Err(Cause::sizes(operation, first.size(), other.size()));
     }
-    let lines = arrays.iter().flat_map(|a| (0..across(a)).map(move |k| (a, k)));
+    let lines = arrays.iter().flat_map(|a| {
+        let (rows, cols) = a.size();
+        (0..if below { rows } else { cols }).map(move |k| (a, k))
+    });
     let lines: Vec<(&Value, usize)> = lines.collect();
     let entry = |a: &Value, i, j| match a {
         Value::Number(_) | Value::Text(_) => a.clone(),

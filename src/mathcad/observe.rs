@@ -21,8 +21,9 @@ pub trait Observer {
     /// A statement's condition was evaluated: whether it was true.
     fn condition(&mut self, _place: Place<'_>, _held: bool) {}
 
-    /// An `∧` was evaluated: its operands.
-    fn conjunction(&mut self, _place: Place<'_>, _operands: &[Operand<'_>]) {}
+    /// An `∧` was evaluated: its operands, each as the listing writes it, and whether it was true; `None`
+    /// if it failed or was not evaluated.
+    fn conjunction(&mut self, _place: Place<'_>, _operands: &[(&str, Option<bool>)]) {}
 
     /// The run ended after so many steps.
     fn end(&mut self, _steps: u64) {}
@@ -56,15 +57,6 @@ pub struct Place<'a> {
     pub text: &'a str,
 }
 
-/// An operand of an `∧`, as its text and its truth.
-#[derive(Clone, Copy, Debug)]
-pub struct Operand<'a> {
-    /// The operand as the listing writes it.
-    pub text: &'a str,
-    /// Whether it was true; `None` if it failed or was not evaluated.
-    pub held: Option<bool>,
-}
-
 /// A statement executed: what it read, what decided it, and what it wrote.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Executed {
@@ -75,7 +67,7 @@ pub struct Executed {
     pub in_file: usize,
     /// Whether its condition was true; `None` without a condition, and where it failed.
     pub held: Option<bool>,
-    /// The operands of its `∧`, in order: text and truth as an [`Operand`] has them.
+    /// The operands of its `∧`, in order: text, and truth as [`Observer::conjunction`] has it.
     pub operands: Vec<(String, Option<bool>)>,
     /// Everything that was read, in order.
     pub reads: Vec<Named>,
@@ -86,7 +78,7 @@ pub struct Executed {
 /// A name or entry with its value, kept beyond the statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
-    /// The name, with the subscripts of an entry: `ct[3]`.
+    /// The name, without subscripts.
     pub name: String,
     /// No, one or two subscripts, from the worksheet's `ORIGIN`.
     pub subscripts: Vec<i64>,
@@ -153,8 +145,8 @@ impl<F: FnMut(&Executed)> Observer for Recorder<F> {
         self.on(place.line).held = Some(held);
     }
 
-    fn conjunction(&mut self, place: Place<'_>, operands: &[Operand<'_>]) {
-        let operands = operands.iter().map(|operand| (operand.text.into(), operand.held));
+    fn conjunction(&mut self, place: Place<'_>, operands: &[(&str, Option<bool>)]) {
+        let operands = operands.iter().map(|(text, held)| ((*text).into(), *held));
         self.on(place.line).operands = operands.collect();
     }
 }

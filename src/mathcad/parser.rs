@@ -35,9 +35,9 @@ pub fn header(tokens: &[Spanned]) -> Parsed<Vec<Slot>> {
 /// The first token that does not belong there, and what may stand there.
 pub fn statement(tokens: &[Spanned], line: usize) -> Parsed<Statement> {
     let mut parser = Parser { tokens, line, next: 0, expected: vec![] };
-    let step = parser.step()?;
+    let statement = parser.statement()?;
     parser.end()?;
-    Ok(Statement { line, step })
+    Ok(statement)
 }
 
 /// Returns what an expression to the left of `←` takes several entries to.
@@ -140,8 +140,8 @@ impl<'t> Parser<'t> {
         Ok(*slot)
     }
 
-    fn step(&mut self) -> Parsed<Step> {
-        let start = self.start();
+    fn statement(&mut self) -> Parsed<Statement> {
+        let (start, line) = (self.start(), self.line);
         let word = match self.token() {
             Some(Token::Sign(word)) if !self.is_choice() => *word,
             _ => "",
@@ -151,28 +151,32 @@ impl<'t> Parser<'t> {
             "for" => {
                 let name = self.name()?;
                 self.need("∈")?;
-                let range = self.range()?;
-                return Ok(Step::For { name, range, guard: self.guard()?, body: vec![] });
+                Step::For { name, range: self.range()?, body: vec![] }
             }
-            "while" => return Ok(Step::While { condition: self.expression()?, body: vec![] }),
-            "if" => return Ok(Step::If { condition: self.expression()?, body: vec![] }),
-            "otherwise" => return Ok(Step::Otherwise { body: vec![] }),
-            "try" => return Ok(Step::Try { body: vec![], fallback: vec![] }),
-            "return" => Step::Return { value: self.expression()?, guard: self.guard()? },
-            "break" => Step::Break { guard: self.guard()? },
-            "continue" => Step::Continue { guard: self.guard()? },
+            "while" => Step::While { condition: self.expression()?, body: vec![] },
+            "if" => Step::If { condition: self.expression()?, body: vec![] },
+            "otherwise" => Step::Otherwise { body: vec![] },
+            "try" => Step::Try { body: vec![], fallback: vec![] },
+            "return" => Step::Return { value: self.expression()? },
+            "break" => Step::Break,
+            "continue" => Step::Continue,
             _ => {
                 self.next -= 1;
                 self.assignment()?
             }
         };
-        if !self.takes("otherwise") {
-            return Ok(step);
+        if matches!(word, "while" | "if" | "otherwise" | "try") {
+            return Ok(Statement { line, step, guard: None });
         }
-        if step.condition().is_some() {
+        let guard = if self.takes("if") { Some(self.expression()?) } else { None };
+        if word == "for" || !self.takes("otherwise") {
+            return Ok(Statement { line, step, guard });
+        }
+        if guard.is_some() {
             return Err((start, "found `if` and `otherwise` on one line".into()));
         }
-        Ok(Step::Otherwise { body: vec![Statement { line: self.line, step }] })
+        let body = vec![Statement { line, step, guard }];
+        Ok(Statement { line, step: Step::Otherwise { body }, guard: None })
     }
 
     /// Reads an assignment, or a value alone.
@@ -180,17 +184,17 @@ impl<'t> Parser<'t> {
         let value = self.expression()?;
         let spread = spread(&value);
         if !matches!(value.kind, Kind::Read(_)) && spread.is_none() {
-            return Ok(Step::Evaluate { value, guard: self.guard()? });
+            return Ok(Step::Evaluate { value });
         }
         self.expect(Token::Sign("←"));
         if !matches!(self.token(), Some(Token::Sign("←" | "<-" | ":="))) {
-            return Ok(Step::Evaluate { value, guard: self.guard()? });
+            return Ok(Step::Evaluate { value });
         }
         self.next += 1;
-        let (assigned, guard) = (self.expression()?, self.guard()?);
+        let assigned = self.expression()?;
         Ok(match (value.kind, spread) {
-            (Kind::Read(target), _) => Step::Assign { target, value: assigned, guard },
-            (_, Some(to)) => Step::Spread { to, value: assigned, guard },
+            (Kind::Read(target), _) => Step::Assign { target, value: assigned },
+            (_, Some(to)) => Step::Spread { to, value: assigned },
             (_, None) => unreachable!("it is one of the two"),
         })
     }
@@ -199,8 +203,8 @@ impl<'t> Parser<'t> {
     fn program(&mut self) -> Parsed<Vec<Statement>> {
         let mut block = vec![];
         loop {
-            let mut step = self.step()?;
-            match &mut step {
+            let mut statement = self.statement()?;
+            match &mut statement.step {
                 Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
                     *body = self.inner()?;
                 }
@@ -211,7 +215,7 @@ impl<'t> Parser<'t> {
                 }
                 _ => {}
             }
-            block.push(Statement { line: self.line, step });
+            block.push(statement);
             if self.takes("}") {
                 return Ok(block);
             }
@@ -222,10 +226,6 @@ impl<'t> Parser<'t> {
     fn inner(&mut self) -> Parsed<Vec<Statement>> {
         self.need("{")?;
         self.program()
-    }
-
-    fn guard(&mut self) -> Parsed<Option<Expr>> {
-        if self.takes("if") { self.expression().map(Some) } else { Ok(None) }
     }
 
     /// Returns whether the function `if` comes next: the brackets behind it have a comma.
@@ -345,8 +345,8 @@ impl<'t> Parser<'t> {
     fn operator(&mut self, level: Level) -> Option<Operator> {
         let compares = level == Level::Comparison;
         self.expect(Token::Words(if compares { "a comparison" } else { "an operator" }));
-        let is_next = |sign| self.token() == Some(&Token::Sign(sign));
-        let found = OPERATORS.iter().find(|row| row.level == level && is_next(row.sign))?;
+        let mut rows = OPERATORS.iter().filter(|row| row.level == level);
+        let found = rows.find(|row| self.token() == Some(&Token::Sign(row.sign)))?;
         self.next += 1;
         Some(found.operator)
     }

@@ -2,21 +2,36 @@
 //! used.
 
 use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
-use super::failure::{Cause, Failure, Fallible};
+use super::arithmetic::kind;
+use super::failure::{Cause, Failure, Fallible, Subscripts};
 use super::function::Function;
 use super::listing::Listing;
-use super::observe::Place;
+use super::matrices;
+use super::observe::{Access, Observer, Place};
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::syntax::{Slot, Span};
+use super::syntax::{Reference, Slot, Span};
 use super::unsupported;
-use super::value::Value;
+use super::value::{Array, Grid, Nested, Value};
 
 /// A name's value, and whether the program wrote it.
 pub struct Variable {
     pub value: Option<Value>,
     pub local: bool,
+}
+
+/// What a run leaves behind.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The program's value: that of the last statement evaluated.
+    pub value: Value,
+    /// The names that the program wrote to, with their last values.
+    pub locals: BTreeMap<String, Value>,
+    /// What `trace` was given, a line for each call.
+    pub trace_output: Vec<String>,
 }
 
 pub struct Run<'r, 'l, O> {
@@ -73,48 +88,188 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         self.spend(numbers as u64)
     }
 
+    /// Checks that an array may hold what goes `depth` deep.
+    pub fn check_nesting(&self, depth: usize) -> Fallible<()> {
+        if depth < self.limits.depth {
+            return Ok(());
+        }
+        let limit = self.limits.depth as u64;
+        Err(self.fail_line(Cause::Limit { limit, of: "arrays within arrays" }))
+    }
+
     /// Returns where an expression of the current line stands.
     pub fn place(&self, span: &Span) -> Place<'r> {
         let line = &self.listing.lines[self.line];
         Place { line, start: span.start, text: &line.text[span.clone()] }
     }
 
+    /// Gives a failure its place, unless it has one from further inside.
+    pub fn placed(&self, mut failure: Box<Failure>, span: &Span) -> Box<Failure> {
+        if failure.line == 0 {
+            let Place { line, start, text } = self.place(span);
+            failure.listing = self.listing.name.clone();
+            failure.line = line.printed;
+            failure.column = line.text[..start].chars().count() + 1;
+            failure.text = text.into();
+            failure.statement = line.text.clone();
+        }
+        failure
+    }
+
     pub fn fail(&self, span: &Span, cause: Cause) -> Box<Failure> {
-        let Place { line, start, text } = self.place(span);
-        Box::new(Failure {
-            listing: self.listing.name.clone(),
-            line: line.printed,
-            column: line.text[..start].chars().count() + 1,
-            text: text.into(),
-            statement: line.text.clone(),
-            cause,
-        })
+        self.placed(cause.into(), span)
     }
 
     pub fn fail_line(&self, cause: Cause) -> Box<Failure> {
         self.fail(&(0..self.listing.lines[self.line].text.len()), cause)
     }
 
-    /// Returns the failure of a name that has no value, or, where it is `called`, is no function.
-    pub fn undefined(&self, slot: Slot, called: bool, span: &Span) -> Box<Failure> {
+    /// Returns why a name has no value, or, where it is `called`, is no function.
+    pub fn undefined(&self, slot: Slot, called: bool) -> Cause {
         let name = self.listing.names.name(slot);
-        let of_sheet =
-            |has: fn(&Sheet, &str) -> bool| self.sheet.is_some_and(|sheet| has(sheet, name));
+        let is_range = self.sheet.is_some_and(|sheet| sheet.range(name).is_some());
+        let is_program = self.sheet.is_some_and(|sheet| sheet.program(name).is_some());
         let construct = if called && unsupported::is_function(name) {
             format!("the function {name}")
-        } else if of_sheet(|sheet, name| sheet.range(name).is_some()) {
+        } else if is_range {
             format!("a range variable in an expression ({name})")
         } else if called {
-            return self.fail(span, Cause::Undefined { name: name.into() });
-        } else if unsupported::is_unit(name)
-            && !of_sheet(|sheet, name| sheet.program(name).is_some())
-        {
+            return Cause::Undefined { name: name.into() };
+        } else if unsupported::is_unit(name) && !is_program {
             format!("units: {name}")
         } else if self.functions[slot].is_some() {
             format!("a function as a value ({name})")
         } else {
-            return self.fail(span, Cause::Undefined { name: name.into() });
+            return Cause::Undefined { name: name.into() };
         };
-        self.fail(span, Cause::Unsupported { construct })
+        Cause::Unsupported { construct }
     }
+}
+
+impl<'r, O: Observer> Run<'r, '_, O> {
+    /// Returns the value of a name or, with `subscripts`, of its entry.
+    pub fn read(
+        &mut self,
+        reference: &Reference,
+        subscripts: Option<Subscripts>,
+    ) -> Fallible<Value> {
+        let value = match (&self.cells[reference.name].value, subscripts) {
+            (Some(value), None) => value.clone(),
+            (Some(value), Some(subscripts)) => {
+                let name = || self.listing.names.name(reference.name).into();
+                matrices::entry(value, subscripts, self.settings.origin, &name)?
+            }
+            // A local name without a value is 0.
+            (None, None) if self.listing.assigned[reference.name] => Value::default(),
+            (None, Some(_)) if self.listing.assigned[reference.name] => {
+                return Err(kind("an array", &Value::default()).into());
+            }
+            (None, _) => return Err(self.undefined(reference.name, false).into()),
+        };
+        if O::ACTIVE {
+            let subscripts = whole_subscripts(subscripts);
+            self.observer.read(self.access(reference.name, &subscripts, &value));
+        }
+        Ok(value)
+    }
+
+    /// Writes `value` to a name.
+    pub fn store(&mut self, slot: Slot, value: Value) -> Fallible<()> {
+        self.stored -= self.cells[slot].value.as_ref().map_or(0, Value::count);
+        self.room(value.count())?;
+        self.stored += value.count();
+        if O::ACTIVE {
+            self.observer.write(self.access(slot, &[], &value));
+        }
+        self.cells[slot] = Variable { value: Some(value), local: true };
+        Ok(())
+    }
+
+    /// Writes a value to an entry, and makes the array larger where it does not reach so far. By a
+    /// value that is no number an array of numbers becomes one of arrays.
+    pub fn write(&mut self, target: Slot, subscripts: Subscripts, value: Value) -> Fallible<()> {
+        self.check_nesting(value.depth())?;
+        let name = || self.listing.names.name(target).into();
+        let (i, j) = matrices::offsets(subscripts, self.settings.origin, &name)?;
+        self.prepare(target, subscripts, (i, j), value.count())?;
+        let cell = &mut self.cells[target];
+        cell.local = true;
+        if let (Some(Value::Array(array)), Value::Number(x)) = (&mut cell.value, &value) {
+            let array = Rc::make_mut(array);
+            if array.get(i, j).is_none() {
+                array.grow(i, j);
+            }
+            array.set(i, j, *x);
+        } else {
+            self.write_nested(target, i, j, value.clone());
+        }
+        if O::ACTIVE {
+            let subscripts = whole_subscripts(Some(subscripts));
+            self.observer.write(self.access(target, &subscripts, &value));
+        }
+        Ok(())
+    }
+
+    /// Writes to an entry that was prepared, of an array that is or becomes one of arrays.
+    fn write_nested(&mut self, slot: Slot, i: usize, j: usize, value: Value) {
+        let cell = &mut self.cells[slot].value;
+        if let Some(Value::Array(array)) = cell {
+            let grid = Grid::from_fn(array.rows(), array.cols(), |i, j| {
+                Value::Number(array.entries()[i * array.cols() + j])
+            });
+            *cell = Some(Value::Nested(Rc::new(Nested::new(grid))));
+        }
+        if let Some(Value::Nested(nested)) = cell {
+            let nested = Rc::make_mut(nested);
+            self.stored -= nested.count() + nested.grid().missing(i, j);
+            nested.write(i, j, value);
+            self.stored += nested.count();
+        }
+    }
+
+    /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes
+    /// an empty one.
+    fn prepare(
+        &mut self,
+        target: Slot,
+        subscripts: Subscripts,
+        (i, j): (usize, usize),
+        count: usize,
+    ) -> Fallible<()> {
+        let cell = &mut self.cells[target].value;
+        let value = cell.get_or_insert_with(|| Array::default().into());
+        if let Value::Number(_) | Value::Text(_) = value {
+            self.stored -= value.count();
+            *value = Array::default().into();
+        }
+        let (rows, cols) = value.size();
+        if subscripts.col.is_none() && cols > 1 {
+            let name = self.listing.names.name(target).into();
+            return Err(Cause::IndexOutside { name, subscripts, rows, cols }.into());
+        }
+        let (more, shared) = match value {
+            Value::Array(array) => (array.missing(i, j), Rc::strong_count(array) > 1),
+            Value::Nested(nested) => (nested.grid().missing(i, j), true),
+            _ => unreachable!("no array but these"),
+        };
+        let held = rows * cols;
+        let copied = if shared { held } else { 0 };
+        let moved = if more > 0 && j >= cols { held } else { 0 };
+        self.room(more.saturating_add(count - 1))?;
+        self.stored += more;
+        self.spend((copied + moved + more) as u64)
+    }
+
+    fn access<'a>(&self, slot: Slot, subscripts: &'a [i64], value: &'a Value) -> Access<'a>
+    where
+        'r: 'a,
+    {
+        let Listing { lines, names, .. } = self.listing;
+        Access { line: &lines[self.line], name: names.name(slot), subscripts, value }
+    }
+}
+
+fn whole_subscripts(subscripts: Option<Subscripts>) -> Vec<i64> {
+    let numbers = subscripts.into_iter().flat_map(|s| [Some(s.row), s.col]);
+    numbers.flatten().map(|x| x as i64).collect()
 }

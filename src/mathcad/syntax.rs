@@ -16,16 +16,16 @@ pub struct Statement {
     pub line: usize,
     /// What it does.
     pub step: Step,
+    /// The condition behind `if` on its own line; that of a loop stands for the whole loop.
+    pub guard: Option<Expr>,
 }
 
-/// The kinds of statements, and what each is made of. A `guard` is the condition behind `if` on the
-/// statement's own line.
+/// The kinds of statements, and what each is made of.
 #[derive(Clone, Debug)]
 #[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Step {
-    /// `for name ∈ range`; the guard stands for the whole loop, and the variable keeps its last
-    /// value.
-    For { name: Slot, range: Range, guard: Option<Expr>, body: Vec<Statement> },
+    /// `for name ∈ range`; the variable keeps its last value.
+    For { name: Slot, range: Range, body: Vec<Statement> },
     /// `while condition` and a block.
     While { condition: Expr, body: Vec<Statement> },
     /// `if condition` and a block.
@@ -35,17 +35,17 @@ pub enum Step {
     /// `try` and a block, then `on error` and a block, which runs if the first one fails.
     Try { body: Vec<Statement>, fallback: Vec<Statement> },
     /// `target ← value`.
-    Assign { target: Reference, value: Expr, guard: Option<Expr> },
+    Assign { target: Reference, value: Expr },
     /// `(a   b) ← value` or `A⟨j⟩ ← value`.
-    Spread { to: Spread, value: Expr, guard: Option<Expr> },
+    Spread { to: Spread, value: Expr },
     /// An expression alone.
-    Evaluate { value: Expr, guard: Option<Expr> },
+    Evaluate { value: Expr },
     /// `return value`, which ends the program.
-    Return { value: Expr, guard: Option<Expr> },
+    Return { value: Expr },
     /// `break`, which ends the loop.
-    Break { guard: Option<Expr> },
+    Break,
     /// `continue`, which ends the turn of the loop.
-    Continue { guard: Option<Expr> },
+    Continue,
 }
 
 /// What a loop runs over.
@@ -245,10 +245,35 @@ pub const OPERATORS: [Spelling; 13] = {
 };
 
 impl Statement {
+    /// Returns the expressions on the statement's own line, in the order of the text.
+    pub fn on_line(&self) -> Vec<&Expr> {
+        let own: Vec<&Expr> = match &self.step {
+            Step::For { range: Range::Span { from, second, to }, .. } => {
+                [from].into_iter().chain(second).chain([to]).collect()
+            }
+            Step::For { range: Range::Over(values), .. } => values.iter().collect(),
+            Step::While { condition, .. } | Step::If { condition, .. } => vec![condition],
+            Step::Assign { target, value } => target.subscripts().chain([value]).collect(),
+            Step::Spread { to: Spread::Column { column, .. }, value } => vec![column, value],
+            Step::Spread { to: Spread::Names { .. }, value } => vec![value],
+            Step::Evaluate { value } | Step::Return { value } => vec![value],
+            Step::Otherwise { .. } | Step::Try { .. } | Step::Break | Step::Continue => vec![],
+        };
+        own.into_iter().chain(&self.guard).collect()
+    }
+
     /// Returns the expressions of the statement, and of those below it.
     fn expressions(&self) -> Vec<&Expr> {
         let below = self.step.blocks().into_iter().flatten().flat_map(Statement::expressions);
-        self.step.expressions().into_iter().chain(below).collect()
+        self.on_line().into_iter().chain(below).collect()
+    }
+
+    /// Returns the condition that decides whether the statement is executed, if it has one.
+    pub fn condition(&self) -> Option<&Expr> {
+        match &self.step {
+            Step::If { condition, .. } => Some(condition),
+            _ => self.guard.as_ref(),
+        }
     }
 
     /// Returns how deep statements stand below it, itself included.
@@ -259,37 +284,6 @@ impl Statement {
 }
 
 impl Step {
-    /// Returns the expressions on the statement's own line, in the order of the text.
-    pub fn expressions(&self) -> Vec<&Expr> {
-        let own: Vec<&Expr> = match self {
-            Step::For { range: Range::Span { from, second, to }, .. } => {
-                [from].into_iter().chain(second).chain([to]).collect()
-            }
-            Step::For { range: Range::Over(values), .. } => values.iter().collect(),
-            Step::Assign { target, value, .. } => target.subscripts().chain([value]).collect(),
-            Step::Spread { to: Spread::Column { column, .. }, value, .. } => vec![column, value],
-            Step::Spread { to: Spread::Names { .. }, value, .. } => vec![value],
-            Step::Evaluate { value, .. } | Step::Return { value, .. } => vec![value],
-            _ => vec![],
-        };
-        own.into_iter().chain(self.condition()).collect()
-    }
-
-    /// Returns the condition of the statement, if it has one.
-    pub fn condition(&self) -> Option<&Expr> {
-        match self {
-            Step::If { condition, .. } | Step::While { condition, .. } => Some(condition),
-            Step::For { guard, .. }
-            | Step::Assign { guard, .. }
-            | Step::Spread { guard, .. }
-            | Step::Evaluate { guard, .. }
-            | Step::Return { guard, .. }
-            | Step::Break { guard }
-            | Step::Continue { guard } => guard.as_ref(),
-            Step::Otherwise { .. } | Step::Try { .. } => None,
-        }
-    }
-
     /// Returns the blocks below the statement.
     pub fn blocks(&self) -> Vec<&[Statement]> {
         match self {

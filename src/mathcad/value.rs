@@ -3,9 +3,8 @@
 use std::fmt;
 use std::rc::Rc;
 
-use thiserror::Error;
-
 use super::array::{Column, Table};
+use super::failure::Cause;
 use numbers::scalar::Scalar;
 
 /// A value of a listing. Copying one is cheap: arrays are shared until a copy is written to.
@@ -49,6 +48,11 @@ impl<T: Clone + Default> Grid<T> {
     /// Makes an array of `cols` columns, at least one, from its entries row by row.
     pub fn from_rows(cols: usize, entries: Vec<T>) -> Self {
         Grid { rows: entries.len() / cols, cols, entries }
+    }
+
+    /// Returns the numbers of rows and columns.
+    pub fn size(&self) -> (usize, usize) {
+        (self.rows, self.cols)
     }
 
     /// Returns the number of rows.
@@ -188,8 +192,8 @@ impl Value {
     /// Returns the numbers of rows and columns.
     pub fn size(&self) -> (usize, usize) {
         match self {
-            Value::Array(a) => (a.rows, a.cols),
-            Value::Nested(v) => (v.grid.rows, v.grid.cols),
+            Value::Array(a) => a.size(),
+            Value::Nested(v) => v.grid.size(),
             Value::Number(_) | Value::Text(_) => (1, 1),
         }
     }
@@ -298,40 +302,24 @@ impl FromIterator<Value> for Value {
     }
 }
 
-/// A value of another kind or size than a table needs.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("expected {expected}, found {found}")]
-pub struct ShapeError {
-    /// What was needed.
-    pub expected: &'static str,
-    /// What was found, in words.
-    pub found: String,
-}
-
-impl ShapeError {
-    fn new(expected: &'static str, found: &Value) -> Self {
-        ShapeError { expected, found: found.kind() }
-    }
-}
-
 impl<T: Scalar> TryFrom<&Value> for Table<T> {
-    type Error = ShapeError;
-    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+    type Error = Cause;
+    fn try_from(value: &Value) -> Result<Self, Cause> {
         let Value::Array(a) = value else {
-            return Err(ShapeError::new("an array", value));
+            return Err(Cause::Kind { expected: "an array", found: value.kind() });
         };
         Ok(Table::from_fn(a.rows, a.cols, |i, j| T::from_f64(a.entries[(i - 1) * a.cols + j - 1])))
     }
 }
 
 impl<T: Scalar> TryFrom<&Value> for Column<T> {
-    type Error = ShapeError;
-    fn try_from(value: &Value) -> Result<Self, ShapeError> {
+    type Error = Cause;
+    fn try_from(value: &Value) -> Result<Self, Cause> {
         match value {
             Value::Array(a) if a.cols == 1 => {
                 Ok(Column::from_vec(a.entries.iter().map(|&x| T::from_f64(x)).collect()))
             }
-            _ => Err(ShapeError::new("a column", value)),
+            _ => Err(Cause::Kind { expected: "a column", found: value.kind() }),
         }
     }
 }

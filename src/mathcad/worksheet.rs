@@ -9,7 +9,7 @@ use super::function::Function;
 use super::listing::Listing;
 use super::matrices;
 use super::settings::{Limits, Settings};
-use super::sheet::{Numbers, Sheet};
+use super::sheet::Sheet;
 use super::unsupported;
 use super::value::{Array, Value};
 use super::words;
@@ -89,14 +89,12 @@ pub fn execute_watched(
         inputs: BTreeMap::new(),
     };
     run.sheet.define(ORIGIN, f64::from(run.settings.origin));
-    let is_global = |region: &&Region| {
-        matches!(
-            region.content,
-            Content::Definition { global: true, .. } | Content::Names { global: true, .. }
-        )
-    };
-    for region in worksheet.regions.iter().filter(is_global) {
-        run.region(region);
+    for region in &worksheet.regions {
+        if let Content::Definition { global: true, .. } | Content::Names { global: true, .. } =
+            region.content
+        {
+            run.region(region);
+        }
     }
     let regions = worksheet.regions.iter();
     let regions: Vec<_> =
@@ -210,9 +208,10 @@ impl Execution<'_> {
             self.define_all(names, *cols, Outcome::Value(value.clone()), &inputs);
             return;
         }
-        let is_known = |name: &String| self.sheet.value(name).is_some();
         let name = match &region.content {
-            Content::Evaluation(name) if self.unsupported.contains_key(name) || is_known(name) => {
+            Content::Evaluation(name)
+                if self.unsupported.contains_key(name) || self.sheet.value(name).is_some() =>
+            {
                 name.clone()
             }
             Content::Definition { name, entry: None, .. } => name.clone(),
@@ -395,12 +394,12 @@ impl Execution<'_> {
         let names = listing.free_names();
         let ranges = names.iter().filter_map(|name| Some((name, self.sheet.range(name)?)));
         let spelled = |x: f64| super::xmcd::write::number(x).replace('-', "−");
-        let line = |(k, (name, (from, second, to))): (usize, (&&str, Numbers))| {
+        let loops = ranges.enumerate().map(|(k, (name, (from, second, to)))| {
             let second = second.map(|second| format!(", {}", spelled(second))).unwrap_or_default();
             let range = format!("{}{second} .. {}", spelled(from), spelled(to));
             format!("{:1$}for {name} ∈ {range}", "", 2 * (k + 1))
-        };
-        let loops: Vec<_> = ranges.enumerate().map(line).collect();
+        });
+        let loops: Vec<_> = loops.collect();
         let level = loops.len() + 1;
         (loops, level)
     }

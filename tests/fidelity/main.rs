@@ -11,7 +11,6 @@ mod common {
     pub mod outcome;
     pub mod program;
     pub mod random;
-    pub mod recorded;
     pub mod tolerances;
     pub mod tools;
 }

@@ -247,8 +247,10 @@ fn defined(
 /// What stands in quotation marks in the tests of Mathcad's semantics, as programs of x: each of its rules, and
 /// words that are no program.
 fn rules() -> Vec<String> {
-    let tests =
-        [include_str!("mathcad/semantics.rs"), include_str!("mathcad/notation.rs")].concat();
+    let tests = concat!(
+        include_str!("../../src/mathcad/tests/semantics.rs"),
+        include_str!("../../src/mathcad/tests/notation.rs")
+    );
     let quoted = tests.split('"').skip(1).step_by(2).map(|text| text.replace("\\n", "\n"));
     let own = "y ← 1 if x = 5\ny ← 2 if x = 4\ny ← 3 otherwise\ny";
     quoted

@@ -220,9 +220,8 @@ fn region(node: Node<'_, '_>) -> Region {
 
 /// Returns the definition that a region shows the result of, as `x := 3 =`; else the region.
 fn shown_definition<'a, 'i>(node: Math<'a, 'i>) -> Math<'a, 'i> {
-    let is_definition = |part: &Math<'_, '_>| matches!(part.tag(), "define" | "globalDefine");
     let first = node.part(0).ok().filter(|_| node.tag() == "eval");
-    first.filter(is_definition).unwrap_or(node)
+    first.filter(|part| matches!(part.tag(), "define" | "globalDefine")).unwrap_or(node)
 }
 
 fn unsupported(names: Vec<String>, construct: &str) -> Content {
@@ -359,8 +358,8 @@ fn saved_value(node: Math<'_, '_>) -> Result<Value, Unsupported> {
                 node.parts().map(saved_value).collect::<Result<Vec<Value>, Unsupported>>()?;
             match (size("rows"), size("cols")) {
                 (Some(rows), Some(cols)) if rows.checked_mul(cols) == Some(entries.len()) => {
-                    let entry = |i: usize, j: usize| -> Value { entries[j * rows + i].clone() };
-                    Ok(Value::grid(Grid::from_fn(rows, cols, entry)))
+                    let grid = Grid::from_fn(rows, cols, |i, j| entries[j * rows + i].clone());
+                    Ok(Value::grid(grid))
                 }
                 _ => Err(Unsupported("a matrix that is not full".into())),
             }

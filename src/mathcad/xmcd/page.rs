@@ -43,22 +43,20 @@ impl Page {
     }
 
     fn paragraphs(&mut self, style: &str, text: &str) -> &mut Self {
-        let rows = |line: &str| line.chars().count() / CHARACTERS + 1;
-        let height = LINE * text.lines().map(rows).sum::<usize>() as f64;
-        let paragraph = |line| Element::with_text("p", line).set("style", style);
+        let rows: usize = text.lines().map(|line| line.chars().count() / CHARACTERS + 1).sum();
+        let height = LINE * rows as f64;
         let words = Element::new("text")
             .set("use-page-width", "false")
             .set("lock-width", "true")
-            .with_all(text.lines().map(paragraph));
+            .with_all(text.lines().map(|line| Element::with_text("p", line).set("style", style)));
         self.region(words, height, height.min(LINE), "")
     }
 
     /// Adds the definition of a listing's function.
     pub fn program(&mut self, listing: &Listing) -> &mut Self {
         // A fraction takes two lines.
-        let rows = |line: &str| 1 + usize::from(line.contains('/'));
-        let lines: usize = listing.lines().iter().map(|line| rows(&line.text)).sum();
-        self.math(write::definition(listing), lines, "")
+        let fractions = listing.lines().iter().filter(|line| line.text.contains('/')).count();
+        self.math(write::definition(listing), listing.lines().len() + fractions, "")
     }
 
     /// Adds `name := value`, `rows` lines high.

@@ -285,8 +285,8 @@ fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
 
 /// Spells a number as the text does: Mathcad's own spelling where the text reads it.
 fn number(text: &str) -> Read<String> {
-    let not_finite = || Unsupported(format!("the number {text:?}"));
-    let x: f64 = text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(not_finite)?;
+    let x = text.parse().ok().filter(|x: &f64| x.is_finite());
+    let x = x.ok_or_else(|| Unsupported(format!("the number {text:?}")))?;
     let spelled = super::write::number(x.abs());
     Ok(if x.is_sign_negative() { format!("−{spelled}") } else { spelled })
 }

@@ -33,7 +33,7 @@ pub fn definition(listing: &Listing) -> Element {
 /// Panics if the listing is anything else.
 pub fn expression(listing: &Listing) -> Element {
     match listing.program.as_slice() {
-        [Statement { step: Step::Evaluate { value, guard: None }, .. }] => {
+        [Statement { step: Step::Evaluate { value }, guard: None, .. }] => {
             Writer { names: &listing.names }.expr(value)
         }
         _ => panic!("{} is no expression", listing.name()),
@@ -112,42 +112,42 @@ impl Writer<'_> {
     /// Writes the lines of a block: one stands bare, several are a program.
     fn block(&self, block: &[Statement]) -> Element {
         match block {
-            [one] => self.statement(&one.step),
+            [one] => self.statement(one),
             several => {
-                let lines = several.iter().map(|statement| self.statement(&statement.step));
+                let lines = several.iter().map(|statement| self.statement(statement));
                 Element::new("ml:program").with_all(lines)
             }
         }
     }
 
-    fn statement(&self, step: &Step) -> Element {
-        let line = match step {
+    fn statement(&self, statement: &Statement) -> Element {
+        let line = match &statement.step {
             Step::If { condition, body } => {
-                return Element::new("ml:ifThen").with(self.expr(condition)).with(self.block(body));
+                Element::new("ml:ifThen").with(self.expr(condition)).with(self.block(body))
             }
             Step::While { condition, body } => {
-                return Element::new("ml:while").with(self.expr(condition)).with(self.block(body));
+                Element::new("ml:while").with(self.expr(condition)).with(self.block(body))
             }
             Step::Otherwise { body } => Element::new("ml:otherwise").with(self.block(body)),
             Step::Try { body, fallback } => {
                 Element::new("ml:tryCatch").with(self.block(body)).with(self.block(fallback))
             }
-            Step::For { name, range, body, .. } => Element::new("ml:for")
+            Step::For { name, range, body } => Element::new("ml:for")
                 .with(id(self.names.name(*name)))
                 .with(self.range(range))
                 .with(self.block(body)),
-            Step::Assign { target, value, .. } => {
+            Step::Assign { target, value } => {
                 Element::new("ml:localDefine").with(self.reference(target)).with(self.expr(value))
             }
-            Step::Spread { to, value, .. } => {
+            Step::Spread { to, value } => {
                 Element::new("ml:localDefine").with(self.spread(to)).with(self.expr(value))
             }
-            Step::Evaluate { value, .. } => self.expr(value),
-            Step::Return { value, .. } => Element::new("ml:return").with(self.expr(value)),
-            Step::Break { .. } => Element::new("ml:break"),
-            Step::Continue { .. } => Element::new("ml:continue"),
+            Step::Evaluate { value } => self.expr(value),
+            Step::Return { value } => Element::new("ml:return").with(self.expr(value)),
+            Step::Break => Element::new("ml:break"),
+            Step::Continue => Element::new("ml:continue"),
         };
-        match step.condition() {
+        match &statement.guard {
             Some(guard) => Element::new("ml:ifThen").with(self.expr(guard)).with(line),
             None => line,
         }

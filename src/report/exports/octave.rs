@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::{CorrectedExport, Export};
 use ::mathcad::syntax::{
-    Comparison, Expr, Kind, Operation, Range, Reference, Slot, Statement, Step,
+    Comparison, Expr, Kind, Operation, Operator, Range, Reference, Slot, Statement, Step,
 };
 use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
@@ -298,18 +298,18 @@ impl Translator<'_> {
     }
 
     fn block(&self, block: &[Statement], level: usize, text: &mut String) {
-        for Statement { line, step } in block {
-            let line = &self.listing.lines()[*line];
+        for statement in block {
+            let line = &self.listing.lines()[statement.line];
             *text += &format!("{:1$}% {2}: {3}\n", "", 2 * level, line.printed, line.text);
-            self.statement(step, level, text);
+            self.statement(statement, level, text);
         }
     }
 
-    fn statement(&self, step: &Step, level: usize, text: &mut String) {
+    fn statement(&self, statement: &Statement, level: usize, text: &mut String) {
         let mut put = |level: usize, line: &str| {
             *text += &format!("{:1$}{line}\n", "", 2 * level);
         };
-        let guard = step.condition().filter(|_| !matches!(step, Step::If { .. }));
+        let Statement { step, guard, .. } = statement;
         if let Some(guard) = guard {
             put(level, &format!("if {}", self.expr(guard)));
         }
@@ -386,21 +386,17 @@ impl Translator<'_> {
                 format!("ordered({}, {})", self.expr(x), self.expr(y))
             }
             Kind::Arithmetic(operation, x, y) => {
-                let sign = match operation {
-                    Operation::Add => "+",
-                    Operation::Subtract => "-",
-                    _ => "*",
-                };
+                let sign = Operator::Calculate(*operation).spelling().typed;
                 format!("{} {sign} {}", self.expr(x), self.expr(y))
             }
             Kind::Compare(comparison, x, y) => {
                 let sign = match comparison {
                     Comparison::Equal => "==",
                     Comparison::Unequal => "~=",
-                    Comparison::Less => "<",
-                    Comparison::LessOrEqual => "<=",
-                    Comparison::Greater => ">",
-                    Comparison::GreaterOrEqual => ">=",
+                    Comparison::Less
+                    | Comparison::LessOrEqual
+                    | Comparison::Greater
+                    | Comparison::GreaterOrEqual => Operator::Compare(*comparison).spelling().typed,
                 };
                 format!("{} {sign} {}", self.expr(x), self.expr(y))
             }

@@ -1,21 +1,10 @@
-//! Tests of the interpreter, a file per subject.
+//! The paper's listings in the interpreter, and as worksheets. The tests of the interpreter itself stand in its
+//! package, `src/mathcad/tests`.
 
-pub mod evidence;
-mod limits;
-mod notation;
-mod observers;
-mod package;
 mod paper;
-mod recorded;
-mod regions;
-mod semantics;
+#[path = "../../../src/mathcad/tests/spelled.rs"]
 mod spelled;
-mod values;
-mod xmcd;
-
-use plane_contact::mathcad::failure::Fallible;
-use plane_contact::mathcad::xmcd::page::Page;
-use plane_contact::mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
+mod worksheets;
 
 /// An embedded scene as a worksheet, as `export --to mathcad` writes it.
 pub fn exported(scene: &str) -> String {
@@ -24,53 +13,4 @@ pub fn exported(scene: &str) -> String {
         &["mathcad", "export", scene, "--to", "mathcad"],
     );
     String::from_utf8(out.stdout).expect("UTF-8")
-}
-
-/// Writes listings as a worksheet.
-fn worksheet(listings: &[Listing]) -> String {
-    let mut page = Page::default();
-    for listing in listings {
-        page.program(listing);
-    }
-    page.finish("", &Settings::default())
-}
-
-/// Makes a listing `f(x)` of the given lines.
-fn program(lines: &str) -> Listing {
-    let body: String = lines.lines().map(|line| format!("  {line}\n")).collect();
-    Listing::parse("f", &format!("f(x) :=\n{body}")).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// Returns the program's outcome under `settings`, with x = 5, the worksheet's v = (1 2 3)ᵀ, and
-/// m = (1 2; 3 4).
-fn outcome(lines: &str, settings: &Settings) -> Fallible<Outcome> {
-    let listing = program(lines);
-    let mut worksheet = listing.runner(settings, &Limits::default());
-    worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
-    worksheet.define("m", Array::from_fn(2, 2, |i, j| (2 * i + j + 1) as f64));
-    worksheet.call(&[Value::Number(5.0)])
-}
-
-/// Returns the program's value as text, rows separated by `;`, under `settings`.
-fn value_under(settings: &Settings, lines: &str) -> String {
-    outcome(lines, settings).unwrap_or_else(|failure| panic!("{failure}")).value.to_string()
-}
-
-/// Returns the program's value as text in a default worksheet.
-fn value(lines: &str) -> String {
-    value_under(&Settings::default(), lines)
-}
-
-/// Returns why the program fails, and on which line of the listing (the first line of the program
-/// is line 2).
-fn failure_under(settings: &Settings, lines: &str) -> (usize, Cause) {
-    match outcome(lines, settings) {
-        Err(failure) => (failure.line, failure.cause),
-        Ok(outcome) => panic!("expected a failure, found {}", outcome.value),
-    }
-}
-
-/// Returns why the program fails in a default worksheet.
-fn failure(lines: &str) -> Cause {
-    failure_under(&Settings::default(), lines).1
 }

@@ -1,10 +1,71 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
+use super::spelled::spelled;
 use plane_contact::mathcad::array::{Column, Table};
 use plane_contact::mathcad::failure::Fallible;
 use plane_contact::mathcad::{
     Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
 };
+
+const LISTINGS: [(&str, &str); 2] = [
+    ("c_cnt", include_str!("../../../listings/c_cnt.txt")),
+    ("Km", include_str!("../../../listings/Km.txt")),
+];
+
+fn without_spaces(text: &str) -> String {
+    text.lines().map(|line| line.replace(' ', "") + "\n").collect()
+}
+
+#[test]
+fn the_paper_s_listings_read_and_print_back() {
+    for (name, text) in LISTINGS {
+        let listing = Listing::parse(name, text).unwrap_or_else(|error| panic!("{error}"));
+        let printed: String = text
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        assert_eq!(listing.to_string(), printed, "the lines, byte for byte");
+        assert_eq!(
+            without_spaces(&spelled(&listing)),
+            without_spaces(&printed),
+            "the tree, but for spaces"
+        );
+        let again =
+            Listing::parse(name, &spelled(&listing)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(spelled(&again), spelled(&listing), "what is spelled reads the same again");
+    }
+}
+
+/// The paper's listings in ASCII are the same trees.
+#[test]
+fn listings_may_be_typed_in_ascii() {
+    let signs = [
+        ("←", "<-"),
+        ("∈", "in"),
+        ("∧", "and"),
+        ("≤", "<="),
+        ("≥", ">="),
+        ("≠", "!="),
+        ("·", "*"),
+        ("−", "-"),
+        ("(0 0 0 0 0 0)ᵀ", "transpose(0 0 0 0 0 0)"),
+        ("B[n]ᵀ", "transpose(B[n])"),
+        (" + c_tll)ᵀ", " + c_tll)"),
+        ("ntx <- (", "ntx := transpose("),
+        ("nty <- (", "nty := transpose("),
+    ];
+    for (name, text) in LISTINGS {
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let text: String = lines.map(|line| format!("{line}\n")).collect();
+        let typed =
+            signs.iter().fold(text.clone(), |text, (sign, typed)| text.replace(sign, typed));
+        let typed = typed.replace('ν', "nu");
+        assert!(typed.is_ascii(), "{typed}");
+        let [printed, typed] = [text, typed].map(|text| Listing::parse(name, &text).unwrap());
+        assert_eq!(spelled(&typed).replace("nu", "ν"), spelled(&printed));
+    }
+}
 
 fn c_cnt() -> Listing {
     Listing::parse("c_cnt", include_str!("../../../listings/c_cnt.txt")).unwrap()

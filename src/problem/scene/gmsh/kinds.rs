@@ -1,6 +1,6 @@
 //! The names of Gmsh's elements.
 
-use super::error::{Fault, Result};
+use super::error::Result;
 use super::reader::Reader;
 use crate::scene::mesh::{ENTITIES, KINDS, Kind};
 
@@ -42,7 +42,12 @@ impl Reader<'_> {
             let names = physical.iter().filter_map(|tag| self.names.get(&(dim, *tag)));
             let names: String = names.map(|name| format!(", {name:?}")).collect();
             let entity = format!("{} {geometric}{names}", ENTITIES[dim]);
-            self.tokens.error(Fault::Kind { element, kind, entity })
+            self.tokens.refused(format!(
+                "element {element} is {kind} ({entity}); only points, two-node edges and three-node \
+                 triangles can be read: in Gmsh take out Recombine Surface, set Mesh.RecombineAll = 0, \
+                 Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh again in two \
+                 dimensions (-2)"
+            ))
         })
     }
 }

@@ -20,7 +20,6 @@ mod error;
 mod kinds;
 mod msh2;
 mod msh4;
-mod numbered;
 mod reader;
 mod tokens;
 mod write;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::error::{Fault, Result};
+use super::error::Result;
 use super::kinds::magnitude;
 use super::reader::Reader;
 use crate::scene::mesh::{ENTITIES, Element, NodeNumbers};
@@ -116,8 +116,10 @@ impl Reader<'_> {
             let number = self.tokens.size_from(1, "an element's number, 1 or more")?;
             let kind = self.kind(number, kind_number, (&physical, magnitude(tag)))?;
             if kind.dim != dim {
-                let fault = Fault::Dimension { element: number, found: kind.dim, expected: dim };
-                return Err(self.tokens.error(fault));
+                return Err(self.tokens.refused(format!(
+                    "element {number} has dimension {}, but it is listed in an entity of dimension {dim}",
+                    kind.dim
+                )));
             }
             let nodes: Result<NodeNumbers> = (0..kind.nodes)
                 .map(|_| self.tokens.size_from(1, "a node's number, 1 or more"))
@@ -143,7 +145,11 @@ impl Reader<'_> {
         match self.entities.get(&(dim, tag)) {
             Some(tags) => Ok(tags.clone()),
             None if !self.sections.contains("Entities") => Ok(Vec::new()),
-            None => Err(self.tokens.error(Fault::NoEntity { kind: ENTITIES[dim], tag })),
+            None => Err(self.tokens.refused(format!(
+                "the elements are part of the {} {tag}, which is not in $Entities; if the mesh is \
+                 partitioned, save it unpartitioned",
+                ENTITIES[dim]
+            ))),
         }
     }
 }

@@ -1,10 +1,9 @@
 //! The sections of a file, and the parts that all versions of the format share.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-use super::error::{Fault, GmshError, Result};
+use super::error::{GmshError, Result};
 use super::kinds::magnitude;
-use super::numbered::Numbered;
 use super::tokens::{Encoding, Tokens};
 use crate::scene::mesh::{ENTITIES, Element, Mesh, Node, PhysicalName};
 
@@ -25,8 +24,9 @@ pub fn read(file: &[u8]) -> Result<Mesh, GmshError> {
         sections: BTreeSet::new(),
         names: BTreeMap::new(),
         entities: BTreeMap::new(),
-        nodes: Numbered::default(),
-        elements: Numbered::default(),
+        nodes: Vec::new(),
+        elements: Vec::new(),
+        numbers: Default::default(),
     };
     while let Some(section) = reader.tokens.section("the beginning of a section, such as $Nodes")? {
         reader.section(&section)?;
@@ -44,7 +44,7 @@ fn version(tokens: &mut Tokens) -> Result<Version> {
                 tokens.keyword("$EndMeshFormat", "$EndMeshFormat")?;
                 return Ok(version);
             }
-            "NOD" => return Err(tokens.error(Fault::Version { found: "1".into() })),
+            "NOD" => return Err(other_version(tokens, "1")),
             "PhysicalNames" | "Entities" | "Nodes" | "Elements" => {
                 return Err(tokens.unexpected(format!("${section}"), expected));
             }
@@ -60,15 +60,18 @@ fn format(tokens: &mut Tokens) -> Result<Version> {
     let version = match found.as_str() {
         "2.2" => Version::V2,
         "4.1" => Version::V4,
-        _ => return Err(tokens.error(Fault::Version { found })),
+        other => return Err(other_version(tokens, other)),
     };
     let binary: i32 = tokens.parse("0 (text) or 1 (binary)")?;
     if !(0..=1).contains(&binary) {
         return Err(tokens.unexpected(binary, "0 (text) or 1 (binary)"));
     }
-    let found = tokens.parse("8, the bytes of a number")?;
-    if found != 8 {
-        return Err(tokens.error(Fault::DataSize { found }));
+    let bytes: i32 = tokens.parse("8, the bytes of a number")?;
+    if bytes != 8 {
+        let fix = "save the mesh with a 64-bit Gmsh";
+        return Err(
+            tokens.refused(format!("the file has numbers of {bytes} bytes, expected 8: {fix}"))
+        );
     }
     if binary == 1 {
         tokens.line_end()?;
@@ -76,6 +79,13 @@ fn format(tokens: &mut Tokens) -> Result<Version> {
         tokens.encoding = Encoding::Binary;
     }
     Ok(version)
+}
+
+fn other_version(tokens: &Tokens, found: &str) -> GmshError {
+    tokens.refused(format!(
+        "the file has MSH version {found}; versions 2.2 and 4.1 can be read: in Gmsh set \
+         Mesh.MshFileVersion = 4.1 and save the mesh again"
+    ))
 }
 
 #[derive(Clone, Copy)]
@@ -92,8 +102,10 @@ pub struct Reader<'a> {
     pub sections: BTreeSet<String>,
     pub names: BTreeMap<(usize, usize), String>,
     pub entities: BTreeMap<(usize, i32), Vec<usize>>,
-    pub nodes: Numbered<Node>,
-    pub elements: Numbered<Element>,
+    pub nodes: Vec<Node>,
+    pub elements: Vec<Element>,
+    /// The numbers of the nodes, and of the elements.
+    numbers: [HashSet<usize>; 2],
 }
 
 impl Reader<'_> {
@@ -120,23 +132,25 @@ impl Reader<'_> {
             return Err(self.tokens.unexpected("$Entities after $Elements", "$Entities first"));
         }
         if !self.sections.insert(name.to_owned()) {
-            return Err(self.tokens.error(Fault::RepeatedSection { section: name.to_owned() }));
+            return Err(self.tokens.refused(format!("a second section ${name}, expected one")));
         }
         body(self)?;
         let end = format!("$End{name}");
         self.tokens.keyword(&end, &end)
     }
 
-    fn finish(self) -> Result<Mesh> {
+    fn finish(mut self) -> Result<Mesh> {
         for section in ["Nodes", "Elements"] {
             if !self.sections.contains(section) {
-                return Err(self.tokens.error(Fault::MissingSection { section }));
+                return Err(self.tokens.refused(format!("the file has no section ${section}")));
             }
         }
+        self.nodes.sort_unstable_by_key(|node| node.number);
+        self.elements.sort_unstable_by_key(|element| element.number);
         let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
         let mut mesh = Mesh {
-            nodes: self.nodes.into_values(),
-            elements: self.elements.into_values(),
+            nodes: self.nodes,
+            elements: self.elements,
             names: self.names.into_iter().map(named).collect(),
             adapted: Vec::new(),
         };
@@ -163,42 +177,48 @@ impl Reader<'_> {
 
     /// Reads the coordinates of the node `number`, and keeps it.
     pub fn node(&mut self, number: usize) -> Result<()> {
-        if self.nodes.contains(number) {
+        if !self.numbers[0].insert(number) {
             return self.repeated(format!("node {number}"));
         }
         let mut xyz = [0.0; 3];
         for x in &mut xyz {
             *x = self.tokens.double("a node's coordinate")?;
             if !x.is_finite() {
-                return Err(self.tokens.error(Fault::Coordinate { node: number, value: *x }));
+                let what =
+                    format!("node {number} has the coordinate {x}, expected a finite number");
+                return Err(self.tokens.refused(what));
             }
         }
-        self.nodes.insert(Node { number, xyz });
+        self.nodes.push(Node { number, xyz });
         Ok(())
     }
 
     /// Keeps an element, unless it has a node that the file does not have, or its number is taken.
     pub fn keep(&mut self, element: Element) -> Result<()> {
         let number = element.number;
-        if let Some(&node) = element.nodes.iter().find(|&&node| !self.nodes.contains(node)) {
-            return Err(self.tokens.error(Fault::NoNode { element: number, node }));
+        let [nodes, elements] = &mut self.numbers;
+        if let Some(node) = element.nodes.iter().find(|node| !nodes.contains(*node)) {
+            let what = format!("element {number} has the node {node}, which is not in $Nodes");
+            return Err(self.tokens.refused(what));
         }
-        if !self.elements.insert(element) {
+        if !elements.insert(number) {
             return self.repeated(format!("element {number}"));
         }
+        self.elements.push(element);
         Ok(())
     }
 
     /// Compares a total that the file declares with what was read.
-    pub fn check_count(&self, what: &'static str, declared: usize, found: usize) -> Result<()> {
+    pub fn check_count(&self, what: &str, declared: usize, found: usize) -> Result<()> {
         if declared != found {
-            return Err(self.tokens.error(Fault::Count { what, declared, found }));
+            let what = format!("{declared} {what} are declared but {found} are given");
+            return Err(self.tokens.refused(what));
         }
         Ok(())
     }
 
     /// Refuses an item that occurs a second time.
     pub fn repeated(&self, what: String) -> Result<()> {
-        Err(self.tokens.error(Fault::Repeated { what }))
+        Err(self.tokens.refused(format!("{what} comes a second time")))
     }
 }

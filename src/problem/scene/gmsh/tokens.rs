@@ -204,7 +204,10 @@ impl<'a> Tokens<'a> {
         let expected = "the number 1 in four bytes, which tells their order";
         match self.raw(expected)? {
             [1, 0, 0, 0] => Ok(()),
-            [0, 0, 0, 1] => Err(self.error(Fault::BigEndian)),
+            [0, 0, 0, 1] => Err(self.refused(
+                "the numbers of this binary file have their most significant byte first: save the mesh \
+                 again on this machine, or as text (in Gmsh set Mesh.Binary = 0)",
+            )),
             found => Err(self.unexpected(format!("the bytes {found:?}"), expected)),
         }
     }
@@ -241,8 +244,12 @@ impl<'a> Tokens<'a> {
         self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
     }
 
-    /// Returns an error at the last token.
-    pub fn error(&self, fault: Fault) -> GmshError {
+    /// Returns an error at the last token: what is wrong there.
+    pub fn refused(&self, what: impl Into<String>) -> GmshError {
+        self.error(Fault::Other(what.into()))
+    }
+
+    fn error(&self, fault: Fault) -> GmshError {
         let read = &self.file[..self.last];
         let place = match self.encoding {
             Encoding::Text => Place::Line(1 + read.iter().filter(|byte| **byte == b'\n').count()),

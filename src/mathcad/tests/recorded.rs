@@ -3,14 +3,12 @@
 use std::fmt::Write;
 
 use fastrand::Rng;
-use plane_contact::mathcad::failure::Fallible;
-use plane_contact::mathcad::xmcd::document;
-use plane_contact::mathcad::xmcd::document::{Content, Region};
-use plane_contact::mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
+use mathcad::failure::Fallible;
+use mathcad::xmcd::document;
+use mathcad::xmcd::document::{Content, Region};
+use mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
 
-use super::worksheet;
-use crate::common::draws::one_of;
-use crate::common::recorded::assert_recorded_exactly;
+use super::{one_of, worksheet};
 
 /// The number of programs that are recorded.
 const PROGRAMS: u64 = 50;
@@ -289,5 +287,9 @@ fn math(worksheet: &str) -> String {
 #[test]
 fn programs_come_to_what_is_recorded() {
     let programs: String = (0..PROGRAMS).map(|k| program(&mut Rng::with_seed(k))).collect();
-    assert_recorded_exactly("programs", &programs);
+    let mut settings = insta::Settings::new();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/tests"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!("programs", programs));
 }

@@ -2,10 +2,10 @@
 //! that change what they stand for, operators within operators.
 
 use fastrand::Rng;
-use plane_contact::mathcad::worksheet::{ExecutedRegion, Verdict, execute};
-use plane_contact::mathcad::xmcd::document::{self, Content};
-use plane_contact::mathcad::xmcd::write;
-use plane_contact::mathcad::{Limits, Listing, Value};
+use mathcad::worksheet::{ExecutedRegion, Verdict, execute};
+use mathcad::xmcd::document::{self, Content};
+use mathcad::xmcd::write;
+use mathcad::{Limits, Listing, Value};
 
 fn worksheet(regions: &str) -> document::Worksheet {
     let text = format!("<worksheet><regions>{regions}</regions></worksheet>");
@@ -166,6 +166,9 @@ fn range_variables_stand_in_sums_and_tables() {
             (table("j", "i"), "49; 48; 47; 59; 58; 57"),
         ],
     );
+    // What Mathcad makes of a name that is defined over one is unknown.
+    let checked = executed(&[defined[0].clone(), define(&id("y"), &table("i", "i"))]);
+    assert_eq!(checked[1].verdict, unsupported("a range variable in an expression (i)"));
 }
 
 /// A loop, a choice and an error, each within a product.
@@ -220,11 +223,10 @@ fn eigenvalues_agree_in_any_order() {
     let checked = executed(&[eval(&call("eigenvecs", &double), None)]);
     assert_eq!(checked[0].verdict, unsupported("eigenvectors of an eigenvalue that occurs twice"));
     let symmetric = numbers(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0]);
-    let checked = executed(&[eval(&call("eigenvals", &symmetric), None)]);
-    let Some(Value::Array(found)) = &checked[0].value else { panic!("{:?}", checked[0].verdict) };
-    for (x, root) in found.entries().iter().zip([-1.0, 0.0, 1.0]) {
-        approx::assert_relative_eq!(*x, 2.0 + root * 2.0_f64.sqrt(), max_relative = 1e-14);
-    }
+    let values = numbers(3, 1, &[-1.0, 0.0, 1.0].map(|root: f64| 2.0 + root * 2.0_f64.sqrt()));
+    let text = format!("<eval>{}<result>{values}</result></eval>", call("eigenvals", &symmetric));
+    let verdict = &executed(&[text])[0].verdict;
+    assert!(matches!(verdict, Verdict::Same | Verdict::Digits(14..)), "{verdict:?}");
 }
 
 /// What a name stood for is gone: a range, a function, a construct that is unsupported.

@@ -1,8 +1,8 @@
 //! Each rule of `src/mathcad/README.md`, on the smallest listing that shows it.
 
 use super::{failure, failure_under, outcome, program, value, value_under};
-use plane_contact::mathcad::failure::Subscripts;
-use plane_contact::mathcad::{Array, Cause, Conjunction, Limits, Settings, Value};
+use mathcad::failure::Subscripts;
+use mathcad::{Array, Cause, Conjunction, Limits, Settings, Value};
 
 fn with(change: impl FnOnce(&mut Settings)) -> Settings {
     let mut settings = Settings::default();

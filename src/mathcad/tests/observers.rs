@@ -1,8 +1,8 @@
 //! Observers that watch a run.
 
 use super::program;
-use plane_contact::mathcad::observe::Executed;
-use plane_contact::mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
+use mathcad::observe::Executed;
+use mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
 
 /// Runs the program with v = (1 2 3)ᵀ and x = 5.
 fn observe(lines: &str, observer: &mut impl Observer) {

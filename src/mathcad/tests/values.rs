@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use plane_contact::mathcad::value::{Grid, Nested};
-use plane_contact::mathcad::{Array, Listing, Sheet, Value, json};
+use mathcad::value::{Grid, Nested};
+use mathcad::{Array, Listing, Sheet, Value, json};
 use serde_json::json;
 
 /// For places within the array, beyond its rows, beyond its columns, and beyond both.

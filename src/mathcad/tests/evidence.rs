@@ -1,7 +1,7 @@
 //! What Mathcad itself saved: expressions of public worksheets with their results (`evidence.json`,
 //! each with its source), evaluated here, bit for bit.
 
-use plane_contact::mathcad::{Limits, Listing, Sheet, Value, json};
+use mathcad::{Limits, Listing, Sheet, Value, json};
 use serde_json::Value as Json;
 
 /// The numbers of a saved result, in order; Mathcad spells them with 15 digits or 17.

@@ -2,8 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use plane_contact::mathcad::Listing;
-use plane_contact::mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Spread, Statement, Step};
+use mathcad::Listing;
+use mathcad::syntax::{Expr, Kind, Range, Reference, Slot, Spread, Statement, Step};
 
 /// Returns the listing as its syntax tree spells it: what was understood, for comparison with what
 /// was printed.
@@ -17,9 +17,9 @@ pub fn spelled(listing: &Listing) -> String {
 }
 
 fn block(listing: &Listing, statements: &[Statement], level: usize, text: &mut String) {
-    for Statement { step, .. } in statements {
-        text.push_str(&format!("{:1$}{2}\n", "", 2 * level, spell(listing, step)));
-        for (k, below) in step.blocks().into_iter().enumerate() {
+    for statement in statements {
+        text.push_str(&format!("{:1$}{2}\n", "", 2 * level, spell(listing, statement)));
+        for (k, below) in statement.step.blocks().into_iter().enumerate() {
             if k > 0 {
                 text.push_str(&format!("{:1$}on error\n", "", 2 * level));
             }
@@ -30,9 +30,9 @@ fn block(listing: &Listing, statements: &[Statement], level: usize, text: &mut S
 
 /// Spells a program within an expression behind its bracket, up to the bracket that closes it.
 fn inline(listing: &Listing, statements: &[Statement], f: &mut Formatter<'_>) -> fmt::Result {
-    for (k, Statement { step, .. }) in statements.iter().enumerate() {
-        write!(f, "{}{}", if k > 0 { "; " } else { "" }, spell(listing, step))?;
-        for below in step.blocks() {
+    for (k, statement) in statements.iter().enumerate() {
+        write!(f, "{}{}", if k > 0 { "; " } else { "" }, spell(listing, statement))?;
+        for below in statement.step.blocks() {
             f.write_str(" {")?;
             inline(listing, below, f)?;
         }
@@ -53,10 +53,10 @@ struct Spelled<'a, T> {
     item: &'a T,
 }
 
-impl Display for Spelled<'_, Step> {
+impl Display for Spelled<'_, Statement> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let show = |expr| spell(self.listing, expr);
-        match self.item {
+        match &self.item.step {
             Step::For { name, range, .. } => {
                 write!(f, "for {} ∈ ", spell(self.listing, name))?;
                 match range {
@@ -68,8 +68,8 @@ impl Display for Spelled<'_, Step> {
                     Range::Over(values) => f.write_str(&join(self.listing, values, ", "))?,
                 }
             }
-            Step::If { condition, .. } => return write!(f, "if {}", show(condition)),
-            Step::While { condition, .. } => return write!(f, "while {}", show(condition)),
+            Step::If { condition, .. } => write!(f, "if {}", show(condition))?,
+            Step::While { condition, .. } => write!(f, "while {}", show(condition))?,
             Step::Otherwise { .. } => f.write_str("otherwise")?,
             Step::Try { .. } => f.write_str("try")?,
             Step::Assign { target, value, .. } => {
@@ -85,13 +85,12 @@ impl Display for Spelled<'_, Step> {
                 let name = spell(self.listing, name);
                 write!(f, "{name}⟨{}⟩ ← {}", show(column), show(value))?
             }
-            Step::Evaluate { value, .. } => write!(f, "{}", show(value))?,
-            Step::Return { value, .. } => write!(f, "return {}", show(value))?,
-            Step::Break { .. } => f.write_str("break")?,
-            Step::Continue { .. } => f.write_str("continue")?,
+            Step::Evaluate { value } => write!(f, "{}", show(value))?,
+            Step::Return { value } => write!(f, "return {}", show(value))?,
+            Step::Break => f.write_str("break")?,
+            Step::Continue => f.write_str("continue")?,
         }
-        let guard = self.item.condition();
-        guard.iter().try_for_each(|guard| write!(f, " if {}", show(guard)))
+        self.item.guard.iter().try_for_each(|guard| write!(f, " if {}", show(guard)))
     }
 }
 
