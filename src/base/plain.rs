@@ -20,6 +20,7 @@ const KINDS: &[(&str, &str)] = &[
     ("u32", "a whole number"),
     ("integer", "the number"),
     ("floating point", "the number"),
+    ("a string", "text"),
     ("string", "the text"),
     ("boolean", "the value"),
     ("length", "a list of"),
@@ -56,6 +57,9 @@ pub fn plain(error: &impl Display) -> String {
 fn of_json(words: &str) -> String {
     if words.starts_with("struct ") {
         return "an object".into();
+    }
+    if let Some(length) = words.strip_prefix("a tuple of size ") {
+        return format!("a list of {length}");
     }
     let known = |(rust, plain): &(&str, &str)| {
         let value = words.strip_prefix(rust)?;

@@ -27,8 +27,8 @@ use super::{
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = format!("\
-Prints iterations, bodies, contact nodes, error estimates, and the distance from the reference
-solution. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
+Prints what is in contact, bodies, contact nodes, error estimates, the distance from the reference
+solution, and the iterations. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
 {}.
 
 Examples:
@@ -120,6 +120,7 @@ pub fn run(args: &Args) -> Result<u8> {
         .then(tables::distance(&solution, &assessment))
         .then(accuracy)
         .then(beside_the_print(&solution))
+        .then(tables::steps(&solution, &assessment))
         .line(report::plan::line(&plan))
         .line(format!("Written to {}", shown(&out)));
     args.tables.print(report)?;

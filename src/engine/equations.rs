@@ -212,7 +212,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 
     /// Returns why the first contact has no node, in words: the direction of the target's edges, or the
-    /// smallest gap of the initial shape. None where no contact node faces the target.
+    /// gap of the initial shape that is nearest to 0. None where no contact node faces the target.
     fn no_contact(&self) -> Option<String> {
         let (model, reading) = (self.model, &self.request.reading);
         if self.request.is_as_printed()
@@ -225,7 +225,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         let c_tll = model.contact.tolerance;
         Some(format!(
-            "the smallest gap is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
+            "the gap nearest to 0 is {gap:e}, and c_tll is {c_tll:e}; move the bodies together, or give a \
              larger c_tll"
         ))
     }

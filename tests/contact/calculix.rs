@@ -189,7 +189,8 @@ fn blocks_that_do_not_match() -> Value {
             { "node": above.node(3, 0), "force": [0.2, -0.9] }
         ],
         "contact": { "cnt": 20, "trg": 11, "c_tll": 0.001 },
-        "iterations": 5
+        "iterations": 5,
+        "variant": "stepped"
     })
 }
 

@@ -90,7 +90,7 @@ fn a_first_contact_that_fails_names_gap_tolerance_and_a_way_out() {
     let (status, text) =
         output(folder.path(), &free, &["solve", "scene.json", "--variant", "tied"]);
     assert_eq!(status, Some(3), "{text}");
-    let words = "the smallest gap is 2.5e-1, and c_tll is 1e-1; move the bodies together, or give a \
+    let words = "the gap nearest to 0 is 2.5e-1, and c_tll is 1e-1; move the bodies together, or give a \
                  larger c_tll";
     assert!(text.contains(words), "{text}");
 }

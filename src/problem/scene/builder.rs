@@ -142,9 +142,10 @@ impl SceneBuilder {
         self
     }
 
-    /// Sets the variant that is run unless the command line names another.
+    /// Sets the variant that is run unless the command line names another; it is the paper's `stepped`
+    /// where it is not set.
     pub fn variant(mut self, variant: Variant) -> Self {
-        self.description.variant = variant;
+        self.description.variant = Some(variant);
         self
     }
 

@@ -56,9 +56,10 @@ pub struct Description {
     /// The number of iterations of the variants that the paper describes.
     #[serde(default = "default_iterations", skip_serializing_if = "is_default_iterations")]
     pub iterations: usize,
-    /// The variant that is run unless the command line names another.
-    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
-    pub variant: Variant,
+    /// The variant that is run unless the command line names another; `unilateral` where none is given.
+    #[serde(default, deserialize_with = "some_by_name", skip_serializing_if = "is_default")]
+    #[schemars(with = "Variant")]
+    pub variant: Option<Variant>,
     /// Whether nodes that belong to no triangle are dropped; otherwise they are refused.
     #[serde(default, skip_serializing_if = "is_default")]
     pub drop_orphans: bool,
@@ -80,7 +81,7 @@ impl Description {
         restraints.chain(loads).chain(contact).collect()
     }
 
-    /// Describes a plane problem with no material, thickness 1 and no load.
+    /// Describes a plane problem with no material, thickness 1 and no load, for the paper's `stepped`.
     pub fn new(plane: Plane) -> Self {
         Description {
             title: String::new(),
@@ -95,7 +96,7 @@ impl Description {
             loads: Vec::new(),
             contact: None,
             iterations: default_iterations(),
-            variant: Variant::default(),
+            variant: Some(Variant::default()),
             drop_orphans: false,
         }
     }
@@ -317,6 +318,12 @@ impl Contact {
             status: self.status,
         }
     }
+}
+
+fn some_by_name<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(
+    d: D,
+) -> Result<Option<T>, D::Error> {
+    by_name(d).map(Some)
 }
 
 /// Reads a choice of a closed set by its name on the command line.

@@ -48,6 +48,7 @@ pub use surface::Surface;
 use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
 use base::error::Result;
+use base::limits::check_steps;
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -136,6 +137,7 @@ impl Scene {
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
+        check_steps(description.iterations, mesh.nodes.len(), "iterations")?;
         let physical = Groups::new(&mesh);
         let materials = check::materials(&mesh, &physical, &description)?;
         let kinds = &description.materials.0;
@@ -177,7 +179,8 @@ impl Scene {
             units: description.units.clone(),
             model: Arc::new(model),
             iterations: description.iterations,
-            variant: description.variant,
+            // A scene of one's own asks for contact as it is, not for the paper's algorithm.
+            variant: description.variant.unwrap_or(Variant::Unilateral),
             contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),

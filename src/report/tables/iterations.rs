@@ -13,7 +13,11 @@ use engine::{
 /// the same: where nodes change their status within steps, both may miss when.
 const UNCHANGED: f64 = 1e-6;
 
-/// Lists the iterations; of those of a shape that was reached on springs, the last.
+/// The most iterations that are listed; of more, as many at the start and at the end.
+const LISTED: usize = 24;
+
+/// Lists the iterations, where they are many the first and the last; of those of a shape that was reached on
+/// springs, the last.
 pub fn iterations(solution: &Solution) -> Report {
     let springs = |step: &Step| step.unilateral().map_or(0.0, |own| own.springs);
     let is_shown = |k: usize| {
@@ -21,10 +25,20 @@ pub fn iterations(solution: &Solution) -> Report {
         own == 0.0 || solution.steps.get(k + 1).is_none_or(|next| springs(next) != own)
     };
     let rows = IterationRow::all(solution).into_iter().enumerate();
-    let rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
+    let mut rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
+    let found = rows.len();
+    if found > LISTED {
+        rows.drain(LISTED / 2..found - LISTED / 2);
+    }
     let units = &solution.request.scene.units;
     let table = quantities::table(&rows, IterationRow::QUANTITIES, units);
-    let report = Report::default().table("Iterations", table);
+    let left_out = (found > LISTED).then(|| {
+        format!(
+            "{found} iterations, of which the first and the last {} are listed; result.json has all",
+            LISTED / 2
+        )
+    });
+    let report = Report::default().table("Iterations", table).notes(left_out);
     let [fx, fy] = solution.model.total_load();
     match fx.hypot(fy) {
         0.0 => report,

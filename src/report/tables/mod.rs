@@ -13,31 +13,36 @@ pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
+use crate::numbers::{short, with_unit};
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
 use engine::{Assessment, BodySummary, Solution, beyond_range};
 use paper::mirror::Reading;
 use problem::model::Model;
-use problem::modelling::Variant;
+use problem::modelling::{ContactModel, Variant};
 
 /// What is said of a run in which contact passes no load on.
 const NOTHING_TRANSMITTED: &str =
     "Nothing transmitted: no load reaches the target, an audit result";
 
-/// Reports a run: its iterations, its bodies and its contact surface.
+/// Reports the end of a run: what is in contact, whether that is the only equilibrium, its bodies and its
+/// contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
-    let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
-    let steps = match path {
-        Some(path) => iterations::load_steps(solution, path, assessment),
-        None => iterations::iterations(solution),
-    };
     let equilibrium = solution.equilibrium.as_ref();
     heading(solution)
-        .then(steps)
-        .then(equilibrium.map_or(Report::default(), |found| equilibrium::lines(solution, found)))
         .then(contact_set(solution))
+        .then(equilibrium.map_or(Report::default(), |found| equilibrium::lines(solution, found)))
         .then(bodies(solution, &assessment.bodies))
         .then(contact_surface(solution))
+}
+
+/// Reports how a run came to its end: its iterations, or the steps of its load.
+pub fn steps(solution: &Solution, assessment: &Assessment) -> Report {
+    let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
+    match path {
+        Some(path) => iterations::load_steps(solution, path, assessment),
+        None => iterations::iterations(solution),
+    }
 }
 
 /// Names the scene, the variant and the sizes, and what differs from an ordinary run.
@@ -55,10 +60,18 @@ fn heading(solution: &Solution) -> Report {
             counted(model.triangles.len(), "triangle", "triangles"),
             counted(solution.factored, "matrix", "matrices")
         ))
+        .notes(contact(solution))
         .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
         .notes(arithmetic(solution))
         .notes(request.scene.adapted().to_vec())
         .notes(dropped(model))
+}
+
+/// Names how contact is modelled under `unilateral`.
+fn contact(solution: &Solution) -> Option<String> {
+    let ContactModel { coupling, friction, geometry, .. } = solution.request.contact;
+    let is_used = solution.request.variant == Variant::Unilateral && solution.model.has_contact();
+    is_used.then(|| format!("contact: {coupling}, friction {friction}, {geometry} geometry"))
 }
 
 /// Names the arithmetic, unless it is the default, and its bound on rounding errors.
@@ -100,9 +113,22 @@ fn contact_set(solution: &Solution) -> Report {
     let hidden = is_printed.then(|| direction(&solution.model, reading, shape)).flatten();
     let transmitted = solution.transmits_nothing().then_some(NOTHING_TRANSMITTED);
     Report::default()
-        .line(format!("In contact at the end: {nodes}"))
         .notes(transmitted)
         .notes(hidden)
+        .line(format!("In contact at the end: {nodes}"))
+        .notes(peak(solution))
+}
+
+/// Names the contact node under the largest pressure. The pressures of `printed` stay in the contact body.
+fn peak(solution: &Solution) -> Option<String> {
+    let pressed = solution.in_contact().filter_map(|node| Some((node.pressure?, node)));
+    let (pressure, at) = pressed.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let units = &solution.request.scene.units;
+    let [x, y] = solution.model.nodes[at.node.index()].map(short);
+    let place = with_unit(&format!("{x}, {y}"), &units.length);
+    let pressure = with_unit(&short(pressure), &units.stress);
+    (solution.request.variant != Variant::Printed)
+        .then(|| format!("Peak contact pressure {pressure} at node {}: {place}", at.node))
 }
 
 /// Says that no node is in contact because of the direction of the target's edges.

@@ -112,7 +112,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i -E 's/\\[(1[0-8]), (.\\..), (.)\\.0/[\\1, \\2, \
                   \\3.5/' d/scene.json && plane-contact solve d/scene.json",
         status: 3,
-        contains: &["the smallest gap is 5e-1", "give a larger c_tll"],
+        contains: &["the gap nearest to 0 is 5e-1", "give a larger c_tll"],
         lacks: &["finding C1"],
     },
     // A rule other than the listing's has no box.

@@ -52,7 +52,7 @@ pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
     let place = |path: &str| if path.is_empty() { whole.clone() } else { format!("field {path}") };
     let document = deserialize(&mut source, kind, place, |error| words(error, text))?;
     source.end().map_err(|error| {
-        let what = format!("more follows, from line {} column {}", error.line(), error.column());
+        let what = format!("more follows, from line {}, column {}", error.line(), error.column());
         InputError::new(format!("the end of {whole}"), what, kind.fix)
     })?;
     Ok(document)
