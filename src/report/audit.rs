@@ -52,10 +52,7 @@ pub fn evidence(audit: &Audit) -> Report {
         .heading("Readings, findings and variants")
         .then(readings(&audit.readings))
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
-        .note(
-            "Present, or not triggered: on the shapes that the print itself comes to. Its price is that of the \
-             fault in the corrected algorithm, which comes to others; so the two may differ.",
-        )
+        .note(prices::AND_FINDINGS)
         .then(variants(audit))
         .then(friction(&audit.friction))
 }
@@ -92,6 +89,7 @@ fn readings(effects: &[Effect]) -> Report {
             "1. Readings: what the other reading changes, at the initial shape and at the end",
             table,
         )
+        .note("error in energy norm: from the equilibrium; under R6 from that of its own plane problem")
         .notes(failures.iter().zip(1..).map(|(why, k)| format!("({k}) {why}")))
 }
 

@@ -40,7 +40,11 @@ pub fn report(
         .note(
             "The paper's words are translated. What is judged is this audit's wording, and so are the \
              thresholds.",
-        );
+        )
+        .note(format!(
+            "An error of the mesh is {UNDERESTIMATE}. On 55 scenes beside a mesh 64 times finer it was below the \
+             true error in 110 of 110 runs, at the median 0.8 of it."
+        ));
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
         report.note(
             "Measured on runs: of this scene only; audit --range tries other radii, meshes, shapes of \
@@ -155,7 +159,7 @@ fn error_of_the_mesh(errors: &[MeshError]) -> Option<String> {
     (!errors.is_empty()).then(|| {
         format!(
             "error of the mesh in the energy norm, {UNDERESTIMATE}: {}. The verdict is on this mesh: it does not say \
-             how far the runs are from the plane itself",
+             how far the runs are from the exact solution",
             listed(each)
         )
     })
@@ -174,7 +178,8 @@ fn printed_by(judged: &JudgedClaim) -> Option<String> {
         Basis::Random => Some("measured by a test: golden/tables/statuses.md".into()),
         Basis::Nothing => None,
         Basis::Listing | Basis::Runs => {
-            Some(format!("printed by: plane-contact {command}, at {at}"))
+            let at = if at.is_empty() { at } else { format!(", at {at}") };
+            Some(format!("printed by: plane-contact {command}{at}"))
         }
     }
 }

@@ -12,6 +12,7 @@ use super::prices;
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
 use paper::mirror::Reading;
+use problem::modelling::Variant;
 use problem::scene::Scene;
 use studies::audit::Audit;
 use studies::audit::conclusion::{Conclusion, Coupled, Fields, NearRun, Nearest, Spread};
@@ -22,8 +23,8 @@ use studies::audit::range::is_example;
 const NOTICEABLE: f64 = 0.01;
 
 /// Where the clearance comes from.
-const CLEARANCE: &str = " The clearance of 0.1 mm is ours: with it contact spans several nodes, as in figure 1. \
-    Real ducts are wider.";
+pub const CLEARANCE: &str = " The clearance of 0.1 mm is ours: with it contact spans several nodes, as in figure 1. \
+    Real ducts are wider: P10 and P11 are true from 0.9 mm on (golden/tables/range.md).";
 
 /// An answer of the conclusion.
 #[derive(Clone, Debug, Serialize)]
@@ -122,13 +123,14 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
                 n => format!("; {n} are decided by rounding"),
             };
             let tie = if runs.len() == 1 { "" } else { ", all equally near" };
+            let others = if *by_rounding == 0 { "" } else { " of the others" };
             let apart = apart.iter().map(|run| {
                 let far = percent(run.energy, 1);
                 format!(" Apart: {}, {far} from the equilibrium of that plane problem.", named(run))
             });
             format!(
                 "{word}. There are {} (variants, and readings that have a run; equal ones count once){stop}{decided}. \
-                 The nearest is {}{tie}: {} from the equilibrium under the scene's own friction, in the energy \
+                 The nearest{others} is {}{tie}: {} from the equilibrium under the scene's own friction, in the energy \
                  norm, on the same mesh.{}",
                 counted(*tried, "run", "runs"),
                 listed(runs.iter().map(named)),
@@ -165,9 +167,9 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
                 Some(difference) => {
                     let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
                     format!(
-                        "{word}. Under {}, the nearest variant, the largest von Mises stress is {}. The largest \
-                         von Mises strain is {}. They are up to {} from the equilibrium on the same mesh. {own}",
-                        listed(&fields.variants),
+                        "{word}. Under {} the largest von Mises stress is {}. The largest von Mises strain is {}. \
+                         One of these values differs by {} from that of the equilibrium on the same mesh. {own}",
+                        nearest_variants(&fields.variants),
                         largest_stress(&fields.theirs, scene),
                         listed(fields.theirs.iter().map(strain)),
                         percent(difference, 1)
@@ -186,6 +188,15 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
              nearest variant and the equilibrium",
         command: format!("audit {} --json", scene.name),
         at: difference.map(|_| "/conclusion/fields/difference".into()),
+    }
+}
+
+/// Names the variants that are nearest.
+fn nearest_variants(variants: &[Variant]) -> String {
+    match variants {
+        [variant] => format!("{variant}, the nearest variant,"),
+        [first, ..] => format!("{first} ({} are equally near)", listed(variants)),
+        [] => unreachable!("a variant ran"),
     }
 }
 

@@ -19,6 +19,14 @@ pub const ORDER: &str = "The order is found from the end: \
     into the corrected algorithm the faults are put back one at a time, each time the one that \
     leaves the least error. The last to be put back is the first to be repaired.";
 
+/// Why a finding and its price may differ.
+pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the shapes that the print itself comes \
+    to. Its price is that of the fault in the corrected algorithm, which comes to other shapes: so a finding \
+    that is not triggered may cost something, and one that is present nothing.";
+
+/// What is said in place of a price of what is none.
+const NO_FAULT: &str = "no fault here";
+
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize)]
 pub struct Document<'a> {
@@ -75,7 +83,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         Outcome::Failure { failure } => {
             Some(format!("{}: {failure}", price.name.as_deref().unwrap_or("corrected")))
         }
-        Outcome::Result { .. } | Outcome::Rounding {} => None,
+        Outcome::Result { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
     });
     let report = Report::titled(format!(
         "What the printed faults cost on {}{}",
@@ -93,6 +101,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         "C1 and C2 bring the box of C9 with them. C4 and C5 are lines 17 and 18 of c_cnt without line 16, which is \
          K9 (release).",
     )
+    .note(AND_FINDINGS)
     .notes(no_fault(prices))
     .notes(failures)
     .line(summary(prices));
@@ -161,6 +170,7 @@ fn error((_, prices): &Place, k: usize) -> Cell {
     match &prices[k].outcome {
         Outcome::Failure { .. } => Cell::from("stops"),
         Outcome::Rounding {} => Cell::from(BY_ROUNDING),
+        Outcome::NoFault {} => Cell::from(NO_FAULT),
         outcome @ Outcome::Result { .. } => Cell::decimals(100.0 * outcome.error(), 2),
     }
 }
@@ -182,7 +192,7 @@ fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) ->
         .column("ends", move |row| ends(outcome(row)))
         .column("in contact", move |row| match outcome(row) {
             Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
-            Outcome::Failure { .. } | Outcome::Rounding {} => Cell::from("-"),
+            Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => Cell::from("-"),
         })
         .column("transmitted load, %", move |row| share(row, 0))
         .column("error in energy, %", move |row| share(row, 1))
@@ -195,8 +205,7 @@ fn no_fault(prices: &[Price]) -> Option<String> {
     let named = of_weight(prices, Weight::NoFault);
     (!named.is_empty()).then(|| {
         format!(
-            "{} is no fault here: under the scene's own friction no node slides. Its row shows the distance \
-             of sticking from sliding.",
+            "{} is no fault here: under the scene's own friction no node slides.",
             listed(named)
         )
     })
@@ -256,6 +265,7 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
     let why = match corrected {
         Outcome::Failure { .. } => "stops on this scene".into(),
         Outcome::Rounding {} => "is decided by rounding on this scene".into(),
+        Outcome::NoFault {} => return None,
         Outcome::Result { passes_nothing: true, .. } => {
             return Some(
                 "Under the corrected algorithm too no load passes between the bodies".into(),
@@ -289,6 +299,7 @@ fn ends(outcome: &Outcome) -> String {
         }
         Outcome::Failure { .. } => "stops".into(),
         Outcome::Rounding {} => BY_ROUNDING.into(),
+        Outcome::NoFault {} => NO_FAULT.into(),
     }
 }
 
@@ -300,7 +311,7 @@ fn shares(outcome: &Outcome) -> Option<[Option<f64>; 4]> {
             let own = [transmitted, energy_relative, von_mises_relative].map(|x| Some(*x));
             Some([own[0], own[1], own[2], outcome.from_equilibrium()])
         }
-        Outcome::Failure { .. } | Outcome::Rounding {} => None,
+        Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
     }
 }
 

@@ -112,6 +112,7 @@ fn prices() {
         }
         Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | - | -".into(),
         Outcome::Rounding {} => "decided by rounding | - | - | - | - | -".into(),
+        Outcome::NoFault {} => "no fault here | - | - | - | - | -".into(),
     };
     let named =
         |price: &Price| format!("{} | {}", price.name.as_deref().unwrap_or("-"), price.fault);

@@ -23,6 +23,9 @@ use problem::modelling::{ContactModel, Coupling, Friction, Variant};
 /// corrected algorithm and the reference have one solution.
 pub const NOTHING: f64 = 1e-6;
 
+/// The scale of the figures: a load that differs by a billionth moves any by as much, the small ones too.
+const SCALE: f64 = 10.0;
+
 /// The fault that ties both components of a node in contact.
 const STICKING: &str = "K9 (sliding)";
 
@@ -92,6 +95,8 @@ pub enum Outcome {
     },
     /// It has no figures, as rounding decides on them.
     Rounding {},
+    /// It was not run: it is no fault under the scene's own friction.
+    NoFault {},
 }
 
 impl Outcome {
@@ -102,6 +107,7 @@ impl Outcome {
             Outcome::Result { .. } if self.is_settled() && self.error() == 0.0 => Weight::Free,
             Outcome::Result { .. } => Weight::Shifts,
             Outcome::Rounding {} => Weight::Rounding,
+            Outcome::NoFault {} => Weight::NoFault,
         }
     }
 
@@ -115,7 +121,7 @@ impl Outcome {
     pub fn from_equilibrium(&self) -> Option<f64> {
         match self {
             Outcome::Result { equilibrium_relative, .. } => *equilibrium_relative,
-            Outcome::Failure { .. } | Outcome::Rounding {} => None,
+            Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
         }
     }
 
@@ -123,7 +129,7 @@ impl Outcome {
     fn moves(&self, other: &Self) -> bool {
         match (self.figures(), other.figures()) {
             (Some(own), Some(other)) => {
-                own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
+                own.iter().zip(&other).any(|(own, other)| moves(*own, *other, SCALE))
             }
             (own, other) => own.is_some() != other.is_some(),
         }
@@ -149,7 +155,7 @@ impl Outcome {
                 *equilibrium_relative,
                 Some(*von_mises_relative),
             ]),
-            Outcome::Failure { .. } | Outcome::Rounding {} => None,
+            Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
         }
     }
 
@@ -158,12 +164,13 @@ impl Outcome {
         matches!(self, Outcome::Result { period: Some(1), .. })
     }
 
-    /// Returns the error in the energy norm, relative, 0 where it is rounding; infinite where the run
-    /// stopped, and where rounding decides.
+    /// Returns the error in the energy norm, relative, 0 where it is rounding or no fault; infinite where the
+    /// run stopped, and where rounding decides.
     pub fn error(&self) -> f64 {
         match self {
             Outcome::Result { energy_relative: error, .. } if *error <= NOTHING => 0.0,
             Outcome::Result { energy_relative, .. } => *energy_relative,
+            Outcome::NoFault {} => 0.0,
             Outcome::Failure { .. } | Outcome::Rounding {} => f64::INFINITY,
         }
     }
@@ -193,8 +200,9 @@ impl Compared {
         let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
         let exact = solve(&reference.contact(contact), &mut |_| ())?;
         let stiffness = Stiffness::new(&exact.model, |x| x);
-        let equivalents = equivalent(&exact.request).map(|request| request.model());
-        let equivalents = equivalents.collect::<Result<_, _>>()?;
+        // Where nothing moves there is no figure that rounding could change.
+        let others = equivalent(&exact.request).filter(|_| exact.u.amax() > 0.0);
+        let equivalents = others.map(|request| request.model()).collect::<Result<_, _>>()?;
         Ok(Compared { exact, equilibrium: case.equilibrium().cloned(), equivalents, stiffness })
     }
 
@@ -203,7 +211,11 @@ impl Compared {
     pub fn prices(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let run = |fault: Option<&'static Fault>| {
             let edits: Vec<&str> = fault.iter().map(|fault| fault.edit).collect();
-            let outcome = self.repeated(&edits, self.run(&self.exact.model, &edits));
+            let is_sticking = fault.is_some_and(|fault| fault.name() == STICKING);
+            let outcome = match is_sticking && !self.slides() {
+                true => Outcome::NoFault {},
+                false => self.repeated(&edits, self.run(&self.exact.model, &edits)),
+            };
             watch();
             self.price(fault, outcome)
         };
@@ -255,11 +267,7 @@ impl Compared {
     fn price(&self, fault: Option<&Fault>, outcome: Outcome) -> Price {
         let words = fault.map_or("none".into(), Fault::words);
         let (finding, name) = (fault.map(|fault| fault.finding), fault.map(Fault::name));
-        let weight = match name.as_deref() {
-            Some(STICKING) if !self.slides() => Weight::NoFault,
-            _ => outcome.weight(),
-        };
-        Price { finding, name, fault: words, weight, outcome }
+        Price { finding, name, fault: words, weight: outcome.weight(), outcome }
     }
 
     /// Returns whether a node slides on the way to the equilibrium under the scene's own friction; without

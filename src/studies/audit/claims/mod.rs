@@ -210,7 +210,7 @@ pub struct JudgedClaim {
     pub measured: Evidence,
     /// The arguments of a command that prints the number in JSON; none of what was measured on random scenes.
     pub command: Vec<String>,
-    /// Where it stands there: a JSON pointer, or two of which it is the quotient.
+    /// Where it stands there: a JSON pointer, or two of which it is the quotient; none where there is no number.
     pub at: Vec<String>,
     /// What the verdict rests on.
     pub scope: Scope,
@@ -329,7 +329,8 @@ impl Claim {
 
     fn pointers(&self, measured: &Evidence) -> Vec<String> {
         let place = measured.variant.map_or(0, variant_index).to_string();
-        self.at.iter().map(|pointer| pointer.replace("VARIANT", &place)).collect()
+        let at = if measured.number.is_some() { self.at } else { &[] };
+        at.iter().map(|pointer| pointer.replace("VARIANT", &place)).collect()
     }
 }
 
