@@ -1,10 +1,10 @@
 //! A scene file, with a mesh of two blocks beside it whatever its name: it is refused with its fault,
 //! or it is a scene that is written, read back and planned.
 
+use plane_contact::engine::plan::Plan;
 use plane_contact::input::Variant;
 use plane_contact::problem::scene::{SceneBuilder, file, gmsh};
 use plane_contact::report;
-use plane_contact::studies::plan::Plan;
 use plane_contact::studies::snapshot::Input;
 use plane_contact::{Request, Scene};
 

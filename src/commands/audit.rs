@@ -11,13 +11,16 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
-use plane_contact::report::{audit as report, claims, folder, pressure, prices as price_report};
+use plane_contact::report::{folder, pressure};
 use plane_contact::studies::audit::claims::{CLAIMS, Claim, by_reading};
 use plane_contact::studies::audit::conclusion::Conclusion;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
 use plane_contact::studies::audit::prices::{self, Compared};
 use plane_contact::studies::audit::range::{Range, range};
 use plane_contact::studies::audit::{Audit, Case, audit, steps};
+use plane_contact::studies::audit::{
+    claims::table as claims, prices::table as price_report, tables as report,
+};
 use plane_contact::suggestion::did_you_mean;
 
 use super::{ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting};

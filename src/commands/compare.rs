@@ -6,7 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::engine::estimates::certain;
 use plane_contact::files;
 use plane_contact::plain::shown;
-use plane_contact::report::comparison::{self as report, Compared};
+use plane_contact::studies::calculix::table::{self as report, Compared};
 use plane_contact::studies::calculix::{self, Comparison, Fields};
 
 use super::calculix::{Code, DeckArgs};

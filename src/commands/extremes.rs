@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use plane_contact::engine::error::Result;
 use plane_contact::files;
-use plane_contact::report::extremes as report;
+use plane_contact::studies::extremes::table as report;
 use plane_contact::studies::extremes::{GENERATORS, Generator, SweepTable, measure};
 
 use super::{TablesArgs, folder, print, waiting};

@@ -10,9 +10,9 @@ use plane_contact::plain::shown;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
-use plane_contact::report::page::lesson::{self as page, Chapter};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding};
+use plane_contact::studies::lesson::page::{self as page, Chapter};
 use plane_contact::studies::lesson::{
     self as study, Iterations, Repairs, Switch, run as execute, switches,
 };

@@ -13,12 +13,12 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, sha256_of};
-use plane_contact::report::comparison;
-use plane_contact::report::document::{Contents, Run, document};
-use plane_contact::report::page::report as page;
 use plane_contact::studies::audit::conclusion::Conclusion;
+use plane_contact::studies::audit::document::{Contents, Run, document};
+use plane_contact::studies::audit::page;
 use plane_contact::studies::audit::prices::{Compared, Price};
 use plane_contact::studies::audit::{Audit, Case, audit};
+use plane_contact::studies::calculix::table as comparison;
 use plane_contact::studies::calculix::{self, Comparison, Contact, Fields, Pair, Part};
 
 use super::{report_written, waiting};

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plane_contact::engine::error::{Cause, NoEquilibrium, Result};
 use plane_contact::engine::estimates::perturbed;
+use plane_contact::engine::plan::Plan;
 use plane_contact::engine::{self, Assessment, Request, Solution, Step};
 use plane_contact::error::InputError;
 use plane_contact::files;
@@ -16,7 +17,6 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::folder::FolderOptions;
 use plane_contact::report::model::Report;
 use plane_contact::report::{self, tables};
-use plane_contact::studies::plan::Plan;
 use plane_contact::studies::trade::{check_accuracy, solve_to};
 
 use super::{
@@ -212,7 +212,7 @@ fn status(solution: &Solution) -> u8 {
 fn solve(args: &Args, request: &Request) -> Result<(Solution, Report)> {
     if let Some(asked) = args.accuracy {
         let reached = solve_to(request, asked)?;
-        let words = report::trade::reached(&reached, asked);
+        let words = studies::trade::table::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
     let progress = match request.variant {

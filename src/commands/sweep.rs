@@ -7,7 +7,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::plain::shown;
-use plane_contact::report::sweep::{self as report, Engine};
+use plane_contact::studies::sweep::table::{self as report, Engine};
 use plane_contact::studies::sweep::{Job, Jobs, Row};
 
 use super::{print, print_fitted, print_stderr, progress};

@@ -7,7 +7,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::trade as report;
+use plane_contact::studies::trade::table as report;
 use plane_contact::studies::trade::{self, Options, Varied};
 
 use super::{ReadingArg, TablesArgs, folder, folder_name, print, progress};

@@ -10,6 +10,8 @@ mod equations;
 pub mod error;
 pub mod estimates;
 mod hertz;
+pub mod options;
+pub mod plan;
 mod published;
 pub mod quantities;
 mod range;

@@ -10,9 +10,9 @@ use super::result_file::ResultFile;
 use super::{pressure, vtu};
 use base::error::Result;
 use base::files;
+use engine::plan::Plan;
 use engine::{Assessment, Quantity, Solution, TriangleValues};
 use problem::scene::Scene;
-use studies::plan::Plan;
 
 /// What a folder holds beside `fields.vtu` and `result.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use super::json;
 use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, short, six_digits};
+use engine::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 use problem::scene::{Scene, Units};
-use studies::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 
 /// Writes the plan on one line, which is the same on every machine.
 pub fn line(plan: &Plan) -> String {

@@ -5,8 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::{json, plan};
 use base::error::{InputError, Result};
 use base::files;
+use base::files::json::{FORMAT, VERSION};
 use engine::contact::ContactNode;
 use engine::estimates::{ErrorEstimates, Perturbed};
+use engine::plan::Plan;
 use engine::{
     Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Solution,
     TriangleValues,
@@ -21,8 +23,6 @@ use problem::model::{NodeId, Triangle};
 use problem::modelling::{ContactModel, Variant};
 use problem::scene::sha256;
 use problem::scene::{Material, Units};
-use studies::plan::Plan;
-use studies::snapshot::{FORMAT, VERSION};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;

@@ -16,9 +16,10 @@ use rayon::prelude::*;
 
 use super::picture::Drawing;
 use super::quantities::{Array, contact_array, node_array, triangle_array};
+use base::files::json::VERSION;
 use base::xml::Element;
+use engine::options::Options;
 use engine::{Assessment, ContactNode, NodeFields, Solution, TriangleValues};
-use studies::snapshot::{Options, VERSION};
 
 /// VTK's number for a triangle of three nodes.
 const TRIANGLE: u8 = 5;

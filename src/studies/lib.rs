@@ -6,7 +6,6 @@ pub mod benchmark;
 pub mod calculix;
 pub mod extremes;
 pub mod lesson;
-pub mod plan;
 pub mod snapshot;
 pub mod sweep;
 pub mod trade;

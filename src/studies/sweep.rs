@@ -6,6 +6,8 @@
 //!                        +--run--> Row, what came of it; its file is named by the key
 //! ```
 
+pub mod table;
+
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -16,7 +16,6 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
@@ -223,13 +222,13 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let roof = roof.build().unwrap();
     let compared = Compared::new(&Case::new(roof.clone())).unwrap();
     let (prices, repairs) = (compared.prices(&|| ()), compared.repairs(&|| ()));
-    let document = report::prices::Document {
+    let document = studies::audit::prices::table::Document {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,
         range: &[],
     };
-    let report = report::prices::report(&document, &roof).text(usize::MAX);
+    let report = studies::audit::prices::table::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265.2 %"), "{report}");
     let plate = annulus(2, 4).build().unwrap();
     let refused = Compared::new(&Case::new(plate.clone())).err().expect("no contact").to_string();
@@ -246,7 +245,7 @@ fn without_a_load_no_fault_is_weighed() {
     let repairs = Compared::new(&Case::new(scene.clone())).expect("a solution").repairs(&|| ());
     assert_eq!(prices::needed(&repairs), None);
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
-    let why = report::prices::unsound(&prices).expect("a reason");
+    let why = studies::audit::prices::table::unsound(&prices).expect("a reason");
     assert!(why.contains("no load passes"), "{why}");
 }
 
@@ -278,7 +277,7 @@ fn on_a_target_that_is_held_the_load_passes() {
         panic!("{:?}", prices[0].outcome)
     };
     assert_near("transmitted", transmitted, 1.0, 1.0, &CORRECTED);
-    assert_eq!(report::prices::of_weight(&prices, Weight::Fatal), ["K1"]);
+    assert_eq!(studies::audit::prices::table::of_weight(&prices, Weight::Fatal), ["K1"]);
 }
 
 /// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
@@ -294,13 +293,14 @@ fn over_a_range_each_fault_has_its_least_and_its_greatest_cost() {
     let alone = prices::on(&places[0].1, &|| ()).expect("prices");
     let range = prices::over_range(&places, &|| ());
     assert_eq!((range.len(), prices::runs_over(&places)), (2, 2 * prices::runs()));
-    let document = report::prices::Document {
+    let document = studies::audit::prices::table::Document {
         reading: Reading::default(),
         prices: &alone,
         repairs: &[],
         range: &range,
     };
-    let report = report::prices::report(&document, &places[0].1.scene).text(usize::MAX);
+    let report =
+        studies::audit::prices::table::report(&document, &places[0].1.scene).text(usize::MAX);
     let (_, over_range) = report.split_once("Over 2 places of the range").expect("a table");
     let row = |id: &str| {
         let row = over_range.lines().find(|line| line.trim_start().starts_with(id)).expect(id);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// The parts of the workspace, each of which uses those before it only.
 const PARTS: [&str; 8] =
-    ["base", "numbers", "mathcad", "problem", "paper", "engine", "studies", "report"];
+    ["base", "numbers", "mathcad", "problem", "paper", "engine", "report", "studies"];
 
 /// The source files below a folder, each with its text.
 fn sources(folder: &Path) -> Vec<(PathBuf, String)> {

@@ -11,9 +11,9 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
 use plane_contact::report::language::messages;
-use plane_contact::report::prices::ORDER;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Repair, Verdict};
+use plane_contact::studies::audit::prices::table::ORDER;
 use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.

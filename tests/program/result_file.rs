@@ -1,11 +1,11 @@
 //! Result files read back as they were written.
 
+use plane_contact::engine::plan::Plan;
 use plane_contact::engine::{Assessment, Request, solve};
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{MOST_TRIANGLES, ResultFile};
-use plane_contact::studies::plan::Plan;
 
 fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
     let scene = Scene::open(scene).expect("an embedded scene");

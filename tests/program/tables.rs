@@ -9,7 +9,6 @@ use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve, summa
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
-use plane_contact::report;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price, Weight};
@@ -80,7 +79,7 @@ fn prices() {
     let fig1 = Scene::open("fig1").expect("an embedded scene");
     let repairs = Compared::new(&Case::new(fig1)).expect("fig1 has a solution").repairs(&|| ());
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
-    assert_eq!(report::prices::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
+    assert_eq!(studies::audit::prices::table::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
     for price in &alone {
         let is_free = [None, Some("C7"), Some("C12"), Some("K4")].contains(&price.finding);
         assert!(price.outcome.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
@@ -211,15 +210,20 @@ fn claims() {
     let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title = format!(
         "What the paper claims, {}: {}.",
-        report::claims::counts(),
+        studies::audit::claims::table::counts(),
         counts.collect::<Vec<_>>().join(", ")
     );
-    assert_table("claims", &title, "audit", &report::claims::verdicts(&JUDGED).markdown());
+    assert_table(
+        "claims",
+        &title,
+        "audit",
+        &studies::audit::claims::table::verdicts(&JUDGED).markdown(),
+    );
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give.",
         "audit --range",
-        &report::claims::range(&JUDGED).markdown(),
+        &studies::audit::claims::table::range(&JUDGED).markdown(),
     );
 }
 

@@ -13,9 +13,9 @@ use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use plane_contact::report::trade as report;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
+use plane_contact::studies::trade::table as report;
 use plane_contact::studies::trade::{
     self, Options, Order, Outcome, Point, Trade, Varied, pareto, solve_to,
 };

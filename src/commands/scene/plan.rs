@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use plane_contact::engine::error::Result;
+use plane_contact::engine::plan::Plan;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan as report;
-use plane_contact::studies::plan::Plan;
 
 use crate::commands::{RunArgs, TablesArgs, print};
 

@@ -6,7 +6,7 @@ use plane_contact::engine::error::Result;
 use plane_contact::files;
 use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::snapshot::{self as report, VerifiedFile};
+use plane_contact::studies::snapshot::table::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{accept, difference};
 
 use super::verify::snapshot_of;

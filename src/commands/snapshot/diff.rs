@@ -10,7 +10,7 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Scene, SceneFile};
-use plane_contact::report::snapshot::{self as report, VerifiedFile};
+use plane_contact::studies::snapshot::table::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{Bounds, Snapshot, difference};
 
 use super::verify::DIFFERS;

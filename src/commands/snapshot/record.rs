@@ -10,7 +10,7 @@ use plane_contact::files;
 use plane_contact::plain::shown;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::snapshot as report;
+use plane_contact::studies::snapshot::table as report;
 use plane_contact::studies::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
 
 use crate::commands::arithmetic::ArithmeticArgs;

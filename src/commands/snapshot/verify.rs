@@ -8,7 +8,7 @@ use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::plain::shown;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::snapshot::{self as report, VerifiedFile};
+use plane_contact::studies::snapshot::table::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{self, Snapshot};
 
 use crate::commands::{print_either, progress, report_error, within};

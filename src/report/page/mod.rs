@@ -4,9 +4,6 @@
 //! `textContent` alone: nothing that a scene or a listing says is ever read as HTML. The script is
 //! the files of a folder one behind the other, in one scope.
 
-pub mod lesson;
-pub mod report;
-
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
@@ -18,6 +15,9 @@ use base::xml::escape;
 /// The style and the script that all pages share.
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
+
+/// The script of tables that are sorted by their columns.
+pub const TABLE: &str = include_str!("table.js");
 
 /// The interpreter of the listings' notation that a page executes, which has the bits of `mathcad`: its
 /// files, each using those above it.
@@ -31,18 +31,24 @@ pub const INTERPRETER: [&str; 6] = [
 ];
 
 /// A page's own parts.
-struct Page<'a> {
-    language: Language,
-    title: &'a str,
+pub struct Page<'a> {
+    /// The language of its words.
+    pub language: Language,
+    /// Its title.
+    pub title: &'a str,
     /// The content of `body`.
-    body: &'a str,
-    style: &'static str,
-    script: &'a [&'static str],
-    data: Value,
+    pub body: &'a str,
+    /// Its own style.
+    pub style: &'static str,
+    /// Its own script, file by file.
+    pub script: &'a [&'static str],
+    /// What the script shows.
+    pub data: Value,
 }
 
 impl Page<'_> {
-    fn html(mut self) -> String {
+    /// Returns the page as one file.
+    pub fn html(mut self) -> String {
         let script = [&[SCRIPT], self.script].concat().join("\n");
         if let Some(messages) = self.language.messages_of(&script) {
             self.data["messages"] = messages;

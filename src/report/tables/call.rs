@@ -6,7 +6,6 @@ use paper::door::Call;
 use paper::mirror::Reading;
 use problem::model::{EdgeId, Model, NodeId};
 use problem::scene::Scene;
-use studies::lesson::figure_numbers;
 
 /// Reports a call of `c_cnt` at the initial shape: its contact nodes, then the rows of k_cnt that
 /// are not zero. In the scene of the paper's fig. 1 each node has its number there.
@@ -47,4 +46,20 @@ pub fn pairs(scene: &Scene, model: &Model, reading: &Reading, call: &Call) -> Re
         .table(format!("Contact nodes (c_tll = {})", model.contact.tolerance), found)
         .notes(direction(model, reading, &model.nodes))
         .table(format!("k_cnt: {count} of {} rows are not zero", model.nodes.len()), rows)
+}
+
+/// Returns the numbers that the paper's fig. 1 gives the nodes of two surfaces: 1.1, 1.2, ... along
+/// the target, 2.1, 2.2, ... along the stamp, each in the order in which the surface is given.
+pub fn figure_numbers(model: &Model) -> Vec<(NodeId, String)> {
+    let mut target: Vec<NodeId> = Vec::new();
+    for node in model.target_edges().flat_map(|edge| edge.nodes) {
+        if !target.contains(&node) {
+            target.push(node);
+        }
+    }
+    let numbered = |surface: usize, nodes: &[NodeId]| {
+        let nodes = nodes.iter().zip(1..);
+        nodes.map(|(node, k)| (*node, format!("{surface}.{k}"))).collect::<Vec<_>>()
+    };
+    [numbered(1, &target), numbered(2, &model.contact.nodes)].concat()
 }

@@ -6,7 +6,7 @@ mod equilibrium;
 mod estimates;
 mod iterations;
 
-pub use call::pairs;
+pub use call::{figure_numbers, pairs};
 pub use distance::distance;
 pub use equilibrium::nearest_decision;
 pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};

@@ -1,6 +1,8 @@
 //! The conclusion of an audit: five questions about the printed algorithm on a scene, and the facts
 //! that answer them. The sentences are made of these in the report.
 
+pub mod words;
+
 use std::collections::BTreeSet;
 
 use serde::Serialize;

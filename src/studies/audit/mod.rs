@@ -4,10 +4,14 @@ mod assumptions;
 mod case;
 pub mod claims;
 pub mod conclusion;
+pub mod document;
 pub mod findings;
+mod glossary;
+pub mod page;
 pub mod prices;
 pub mod range;
 pub mod readings;
+pub mod tables;
 pub mod variants;
 
 use rayon::prelude::*;

@@ -1,6 +1,8 @@
 //! What the printed faults cost, against the solution of the same conditions: the corrected algorithm of
 //! `listings/corrected/` with one fault put back at a time, and with all of them, repaired one at a time.
 
+pub mod table;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

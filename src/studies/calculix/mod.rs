@@ -31,9 +31,11 @@
 mod comparison;
 pub mod deck;
 mod fields;
+pub mod files;
 mod problem;
 pub mod results;
 mod run;
+pub mod table;
 
 pub use comparison::{BodyStress, Comparison, Difference, Largest};
 pub use deck::deck;

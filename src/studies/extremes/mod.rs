@@ -12,6 +12,7 @@ mod answer;
 mod blocks;
 mod search;
 mod sweep;
+pub mod table;
 mod verdict;
 
 use rayon::prelude::*;

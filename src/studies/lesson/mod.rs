@@ -2,6 +2,7 @@
 //! lesson offers.
 
 mod iterations;
+pub mod page;
 mod repairs;
 mod switches;
 mod trace;
@@ -114,20 +115,4 @@ impl Kept {
         let trace = trace(which, &listing, settings, call, wanted, MOST_SHOWN + 1);
         Program { listing, trace }
     }
-}
-
-/// Returns the numbers that the paper's fig. 1 gives the nodes of two surfaces: 1.1, 1.2, ... along
-/// the target, 2.1, 2.2, ... along the stamp, each in the order in which the surface is given.
-pub fn figure_numbers(model: &Model) -> Vec<(NodeId, String)> {
-    let mut target: Vec<NodeId> = Vec::new();
-    for node in model.target_edges().flat_map(|edge| edge.nodes) {
-        if !target.contains(&node) {
-            target.push(node);
-        }
-    }
-    let numbered = |surface: usize, nodes: &[NodeId]| {
-        let nodes = nodes.iter().zip(1..);
-        nodes.map(|(node, k)| (*node, format!("{surface}.{k}"))).collect::<Vec<_>>()
-    };
-    [numbered(1, &target), numbered(2, &model.contact.nodes)].concat()
 }

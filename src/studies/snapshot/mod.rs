@@ -18,9 +18,10 @@ mod entry;
 mod first;
 mod input;
 mod numbers;
-mod options;
 mod record;
+pub mod table;
 mod verify;
+mod words;
 
 use std::collections::HashSet;
 
@@ -40,11 +41,11 @@ pub use accept::accept;
 pub use base::files::json::{FORMAT, VERSION};
 pub use changes::Change;
 pub use compare::{Difference, Kind, compare};
+pub use engine::options::Options;
 pub use entry::{Entry, FIELDS, Quantity};
 pub use first::{First, Status};
 pub use input::Input;
 pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
-pub use options::Options;
 pub use record::{Bounds, record};
 pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
 

@@ -5,11 +5,11 @@ use serde_json::{Value, json};
 
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
-use super::options::Options;
 use super::{Entry, Quantity};
 use engine::contact::{ContactNode, Pairing};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
+use engine::options::Options;
 use engine::{
     Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
 };

@@ -14,6 +14,7 @@ mod errors;
 mod measure;
 mod order;
 mod rows;
+pub mod table;
 mod trials;
 
 pub use accuracy::{AccurateSolution, Outcome, check_accuracy, solve_to};

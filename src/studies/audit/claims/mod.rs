@@ -7,6 +7,7 @@
 
 mod measures;
 mod register;
+pub mod table;
 
 use std::sync::Arc;
 

@@ -5,11 +5,8 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::{Compared, WORST};
-use crate::json;
-use crate::model::Table;
-use crate::picture::{self, Drawing, Field};
-use crate::quantities::{MeasuredValue, measured};
+use super::table::{Compared, WORST};
+use crate::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
@@ -17,7 +14,10 @@ use engine::{Quantity, TriangleState, TriangleValues};
 use problem::element::Plane;
 use problem::model::{NodeId, Triangle, TriangleId};
 use problem::modelling::{Friction, Variant};
-use studies::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
+use report::json;
+use report::model::Table;
+use report::picture::{self, Drawing, Field};
+use report::quantities::{MeasuredValue, measured};
 
 /// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
 /// the first one's content.

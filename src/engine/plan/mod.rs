@@ -15,9 +15,9 @@ pub use candidates::MARGIN;
 
 use candidates::Candidates;
 
+use crate::{Request, is_dense};
 use base::choices;
 use base::error::Result;
-use engine::{Request, is_dense};
 use numbers::solve::{ScalarName, Solver};
 use problem::model::Model;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use engine::Request;
+use crate::Request;
 use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
 use paper::mirror::Reading;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::json;
-use super::model::{Cell, Report, Table};
-use super::picture::{Axis, Series, Style, chart};
-use studies::extremes::{Break, Column, SweepTable, Verdict};
+use crate::extremes::{Break, Column, SweepTable, Verdict};
+use report::json;
+use report::model::{Cell, Report, Table};
+use report::picture::{Axis, Series, Style, chart};
 
 /// The content of `extremes.json`: a row for each generator.
 #[derive(Serialize)]

@@ -10,19 +10,20 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{INTERPRETER, Page};
-use crate::audit::FindingRow;
-use crate::json::document;
-use crate::language::Language;
-use crate::picture::deformation::boundary_edges;
+use crate::audit::findings::{Evidence, Finding, Repair};
+use crate::audit::tables::FindingRow;
+use crate::lesson::{Iterations, Recorded, Repairs, State, Switch};
 use mathcad::unsupported::{FUNCTIONS, UNITS};
 use mathcad::{Listing, Settings};
 use paper::corrected::{Program, program};
 use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
-use studies::audit::findings::{Evidence, Finding, Repair};
-use studies::lesson::{Iterations, Recorded, Repairs, State, Switch, figure_numbers};
+use report::json::document;
+use report::language::Language;
+use report::page::{INTERPRETER, Page};
+use report::picture::deformation::boundary_edges;
+use report::tables::figure_numbers;
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {
@@ -41,8 +42,7 @@ pub struct Chapter {
 }
 
 /// The worksheet of a scene, and the iterations around the listings, which need the interpreter alone.
-pub const ITERATE: [&str; 2] =
-    [include_str!("lesson/worksheet.js"), include_str!("lesson/iterate.js")];
+pub const ITERATE: [&str; 2] = [include_str!("page/worksheet.js"), include_str!("page/iterate.js")];
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
 pub fn html(chapters: &[Chapter], language: Language) -> String {
@@ -60,27 +60,27 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "corrected": corrected,
     });
     let script = [
-        include_str!("lesson/machine.js"),
-        include_str!("lesson/edit.js"),
-        include_str!("lesson/listing.js"),
-        include_str!("lesson/scene.js"),
-        include_str!("lesson/matrix.js"),
-        include_str!("lesson/tables.js"),
-        include_str!("lesson/play.js"),
-        include_str!("lesson/assembly.js"),
-        include_str!("lesson/tour.js"),
-        include_str!("lesson/questions.js"),
-        include_str!("lesson/chapters.js"),
-        include_str!("lesson/repairs.js"),
-        include_str!("lesson/drag.js"),
-        include_str!("lesson/address.js"),
-        include_str!("lesson/lesson.js"),
+        include_str!("page/machine.js"),
+        include_str!("page/edit.js"),
+        include_str!("page/listing.js"),
+        include_str!("page/scene.js"),
+        include_str!("page/matrix.js"),
+        include_str!("page/tables.js"),
+        include_str!("page/play.js"),
+        include_str!("page/assembly.js"),
+        include_str!("page/tour.js"),
+        include_str!("page/questions.js"),
+        include_str!("page/chapters.js"),
+        include_str!("page/repairs.js"),
+        include_str!("page/drag.js"),
+        include_str!("page/address.js"),
+        include_str!("page/lesson.js"),
     ];
     Page {
         language,
         title: &language.fill("Lesson: {title}", &[("title", &language.say(&scene.title))]),
-        body: &language.say_html(include_str!("lesson/body.html")),
-        style: include_str!("lesson/lesson.css"),
+        body: &language.say_html(include_str!("page/body.html")),
+        style: include_str!("page/lesson.css"),
         script: &[&INTERPRETER[..], &ITERATE, &script].concat(),
         data: document(Some(scene), &own),
     }

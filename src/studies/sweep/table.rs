@@ -9,13 +9,13 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::json;
-use super::model::{Cell, Table};
+use crate::sweep::{Job, Row};
 use base::choices;
 use base::error::{InputError, Result};
 use base::plain::shown;
 use problem::scene::sha256;
-use studies::sweep::{Job, Row};
+use report::json;
+use report::model::{Cell, Table};
 
 choices! {
     /// An engine that runs jobs.

@@ -1,18 +1,17 @@
 //! Snapshots as files, and what verifying them found: for people, as JSON, Markdown and JUnit XML.
 
-mod words;
-
 use serde::Serialize;
 
-use super::failure::Failure;
-use super::json::{self, OnScene, pretty};
-use super::layout::{counted, first_line};
-use super::model::Report;
-use base::xml::Element;
-use engine::error::Error;
-use studies::snapshot::{
+use super::words;
+use crate::snapshot::{
     Change, Difference, First, Presence, Quantity, Snapshot, Verified, VerifiedRun,
 };
+use base::xml::Element;
+use engine::error::Error;
+use report::failure::Failure;
+use report::json::{self, OnScene, pretty};
+use report::layout::{counted, first_line};
+use report::model::Report;
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct VerifiedFile {

@@ -3,7 +3,7 @@
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use studies::snapshot::{
+use crate::snapshot::{
     Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun,
 };
 

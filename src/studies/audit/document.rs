@@ -1,22 +1,23 @@
 //! The audit report that a referee hands in, as one report: HTML and Markdown are renderings of it.
 
-use super::comparison::{self, Compared};
-use super::folder::field_picture;
-use super::layout::listed;
-use super::model::{Report, Table};
-use super::picture::{self, Drawing};
-use super::quantities::triangle_array;
-use super::{audit, claims, glossary, pressure, prices, tables};
+use super::{claims::table as claims, glossary, prices::table as prices, tables as audit};
+use crate::audit::Audit;
+use crate::audit::claims::Verdict as ClaimVerdict;
+use crate::audit::conclusion::Conclusion;
+use crate::audit::findings::Verdict;
+use crate::audit::prices::Price;
+use crate::audit::variants::End;
+use crate::calculix::table::{self as comparison, Compared};
 use engine::{Assessment, Hertz, Solution, TriangleValues};
 use paper::listings::Which;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
-use studies::audit::Audit;
-use studies::audit::claims::Verdict as ClaimVerdict;
-use studies::audit::conclusion::Conclusion;
-use studies::audit::findings::Verdict;
-use studies::audit::prices::Price;
-use studies::audit::variants::End;
+use report::folder::field_picture;
+use report::layout::listed;
+use report::model::{Report, Table};
+use report::picture::{self, Drawing};
+use report::quantities::triangle_array;
+use report::{pressure, tables};
 
 /// What an audit report is made of.
 pub struct Contents<'a> {

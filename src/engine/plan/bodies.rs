@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::locking;
 use base::choices;
-use engine::locking;
 use problem::model::{Body, Bounds, Dof, Model};
 use problem::modelling::Variant;
 

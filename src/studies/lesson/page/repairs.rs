@@ -5,13 +5,13 @@ use std::fmt::Display;
 use serde_json::{Value, json};
 
 use super::Shared;
-use crate::language::Language;
-use crate::layout::listed;
-use crate::prices::ORDER;
+use crate::audit::prices::Outcome;
+use crate::audit::prices::table::ORDER;
+use crate::lesson::Repairs;
 use mathcad::Settings;
 use paper::corrected::FAULTS;
-use studies::audit::prices::Outcome;
-use studies::lesson::Repairs;
+use report::language::Language;
+use report::layout::listed;
 
 /// Returns the title, with the number of edits.
 pub fn title(repairs: &Repairs, language: Language) -> String {

@@ -1,10 +1,10 @@
 //! The glossary of the guide, as a table of the report.
 
-use super::model::{Cell, Report, Table};
+use report::model::{Cell, Report, Table};
 
 /// Reports each term with its meaning.
 pub fn report() -> Report {
-    let rows = include_str!("../guide/glossary.md").lines().filter_map(row).skip(1);
+    let rows = include_str!("../../guide/glossary.md").lines().filter_map(row).skip(1);
     Report::default().table("Glossary", Table::new(["term", "meaning"], rows))
 }
 

@@ -1,13 +1,13 @@
 //! Speed against accuracy, for people, for machines and as a picture.
 
-use super::json;
-use super::model::{Cell, Report, Table};
-use super::numbers::reason;
-use super::picture::{Axis, Series, Style, chart};
+use crate::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade};
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade};
+use report::json;
+use report::model::{Cell, Report, Table};
+use report::numbers::reason;
+use report::picture::{Axis, Series, Style, chart};
 
 /// Returns the content of `trade.json`.
 pub fn json(scene: &Scene, trade: &Trade) -> String {

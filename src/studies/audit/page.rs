@@ -10,16 +10,16 @@ use base64::prelude::BASE64_STANDARD;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::Page;
-use crate::document::{Contents, Run};
-use crate::json::document;
-use crate::language::Language;
-use crate::model::Report;
-use crate::picture::{colour, points};
-use crate::{ResultFile, pressure, quantities};
+use super::document::{Contents, Run};
+use crate::calculix::{Comparison, Fields};
 use engine::{Detail, Step, Stiffness, TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
-use studies::calculix::{Comparison, Fields};
+use report::json::document;
+use report::language::Language;
+use report::model::Report;
+use report::page::Page;
+use report::picture::{colour, points};
+use report::{ResultFile, pressure, quantities};
 
 /// The shades of a field.
 const SHADES: u8 = 64;
@@ -40,14 +40,14 @@ pub fn html(report: &Report, contents: &Contents) -> String {
     Page {
         language: Language::En,
         title: &format!("Report: {}", scene.name),
-        body: &include_str!("report/body.html").replace("DOCUMENT", &report.html()),
-        style: include_str!("report/report.css"),
+        body: &include_str!("page/body.html").replace("DOCUMENT", &report.html()),
+        style: include_str!("page/report.css"),
         script: &[
-            include_str!("table.js"),
-            include_str!("report/fields.js"),
-            include_str!("report/raster.js"),
-            include_str!("report/viewer.js"),
-            include_str!("report/report.js"),
+            report::page::TABLE,
+            include_str!("page/fields.js"),
+            include_str!("page/raster.js"),
+            include_str!("page/viewer.js"),
+            include_str!("page/report.js"),
         ],
         data: document(Some(scene), &own),
     }

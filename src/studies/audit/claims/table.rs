@@ -4,18 +4,16 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::json;
-use super::layout::listed;
-use super::model::{Report, Table};
-use super::numbers::{or_dash, percent, short};
-use super::tables::UNDERESTIMATE;
+use crate::audit::Assumption;
+use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, MeshError, UnderReading};
+use crate::audit::range::Parameter;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
-use studies::audit::Assumption;
-use studies::audit::claims::{
-    Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, MeshError, UnderReading,
-};
-use studies::audit::range::Parameter;
+use report::json;
+use report::layout::listed;
+use report::model::{Report, Table};
+use report::numbers::{or_dash, percent, short};
+use report::tables::UNDERESTIMATE;
 
 /// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
 pub fn report(
@@ -126,7 +124,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
 }
 
 /// Names a reading that is not the default.
-pub(super) fn under(reading: &Reading) -> String {
+pub(in crate::audit) fn under(reading: &Reading) -> String {
     if *reading == Reading::default() { String::new() } else { format!(", under {reading}") }
 }
 

@@ -1,23 +1,21 @@
 //! This program beside CalculiX: tables, JSON, CSV, pictures.
 
-mod files;
-
 use std::fmt::Display;
 
-use super::model::{Cell, Report, Table};
-use super::numbers::{coordinates, quantity, short, with_unit};
-use super::tables::certainty;
+use crate::calculix::{BodyStress, Comparison, Contact, Difference, Pair};
 use engine::estimates::Certainty;
 use problem::element::Plane;
 use problem::model::{Model, NodeId};
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::calculix::{BodyStress, Comparison, Contact, Difference, Pair};
+use report::model::{Cell, Report, Table};
+use report::numbers::{coordinates, quantity, short, with_unit};
+use report::tables::certainty;
 
-pub use files::{Document, json, write};
+pub use super::files::{Document, json, write};
 
 /// How many nodes are listed, those with the largest differences.
-const WORST: usize = 10;
+pub(super) const WORST: usize = 10;
 
 /// What a comparison with CalculiX compared.
 pub struct Compared<'a> {

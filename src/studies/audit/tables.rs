@@ -4,27 +4,27 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::claims;
-use super::conclusion::{self, Answer};
-use super::json;
-use super::layout::{first_line, listed};
-use super::model::{Cell, Report, Table};
-use super::numbers::{or_dash, short};
-use super::prices;
-use super::tables::{nearest_decision, perturbed};
+use crate::audit::claims::table as claims;
+use crate::audit::claims::{JudgedClaim, UnderReading};
+use crate::audit::conclusion::Conclusion;
+use crate::audit::conclusion::words::{self as conclusion, Answer};
+use crate::audit::findings::{Evidence, Finding, Repair, Verdict};
+use crate::audit::prices::Price;
+use crate::audit::prices::table as prices;
+use crate::audit::readings::Effect;
+use crate::audit::variants::{End, VariantRow};
+use crate::audit::{Assumption, Audit, BY_ROUNDING, Compared, FrictionContact};
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
 use paper::mirror::Reading;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::audit::claims::{JudgedClaim, UnderReading};
-use studies::audit::conclusion::Conclusion;
-use studies::audit::findings::{Evidence, Finding, Repair, Verdict};
-use studies::audit::prices::Price;
-use studies::audit::readings::Effect;
-use studies::audit::variants::{End, VariantRow};
-use studies::audit::{Assumption, Audit, BY_ROUNDING, Compared, FrictionContact};
+use report::json;
+use report::layout::{first_line, listed};
+use report::model::{Cell, Report, Table};
+use report::numbers::{or_dash, short};
+use report::tables::{nearest_decision, perturbed};
 
 /// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants
 /// side by side, and who sticks and slides under each coefficient of friction.

@@ -5,19 +5,19 @@ use std::fmt::Display;
 
 use serde::Serialize;
 
-use super::layout::{counted, first_line, listed};
-use super::model::Report;
-use super::numbers::{coordinates, or_dash, percent, short, with_unit};
-use super::prices;
+use crate::audit::Audit;
+use crate::audit::conclusion::{Conclusion, Coupled, Fields, NearRun, Nearest, Spread};
+use crate::audit::prices::table as prices;
+use crate::audit::prices::{Price, Weight};
+use crate::audit::range::is_example;
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use studies::audit::Audit;
-use studies::audit::conclusion::{Conclusion, Coupled, Fields, NearRun, Nearest, Spread};
-use studies::audit::prices::{Price, Weight};
-use studies::audit::range::is_example;
+use report::layout::{counted, first_line, listed};
+use report::model::Report;
+use report::numbers::{coordinates, or_dash, percent, short, with_unit};
 
 /// A relative difference that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;

@@ -2,17 +2,17 @@
 
 use serde::Serialize;
 
-use super::claims::under;
-use super::json;
-use super::layout::{counted, first_line, listed};
-use super::model::{Cell, Report, Table};
-use super::numbers::percent;
-use super::picture::{Axis, Series, Style, chart};
+use crate::audit::BY_ROUNDING;
+use crate::audit::claims::table::under;
+use crate::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
+use crate::audit::range::ParameterValue;
 use paper::mirror::Reading;
 use problem::scene::Scene;
-use studies::audit::BY_ROUNDING;
-use studies::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
-use studies::audit::range::ParameterValue;
+use report::json;
+use report::layout::{counted, first_line, listed};
+use report::model::{Cell, Report, Table};
+use report::numbers::percent;
+use report::picture::{Axis, Series, Style, chart};
 
 /// How the order of repairs is found, in words.
 pub const ORDER: &str = "The order is found from the end: \
