@@ -25,7 +25,7 @@ use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
 use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::findings::{FINDINGS, Repair};
-use plane_contact::studies::lesson::page::{self, Chapter};
+use plane_contact::studies::lesson::page::{self as lesson, Chapter};
 use plane_contact::studies::lesson::{Iterations, Switch, switches};
 use proptest::strategy::{Strategy, ValueTree};
 use serde_json::{Value as Json, json};
