@@ -117,10 +117,14 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
         None => "Not decided here: no variant of the paper has a result.".into(),
         Some(Nearest { runs, tried, failed, by_rounding, apart }) => {
             let word = if runs[0].energy < NOTICEABLE { "Yes, within 1 %" } else { "No" };
-            let stop = if *failed == 0 { String::new() } else { format!("; {failed} stop") };
+            let stop = if *failed == 0 {
+                String::new()
+            } else {
+                format!("; {}", counted(*failed, "stops", "stop"))
+            };
             let decided = match by_rounding {
                 0 => String::new(),
-                n => format!("; {n} are decided by rounding"),
+                n => format!("; {} decided by rounding", counted(*n, "is", "are")),
             };
             let tie = if runs.len() == 1 { "" } else { ", all equally near" };
             let others = if *by_rounding == 0 { "" } else { " of the others" };
@@ -169,7 +173,7 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
                     format!(
                         "{word}. Under {} the largest von Mises stress is {}. The largest von Mises strain is {}. \
                          One of these values differs by {} from that of the equilibrium on the same mesh. {own}",
-                        nearest_variants(&fields.variants),
+                        nearest_variants(&fields.variants, fields.by_rounding),
                         largest_stress(&fields.theirs, scene),
                         listed(fields.theirs.iter().map(strain)),
                         percent(difference, 1)
@@ -192,8 +196,11 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
 }
 
 /// Names the variants that are nearest.
-fn nearest_variants(variants: &[Variant]) -> String {
+fn nearest_variants(variants: &[Variant], by_rounding: bool) -> String {
     match variants {
+        [variant] if by_rounding => {
+            format!("{variant}, the nearest variant on which rounding does not decide,")
+        }
         [variant] => format!("{variant}, the nearest variant,"),
         [first, ..] => format!("{first} ({} are equally near)", listed(variants)),
         [] => unreachable!("a variant ran"),
