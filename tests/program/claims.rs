@@ -12,8 +12,9 @@ use plane_contact::Scene;
 use plane_contact::engine::{Request, distance, solve};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
+use plane_contact::report::conclusion::WIDER;
 use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
-use plane_contact::studies::audit::range::{Range, range};
+use plane_contact::studies::audit::range::{Parameter, Range, range};
 use plane_contact::studies::audit::{BY_ROUNDING, Case};
 
 fn open(name: &str) -> Case {
@@ -72,6 +73,19 @@ fn the_change_by_c_tol_is_that_of_trade() {
     let change = row.expect("a row")["change"]["displacement"].as_f64().expect("a number");
     let measured = p10.claim.measure(&open("fig1"));
     assert_near("P10", measured.number.expect("a number"), change, change, &CLAIM);
+}
+
+/// What the conclusion says of wider ducts is so.
+#[test]
+fn in_wider_ducts_p10_and_p11_are_true() {
+    assert!(WIDER.starts_with(" P10 and P11 are true from a clearance of 0.9 mm on"));
+    for judged in JUDGED.iter().filter(|judged| ["P10", "P11"].contains(&judged.claim.id)) {
+        let clearances = judged.elsewhere.iter();
+        for at in clearances.filter(|at| at.place.parameter == Parameter::Clearance) {
+            let is_true = at.measured.verdict == Verdict::True;
+            assert_eq!(is_true, at.place.value >= 0.9, "{}, {}", judged.claim.id, at.place.value);
+        }
+    }
 }
 
 /// A verdict on runs has the error of the mesh in each of its runs, as `solve` prints them.

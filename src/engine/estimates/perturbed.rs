@@ -22,7 +22,7 @@ use crate::contact::Status;
 use crate::distance::over;
 use crate::{Request, Solution, last_under_each_load, solve};
 use numbers::finite;
-use problem::model::{Model, NodeId};
+use problem::model::{Force, Model, NodeId};
 
 /// The number of runs.
 const RUNS: u64 = 3;
@@ -175,6 +175,14 @@ fn changed(request: &Request, seed: u64, factor: f64) -> Request {
     for triangle in &mut model.triangles {
         let e = &mut triangle.material.e;
         *e *= *moduli.entry(e.to_bits()).or_insert_with(|| 1.0 + part());
+    }
+    // The load of the paper's variants.
+    for force in &mut model.forces {
+        let by = factor * (1.0 + part());
+        match force {
+            Force::Node(_, force) | Force::Traction(_, force) => *force = force.map(|x| by * x),
+            Force::Pressure(_, pressure) => *pressure *= by,
+        }
     }
     request
 }

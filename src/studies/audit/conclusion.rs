@@ -83,6 +83,8 @@ pub struct NearRun {
 pub struct Fields {
     /// The nearest of the paper's variants, and those that are equally near; none where none ran.
     pub variants: Vec<Variant>,
+    /// Whether rounding decides on another variant, which is left out.
+    pub by_rounding: bool,
     /// The largest relative difference of a body's largest von Mises stress or strain between the two.
     pub difference: Option<f64>,
     /// The bodies under that variant.
@@ -210,6 +212,7 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     Some(Fields {
         variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
+        by_rounding: of_the_paper(rows).any(|(_, row)| row.end.is_by_rounding()),
         errors: Estimates::new(equilibrium).errors,
         theirs,
         own,

@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::Case;
 use super::range::{ParameterValue, Range};
 use base::choices;
-use engine::contact::Status;
+use engine::contact::{Sense, Status};
 use engine::error::Error;
 use engine::estimates::{equivalent, moves};
 use engine::{Solution, Stiffness, over, solve};
@@ -278,7 +278,13 @@ impl Compared {
         let Some(equilibrium) = &self.equilibrium else {
             return self.exact.request.scene.contact.friction != Friction::STICK;
         };
-        let slips = |status: &Status| matches!(status, Status::Slip(_));
+        let is_frictionless = equilibrium.request.contact.friction == Friction::NONE;
+        // With friction a node on a line of symmetry, which restrains it, is free, and does not slide.
+        let slips = |status: &Status| match status {
+            Status::Slip(Sense::Free) => is_frictionless,
+            Status::Slip(Sense::Forward | Sense::Backward) => true,
+            Status::Open | Status::Stick => false,
+        };
         let mut states = equilibrium.steps.iter().filter_map(|step| step.unilateral());
         states.any(|state| state.statuses.iter().any(slips))
     }

@@ -61,6 +61,11 @@ pub enum End {
 }
 
 impl End {
+    /// Returns whether rounding decides on it.
+    pub fn is_by_rounding(&self) -> bool {
+        matches!(self, End::Failure { failure } if failure == BY_ROUNDING)
+    }
+
     /// Returns the figures of a result at its end, each over the scale of its kind.
     fn figures(&self) -> Vec<Option<f64>> {
         let End::Result {
