@@ -117,6 +117,23 @@ fn an_inverse_counts_its_unit_columns() {
     assert_eq!(under(&limits, "a ← identity(96)\na^−1"), steps);
 }
 
+/// Eigenvalues count as ten eliminations with what they read and write, vectors as so much for each; both
+/// hold two matrices.
+#[test]
+fn eigenvalues_count_their_eliminations() {
+    for (function, steps) in [("eigenvals", 10 * (64 + 128)), ("eigenvecs", 8 * 10 * (64 + 128))] {
+        let listing = program(&format!("{function}(identity(8))"));
+        let run = |entries| {
+            let limits = Limits { entries, ..Limits::default() };
+            let mut worksheet = listing.runner(&Settings::default(), &limits);
+            worksheet.call(&[5.0.into()]).map(|_| worksheet.steps()).map_err(|why| why.cause)
+        };
+        // Beside them a statement, three expressions, two functions, and the entries of the matrix.
+        assert_eq!(run(1 + 128), Ok(steps + 1 + 3 + 16 + 64), "{function}");
+        assert!(matches!(run(128), Err(Cause::Limit { limit: 128, .. })), "{function}");
+    }
+}
+
 /// A listing that needs exactly what a limit allows runs; with one less it does not.
 #[test]
 fn limits_are_reached_exactly() {
