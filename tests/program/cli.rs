@@ -439,7 +439,11 @@ fn no_output_replaces_an_input() {
     succeeds(folder.path(), &["snapshot", "record", "fig1", "--out", "s.json"]);
     let c_cnt = concat!(env!("CARGO_MANIFEST_DIR"), "/listings/c_cnt.txt");
     std::fs::copy(c_cnt, folder.path().join("l.txt")).unwrap();
+    #[cfg(unix)]
+    std::fs::hard_link(folder.path().join("s.json"), folder.path().join("t.json")).unwrap();
     for (line, file) in [
+        #[cfg(unix)]
+        ("snapshot verify s.json --report t.json", "t.json"),
         ("report my --no-audit --out my/scene.json", "my/scene.json"),
         ("lesson ./my/../my/scene.json --out my/scene.json", "my/scene.json"),
         ("scene export my --out my/scene.json", "my/scene.json"),

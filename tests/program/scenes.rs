@@ -116,6 +116,11 @@ fn fields() {
     says(&e, "the scene file", &["missing field `materials`"]);
     let e = refused(|s| s["variant"] = json!("glued"));
     says(&e, "variant", &["\"glued\" is none of stepped, tied, printed"]);
+    let e = refused(|s| s["iterations"] = json!(1_000_000));
+    says(&e, "iterations", &["1000000 on 13 nodes are more than 44247"]);
+    let mut own = scene_json("fig1");
+    own.as_object_mut().unwrap().remove("variant");
+    assert_eq!(build(&own).unwrap().variant, Variant::Unilateral);
 }
 
 /// Those of a scene file are looked at before; these are read by themselves.

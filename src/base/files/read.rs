@@ -9,19 +9,37 @@ use std::sync::{Mutex, PoisonError};
 /// The bytes of a text that is read whole.
 pub const MOST: u64 = 1 << 28;
 
-/// What this process has opened to read, without links on the way.
-static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// What this process has opened to read.
+static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// Returns whether this process has read the file at `path`.
+/// What a file is known by, whatever it is called: its device and its number there.
+#[cfg(unix)]
+type Identity = (u64, u64);
+/// What a file is known by: its path without links.
+#[cfg(not(unix))]
+type Identity = PathBuf;
+
+#[cfg(unix)]
+fn identity(path: &Path) -> io::Result<Identity> {
+    use std::os::unix::fs::MetadataExt;
+    path.metadata().map(|file| (file.dev(), file.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> io::Result<Identity> {
+    path.canonicalize()
+}
+
+/// Returns whether this process has read the file at `path`, under this name or another one.
 pub(super) fn is_input(path: &Path) -> bool {
     let inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
-    path.canonicalize().is_ok_and(|path| inputs.contains(&path))
+    identity(path).is_ok_and(|file| inputs.contains(&file))
 }
 
 fn open(path: &Path) -> io::Result<File> {
     let file = File::open(path)?;
-    if let Ok(path) = path.canonicalize() {
-        INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+    if let Ok(file) = identity(path) {
+        INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(file);
     }
     Ok(file)
 }
