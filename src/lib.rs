@@ -85,7 +85,7 @@ pub mod guide {
 }
 
 pub use base::{child, choices, error, files, limits, plain, suggestion, xml};
-pub use {engine, mathcad, numbers, paper, problem, report, studies};
+pub use {commands, engine, mathcad, numbers, paper, problem, report, studies};
 
 #[doc(inline)]
 pub use engine::error::Error;

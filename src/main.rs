@@ -1,17 +1,15 @@
 //! The command line.
 #![forbid(unsafe_code)]
 
-mod commands;
-
 use std::process::ExitCode;
 use std::thread::Builder;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
-use commands::Command;
-use plane_contact::Error;
 use plane_contact::error::InputError;
 use plane_contact::files;
 use plane_contact::report::failure::failure;
+use plane_contact::studies::command::{self, Command};
+use plane_contact::{Error, commands};
 
 /// Audited reimplementation of a published plane contact algorithm (Filipov & Khomenko): finite
 /// elements, contact pairs by the listing c_cnt, stiffness by the listing Km.
@@ -61,13 +59,13 @@ fn main() -> ExitCode {
     heed_signals();
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
-    let groups = commands::grouped(&Cli::command());
+    let groups = command::grouped(&Cli::command());
     let mut grammar = Cli::command().before_help(groups);
     let parsed = grammar.try_get_matches_from_mut(std::env::args_os());
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(mut why) if why.use_stderr() => {
-            commands::name_subcommands(&mut why, &grammar);
+            command::name_subcommands(&mut why, &grammar);
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }

@@ -4,8 +4,14 @@
 pub mod audit;
 pub mod benchmark;
 pub mod calculix;
+pub mod command;
+pub mod document;
 pub mod extremes;
 pub mod lesson;
+mod listing;
+mod scene;
 pub mod snapshot;
+mod solve;
 pub mod sweep;
 pub mod trade;
+mod worksheet;

@@ -6,6 +6,7 @@
 //!                        +--run--> Row, what came of it; its file is named by the key
 //! ```
 
+pub(crate) mod command;
 pub mod table;
 
 use std::collections::HashMap;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 /// The parts of the workspace, each of which uses those before it only.
-const PARTS: [&str; 8] =
-    ["base", "numbers", "mathcad", "problem", "paper", "engine", "report", "studies"];
+const PARTS: [&str; 9] =
+    ["base", "numbers", "mathcad", "problem", "paper", "engine", "report", "commands", "studies"];
 
 /// The source files below a folder, each with its text.
 fn sources(folder: &Path) -> Vec<(PathBuf, String)> {

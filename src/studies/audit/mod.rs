@@ -3,11 +3,9 @@
 mod assumptions;
 mod case;
 pub mod claims;
+pub(crate) mod command;
 pub mod conclusion;
-pub mod document;
 pub mod findings;
-mod glossary;
-pub mod page;
 pub mod prices;
 pub mod range;
 pub mod readings;

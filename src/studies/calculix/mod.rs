@@ -28,6 +28,8 @@
 //!
 //! Source: G. Dhondt, *CalculiX CrunchiX user's manual*, version 2.20.
 
+pub(crate) mod arguments;
+pub(crate) mod command;
 mod comparison;
 pub mod deck;
 mod fields;

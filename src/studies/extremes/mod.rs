@@ -10,6 +10,7 @@
 
 mod answer;
 mod blocks;
+pub(crate) mod command;
 mod search;
 mod sweep;
 pub mod table;

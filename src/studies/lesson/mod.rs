@@ -1,6 +1,7 @@
 //! A lesson: both listings executed on a small scene, every step kept, under each reading that the
 //! lesson offers.
 
+pub(crate) mod command;
 mod iterations;
 pub mod page;
 mod repairs;

@@ -13,6 +13,7 @@
 
 mod accept;
 mod changes;
+pub(crate) mod command;
 mod compare;
 mod entry;
 mod first;

@@ -10,6 +10,7 @@
 //! Everything but times and the Pareto front, which is drawn from the times, is the same on every run.
 
 mod accuracy;
+pub(crate) mod command;
 mod errors;
 mod measure;
 mod order;

@@ -1,0 +1,252 @@
+//! The arguments that several commands have.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::print_report;
+use base::error::InputError;
+use base::files;
+use base::plain::{shown, six_digits};
+use engine::Request;
+use engine::error::Result;
+use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use paper::mirror::Reading;
+use problem::modelling::{
+    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
+    check_tolerance,
+};
+use problem::scene::{Scene, SceneBuilder};
+use report::json;
+use report::model::Report;
+
+/// The numbers and the solver of a run.
+#[derive(Clone, Copy, clap::Args)]
+pub struct ArithmeticArgs {
+    #[arg(long, value_name = "NAME", default_value = "f64", help = ScalarName::help())]
+    scalar: ScalarName,
+    #[arg(long, value_name = "NAME", help = format!(
+        "{} [default: sparse-cholesky; sparse-lu under printed in f64 and f64-bounded]",
+        Solver::help()
+    ))]
+    solver: Option<Solver>,
+    #[arg(long, value_name = "NAME", default_value = "binary", help = format!(
+        "What the numbers of the scene stand for. {}",
+        Inputs::help()
+    ))]
+    inputs: Inputs,
+}
+
+impl From<ArithmeticArgs> for Arithmetic {
+    fn from(args: ArithmeticArgs) -> Self {
+        let ArithmeticArgs { scalar, solver, inputs } = args;
+        Arithmetic { scalar, solver, inputs }
+    }
+}
+
+/// The option of the commands that execute or mirror a listing.
+#[derive(clap::Args)]
+pub struct ReadingArg {
+    /// The readings that differ from the default.
+    #[arg(long, value_name = "LIST", default_value = "", hide_default_value = true,
+        help = Reading::help())]
+    pub reading: Reading,
+}
+
+/// How a scene is run.
+#[derive(clap::Args)]
+pub struct RunArgs {
+    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
+    variant: Option<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    arithmetic: ArithmeticArgs,
+    #[command(flatten)]
+    reading: ReadingArg,
+}
+
+impl RunArgs {
+    /// Returns what is asked of a scene.
+    pub fn request(&self, scene: &Scene) -> Request {
+        let request = self.model.request(scene, self.variant, &self.reading);
+        request.arithmetic(self.arithmetic.into())
+    }
+}
+
+/// How contact is modelled beyond what the paper prints, in place of what the scene says.
+#[derive(clap::Args)]
+pub struct ModelArgs {
+    #[arg(long, help = format!("{} [default: the scene's]", Coupling::help()))]
+    coupling: Option<Coupling>,
+    /// Under unilateral: Coulomb's coefficient, 0 (contact nodes slide freely), or stick (they never
+    /// slide); under printed, tied and stepped it changes only the equilibrium that they are
+    /// compared with [default: the scene's].
+    #[arg(long, value_name = "MU")]
+    friction: Option<Friction>,
+    #[arg(long, help = format!(
+        "Under unilateral, the shape in which contact is measured. {} [default: the scene's]",
+        Geometry::help()
+    ))]
+    geometry: Option<Geometry>,
+    /// Under unilateral with friction, the number of equal steps in which the load of a stage grows
+    /// [default: the scene's, or 16].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    load_steps: Option<u32>,
+    #[arg(long, value_name = "RULE", help = format!(
+        "Under tied and stepped, who is in contact. {} [default: the scene's]",
+        StatusRule::help()
+    ))]
+    status: Option<StatusRule>,
+}
+
+impl ModelArgs {
+    /// Asks for what is given, and for the rest what `scene` has.
+    pub fn request(
+        &self,
+        scene: &Scene,
+        variant: Option<Variant>,
+        reading: &ReadingArg,
+    ) -> Request {
+        let contact = ContactModel {
+            coupling: self.coupling.unwrap_or(scene.contact.coupling),
+            friction: self.friction.unwrap_or(scene.contact.friction),
+            geometry: self.geometry.unwrap_or(scene.contact.geometry),
+            load_steps: self.load_steps.map_or(scene.contact.load_steps, |n| n as usize),
+            status: self.status.unwrap_or(scene.contact.status),
+        };
+        Request::new(scene)
+            .contact(contact)
+            .variant(variant.unwrap_or(scene.variant))
+            .reading(reading.reading)
+    }
+}
+
+/// What a run changes of its scene; the result is that of a scene file edited so.
+#[derive(clap::Args)]
+pub struct SceneArgs {
+    /// The tolerance of the contact search in place of the scene's, length.
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    c_tll: Option<f64>,
+    /// The number of iterations of printed, tied and stepped in place of the scene's.
+    #[arg(long, value_name = "N")]
+    iterations: Option<usize>,
+    /// Multiply all loads of the scene.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    load_factor: Option<f64>,
+}
+
+impl SceneArgs {
+    /// Returns the scene as it is with the changes.
+    ///
+    /// # Errors
+    /// A value is out of its range, or the scene has no contact that has a tolerance.
+    pub fn change(&self, scene: Scene) -> Result<Scene> {
+        let Some((description, mesh)) = scene.source().filter(|_| !self.names().is_empty()) else {
+            return Ok(scene);
+        };
+        let (mut description, mesh) = (description.clone(), mesh.clone());
+        let at = |option: &'static str| move |why| InputError { place: option.into(), ..why };
+        if let Some(tolerance) = self.c_tll {
+            check_tolerance(tolerance).map_err(at("--c-tll"))?;
+            let contact = description.contact.as_mut().ok_or_else(|| {
+                InputError::new("--c-tll", "the scene has no contact", "leave it out")
+            })?;
+            contact.tolerance = tolerance;
+        }
+        if let Some(iterations) = self.iterations {
+            check_iterations(iterations).map_err(at("--iterations"))?;
+            description.iterations = iterations;
+        }
+        if let Some(factor) = self.load_factor
+            && !description.loads.iter_mut().all(|load| load.scale(factor))
+        {
+            let what = format!("{} times the loads is no finite number", six_digits(factor));
+            let fix = "give a number such as 0.5";
+            return Err(InputError::new("--load-factor", what, fix).into());
+        }
+        Ok(SceneBuilder { name: scene.name.clone(), mesh, description }.build()?)
+    }
+
+    /// Returns the changes as parts of a folder's name.
+    pub fn names(&self) -> Vec<String> {
+        let c_tll = self.c_tll.map(|x| format!("c-tll-{x:e}"));
+        let iterations = self.iterations.map(|n| format!("iterations-{n}"));
+        let factor = self.load_factor.map(|x| format!("load-factor-{x}"));
+        [c_tll, iterations, factor].into_iter().flatten().collect()
+    }
+}
+
+/// The most bytes of a file of listings; the paper's two have 5,000.
+pub const LARGEST_LISTING: u64 = 1 << 24;
+
+/// Reads a file of listings.
+pub fn read_listing(path: &Path) -> Result<String, InputError> {
+    let file = files::read_most(path, LARGEST_LISTING);
+    file.and_then(files::text).map_err(|why| {
+        let what = format!("the listing cannot be read: {why}");
+        InputError::new(shown(path), what, "give the path of a text file of listings")
+    })
+}
+
+/// Returns the name of the default folder of a run: `start`, and every option that differs from what
+/// the scene and the program do by themselves, so that no two results share one.
+pub fn folder_name(start: String, request: &Request, more: &[String]) -> String {
+    let Request { scene, contact, arithmetic, reading, .. } = request;
+    let (own, plain) = (scene.contact, Arithmetic::default());
+    let mut name = start;
+    let mut add = |differs: bool, option: String| {
+        if differs {
+            name += &format!("-{option}");
+        }
+    };
+    add(contact.coupling != own.coupling, contact.coupling.to_string());
+    add(contact.friction != own.friction, format!("friction-{}", contact.friction));
+    add(contact.geometry != own.geometry, contact.geometry.to_string());
+    add(contact.load_steps != own.load_steps, format!("load-steps-{}", contact.load_steps));
+    add(contact.status != own.status, contact.status.to_string());
+    add(arithmetic.scalar != plain.scalar, arithmetic.scalar.to_string());
+    add(arithmetic.solver != plain.solver, request.solver().to_string());
+    add(arithmetic.inputs != plain.inputs, arithmetic.inputs.to_string());
+    add(*reading != Reading::default(), reading.to_string());
+    more.iter().for_each(|option| add(true, option.clone()));
+    name
+}
+
+/// The folder that is asked for, else `name` in the folder `out`.
+pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
+    asked.clone().unwrap_or_else(|| Path::new("out").join(name))
+}
+
+/// The file that tells that a folder of tables is this program's: CSV has no place for it.
+const TABLES: &str = "tables.json";
+
+/// Where tables go beside standard output.
+#[derive(clap::Args)]
+pub struct TablesArgs {
+    /// Write each table that is printed to a folder too, as CSV.
+    #[arg(long, value_name = "DIR", conflicts_with = "json")]
+    csv: Option<PathBuf>,
+}
+
+impl TablesArgs {
+    /// Checks that tables can be written, before they are computed.
+    ///
+    /// # Errors
+    /// Those of [`files::check_folder`].
+    pub fn check(&self) -> Result<()> {
+        Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &[TABLES]))?)
+    }
+
+    /// Prints a report, and writes its tables; [`TABLES`], which names them, marks their folder.
+    pub fn print(&self, report: Report) -> Result<()> {
+        if let Some(folder) = &self.csv {
+            let tables = report.csv().into_iter();
+            let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
+            let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
+            let mark = json::line(None, &BTreeMap::from([("tables", names)]));
+            tables.push((TABLES.into(), mark));
+            files::write_all(folder, &tables)?;
+        }
+        print_report(report)
+    }
+}

@@ -1,0 +1,121 @@
+//! How a command prints, and shows that it is at work.
+
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use base::error::InputError;
+use base::files;
+use base::plain::shown;
+use engine::error::{Error, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use report::model::Report;
+use report::text::fitted;
+
+/// Prints a document or a file to standard output, as it is; a reader that has gone away (`| head`)
+/// is no error. Text for people goes through [`print_fitted`].
+pub fn print(text: &str) -> Result<()> {
+    print_by(|out| out.write_all(text.as_bytes()))
+}
+
+/// Prints to standard output what `write` writes, as it comes.
+fn print_by(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
+            let what = format!("cannot be written: {why}");
+            let fix = "direct it to a place that can be written";
+            Err(InputError::new("standard output", what, fix).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says where an error of the input stands.
+pub fn within(error: Error, place: &str) -> Error {
+    match error {
+        Error::Input(error) => error.within(place).into(),
+        other => other,
+    }
+}
+
+/// Prints to standard error that files were written to `folder`.
+pub fn report_written(folder: &Path) {
+    print_stderr(&format!("Written to {}\n", shown(folder)));
+}
+
+/// Prints to standard error, for people; where that cannot be written, results and exit status are as
+/// if it could.
+pub fn print_stderr(text: &str) {
+    let _ = std::io::stderr().write_all(fitted(text, width()).as_bytes());
+}
+
+/// Shows the help that was asked for, with the styles of a terminal where it fits.
+pub fn help(asked: &clap::Error) -> Result<()> {
+    let text = asked.render().to_string();
+    let fits = text.lines().all(|line| line.chars().count() <= width());
+    if fits { print_by(|_| asked.print()) } else { print_fitted(&text) }
+}
+
+/// Prints an error to standard error; returns its exit status.
+pub fn report_error(error: &Error) -> u8 {
+    print_stderr(&format!("error: {error}\n"));
+    error.exit_status()
+}
+
+/// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows
+/// only in a terminal.
+pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
+    let spinner = ProgressBar::new_spinner().with_message(what);
+    spinner.enable_steady_tick(Duration::from_millis(500));
+    let result = work();
+    spinner.finish_and_clear();
+    result
+}
+
+/// Prints a report, fitted to the terminal.
+pub fn print_report(report: Report) -> Result<()> {
+    print(&report.text(width()))
+}
+
+/// Prints lines of prose, fitted to the terminal.
+pub fn print_fitted(text: &str) -> Result<()> {
+    print(&fitted(text, width()))
+}
+
+/// Prints a document, or in its place a report.
+pub fn print_either(
+    json: bool,
+    document: impl FnOnce() -> String,
+    report: impl FnOnce() -> Report,
+) -> Result<()> {
+    if json { print(&document()) } else { print_report(report()) }
+}
+
+/// Returns the characters of a line: those of the terminal; where there is none, of the variable
+/// COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
+pub fn width() -> usize {
+    let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());
+    terminal.or_else(columns).map_or(usize::MAX, |width: usize| width.max(40))
+}
+
+/// Writes to the file that is asked for, else to standard output.
+pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
+    match file {
+        Some(path) => Ok(files::write(path, text)?),
+        None => print(text),
+    }
+}
+
+/// A progress bar on standard error; it shows only in a terminal.
+pub fn progress(steps: usize, template: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(template).expect("the template is sound");
+    let bar = ProgressBar::new(steps as u64).with_style(style);
+    // What nobody sees needs no thread.
+    if !bar.is_hidden() {
+        bar.enable_steady_tick(Duration::from_millis(500));
+    }
+    bar
+}

@@ -1,0 +1,243 @@
+//! `plane-contact audit`.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use crate::audit::claims::{CLAIMS, Claim, by_reading};
+use crate::audit::conclusion::Conclusion;
+use crate::audit::findings::{FINDINGS, Finding};
+use crate::audit::prices::{self, Compared};
+use crate::audit::range::{Range, range};
+use crate::audit::{Audit, Case, audit, steps};
+use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
+use ::report::folder::FolderOptions;
+use ::report::{folder, pressure};
+use base::error::InputError;
+use base::files;
+use base::suggestion::did_you_mean;
+use engine::error::Result;
+use engine::{Assessment, Hertz, Solution};
+use paper::mirror::Reading;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+
+use commands::{ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting};
+
+/// Show what every ambiguity and every finding does on a scene.
+#[derive(clap::Args)]
+#[command(after_help = "\
+First the conclusion: five answers, each with its number and the command that prints it. Then the
+claims of the paper with their verdicts, how far each reaches, and what they assume; then three
+tables: the readings (what each other value changes), the findings (present, not triggered here,
+contradicted; with a number), and the variants side by side. --finding explains one on its smallest
+scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
+threshold, value, and the verdict under each other reading. --reading audits under another reading
+than the default, to see whether it rescues a claim. All figures are repeated on inputs that
+mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
+takes 150 to 300 times as long as solve.
+
+A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
+status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
+
+Examples:
+  plane-contact audit
+  plane-contact audit fig1 --json
+  plane-contact audit --range
+  plane-contact audit --finding C4
+  plane-contact audit strand --finding K1
+  plane-contact audit fig1 --prices
+  plane-contact audit fig1 --prices --repairs --out out/prices    prices.json, prices.svg
+  plane-contact audit --prices --range
+  plane-contact audit --claim P12
+  plane-contact audit --reading R1=inside,R5=node_n
+  plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
+                                                  a picture a finding and a variant")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the
+    /// finding's own].
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// Explain one finding.
+    #[arg(long, value_name = "ID")]
+    finding: Option<String>,
+    /// Explain and judge one claim of the paper.
+    #[arg(long, value_name = "ID", conflicts_with = "finding")]
+    claim: Option<String>,
+    /// Judge the claims over the range of what the paper leaves open too (trade --only geometry
+    /// says which); takes several times as long.
+    #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
+    range: bool,
+    /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
+    /// back, and show what each costs. It takes half a minute on strand. Of --reading only what
+    /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
+    #[arg(long, conflicts_with_all = ["finding", "claim"])]
+    prices: bool,
+    /// Then repair the print one finding after the other. The order is found from the end: faults are
+    /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
+    #[arg(long, requires = "prices", conflicts_with = "range")]
+    repairs: bool,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
+    /// Write the tables, JSON and pictures to a folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    if let Some(id) = &args.finding {
+        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id)?);
+    }
+    if let Some(id) = &args.claim {
+        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id)?);
+    }
+    if args.prices { prices(args) } else { whole(args) }
+}
+
+fn prices(args: &Args) -> Result<()> {
+    args.tables.check()?;
+    let reading = args.reading.reading;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
+    let case = Case::within_memory(&scene, reading)?;
+    let places = places(args)?;
+    let compared = Compared::new(&case)?;
+    let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
+    let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
+    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let watch = || bar.inc(1);
+    let alone = compared.prices(&watch);
+    let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
+    let range = prices::over_range(&places, &watch);
+    bar.finish_and_clear();
+    let document =
+        price_report::Document { reading, prices: &alone, repairs: &repairs, range: &range };
+    let json = price_report::json(&document, &scene);
+    if let Some(out) = &args.out {
+        let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
+        let files: Vec<_> = picture.into_iter().chain([("prices.json", json.clone())]).collect();
+        files::write_all(out, &files)?;
+    }
+    if args.json {
+        return print(&json);
+    }
+    args.tables.print(price_report::report(&document, &scene))
+}
+
+/// Returns the places of the range, none where they are not asked for.
+fn places(args: &Args) -> Result<Range> {
+    let reading = args.reading.reading;
+    if !args.range {
+        return Ok(Vec::new());
+    }
+    if reading.r8 != Reading::default().r8 {
+        let what = "R8, the unit of c_tol, is one of the things that the range tries";
+        return Err(InputError::new("--reading", what, "leave R8 or --range out").into());
+    }
+    Ok(range(reading)?)
+}
+
+/// Finds what a register lists under an id.
+fn listed<T>(
+    option: &str,
+    id: &str,
+    register: &'static [T],
+    id_of: fn(&T) -> &'static str,
+) -> Result<&'static T, InputError> {
+    register.iter().find(|entry| id_of(entry).eq_ignore_ascii_case(id)).ok_or_else(|| {
+        let ids: Vec<&str> = register.iter().map(id_of).collect();
+        let what = option.trim_start_matches('-');
+        InputError::new(
+            option,
+            format!("there is no {what} {id:?}"),
+            format!("{}the {what}s are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
+        )
+    })
+}
+
+/// Judges one claim on the scene.
+fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
+    let reading = args.reading.reading;
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
+    let case = Case::within_memory(&scene, reading)?;
+    let (judged, by_reading) = waiting("judging", || {
+        (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
+    });
+    let document = claims::Document { judged: &judged, by_reading: &by_reading };
+    let json = claims::claim_json(&document, &case.scene);
+    if let Some(out) = &args.out {
+        files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
+    }
+    print_either(args.json, || json, || claims::explanation(&document, &case.scene, &reading))
+}
+
+fn explain(args: &Args, finding: &Finding) -> Result<()> {
+    let scene = match &args.scene {
+        Some(scene) => Scene::open(scene)?,
+        None => finding.scene(),
+    };
+    let reading = args.reading.reading;
+    let case = Case::within_memory(&scene, reading)?;
+    let measured = finding.measure(&case);
+    let json = || report::finding_json(finding, &measured, &case.scene);
+    if let Some(out) = &args.out {
+        let picture = folder::finding_picture(finding.id, &case.scene);
+        let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
+        files::write_all(out, &[(svg, picture), (document, json())])?;
+    }
+    print_either(args.json, json, || report::explanation(finding, &measured, &case.scene, &reading))
+}
+
+fn whole(args: &Args) -> Result<()> {
+    args.tables.check()?;
+    if let Some(out) = &args.out {
+        files::check_folder(out, &["audit.txt", "audit.json"])?;
+    }
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
+    let reading = args.reading.reading;
+    let case = Case::within_memory(&scene, reading)?;
+    let places = places(args)?;
+    if !std::io::stderr().is_terminal() {
+        print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
+    }
+    let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
+    let found = audit(&case, &places, &|| bar.inc(1));
+    bar.finish_and_clear();
+    let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
+    let json = report::json(&found, &conclusion, &case.scene);
+    let report = report::report(&found, &conclusion, &case.scene);
+    if let Some(out) = &args.out {
+        write(out, &case, &found, &report.text(usize::MAX), &json)?;
+    }
+    if args.json { print(&json) } else { args.tables.print(report) }
+}
+
+/// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
+fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
+    let mut files: Vec<(String, Vec<u8>)> = vec![("audit.txt".into(), text.into())];
+    for (finding, _) in &audit.findings {
+        let picture = folder::finding_picture(finding.id, &finding.scene());
+        files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
+    }
+    let others = [case.reference(), case.equilibrium()];
+    for variant in Variant::ALL {
+        if let Ok(solution) = case.run(*variant) {
+            let assessment = Assessment::against(solution, others);
+            let of_run = folder::contents(solution, &assessment, None, FolderOptions::default());
+            let named =
+                of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
+            files.extend(named);
+        }
+    }
+    let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
+    let runs: Vec<&Solution> = own.chain(others.into_iter().flatten()).collect();
+    if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
+        let picture = pressure::picture(&case.scene, &runs, Hertz::from_solution(last).as_ref());
+        files.push(("pressure.svg".into(), picture.into_bytes()));
+    }
+    files.push(("audit.json".into(), json.into()));
+    Ok(files::write_all(out, &files)?)
+}

@@ -1,0 +1,69 @@
+//! What `plane-contact compare` and `plane-contact scene export` share.
+
+use std::path::Path;
+
+use crate::calculix::{Contact, ContactKind, Pair, Part};
+use engine::error::Result;
+use engine::{self, Solution};
+use problem::modelling::Variant;
+use problem::scene::Scene;
+
+use commands::{ModelArgs, ReadingArg, waiting};
+
+base::choices! {
+    /// A code that a scene is exported to and compared with.
+    Code {
+        /// CalculiX.
+        Calculix = "calculix",
+    }
+}
+
+/// How CalculiX has contact.
+#[derive(clap::Args)]
+pub struct DeckArgs {
+    /// equation: the constraints of the last iteration; pair: the other code's own contact, by
+    /// penalty.
+    #[arg(long, default_value_t = ContactKind::Equation)]
+    pub contact: ContactKind,
+    /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
+    #[arg(long)]
+    pub variant: Option<Variant>,
+    #[command(flatten)]
+    pub reading: ReadingArg,
+    /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the
+    /// target's mean edge].
+    #[arg(long, value_name = "K", value_parser = penalty)]
+    pub penalty: Option<f64>,
+    #[command(flatten)]
+    pub model: ModelArgs,
+}
+
+fn penalty(text: &str) -> Result<f64, String> {
+    let penalty: f64 = text.parse().map_err(|_| "it is no number".to_string())?;
+    let positive = Some(penalty).filter(|x| *x > 0.0 && x.is_finite());
+    positive.ok_or_else(|| "it is not positive".into())
+}
+
+impl DeckArgs {
+    /// The run that is compared.
+    pub fn solve(&self, scene: &Path) -> Result<Solution> {
+        let scene = Scene::open(scene)?;
+        let request = self.model.request(&scene, self.variant, &self.reading);
+        if self.contact == ContactKind::Equation {
+            Contact::check_equations(request.variant)?;
+        }
+        waiting("solving", || engine::solve(&request, &mut |_| ()))
+    }
+
+    /// The problems whose sum is the run; the last iteration's comes last.
+    pub fn parts(&self, solution: &Solution) -> Result<Vec<Part>> {
+        match self.contact {
+            ContactKind::Equation => Ok(Contact::parts(solution)?),
+            ContactKind::Pair => {
+                let friction = solution.request.contact.friction;
+                let pair = Pair::new(&solution.model, self.penalty, friction);
+                Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
+            }
+        }
+    }
+}

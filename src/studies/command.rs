@@ -1,0 +1,93 @@
+//! The commands of the program, each of which stands in the folder of what it does.
+
+use clap::Subcommand;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+use crate::{
+    audit, calculix, document, extremes, lesson, listing, scene, snapshot, solve, sweep, trade,
+    worksheet,
+};
+use engine::error::Result;
+
+/// A command, with what it is asked for; help has the words of what each asks for.
+#[allow(missing_docs)]
+#[derive(Subcommand)]
+pub enum Command {
+    Solve(solve::Args),
+    Extremes(extremes::command::Args),
+    Trade(trade::command::Args),
+    #[command(subcommand)]
+    Sweep(sweep::command::Command),
+    Audit(audit::command::Args),
+    Report(document::command::Args),
+    Lesson(lesson::command::Args),
+    Compare(calculix::command::Args),
+    #[command(subcommand)]
+    Listing(listing::Command),
+    #[command(subcommand)]
+    Mathcad(worksheet::Command),
+    #[command(subcommand)]
+    Snapshot(snapshot::command::Command),
+    #[command(subcommand)]
+    Scene(scene::Command),
+}
+
+impl Command {
+    /// Runs the command; returns the exit status.
+    pub fn run(self) -> Result<u8> {
+        let done = |()| 0;
+        match self {
+            Command::Solve(args) => solve::run(&args),
+            Command::Extremes(args) => extremes::command::run(&args).map(done),
+            Command::Trade(args) => trade::command::run(&args).map(done),
+            Command::Sweep(command) => sweep::command::run(&command).map(done),
+            Command::Audit(args) => audit::command::run(&args).map(done),
+            Command::Report(args) => document::command::run(&args).map(done),
+            Command::Lesson(args) => lesson::command::run(&args).map(done),
+            Command::Compare(args) => calculix::command::run(&args).map(done),
+            Command::Listing(command) => listing::run(&command),
+            Command::Mathcad(command) => worksheet::run(&command),
+            Command::Snapshot(command) => snapshot::command::run(&command),
+            Command::Scene(command) => scene::run(&command).map(done),
+        }
+    }
+}
+
+/// The commands as the first page of help groups them.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Compute", &["solve", "compare", "trade", "extremes", "sweep"]),
+    ("Audit and teach", &["audit", "report", "lesson"]),
+    ("Listings and Mathcad", &["listing", "mathcad"]),
+    ("Snapshots", &["snapshot"]),
+    ("Scenes", &["scene"]),
+];
+
+/// Returns the list of the commands by group, each with what it does.
+pub fn grouped(grammar: &clap::Command) -> String {
+    let row = |name: &&str| {
+        let command = grammar.find_subcommand(name).expect("a group has commands that exist");
+        let about = command.get_about().expect("a command says what it does");
+        format!("  {name:<9} {about}\n")
+    };
+    let group = |(heading, names): &(&str, &[&str])| {
+        format!("{heading}:\n{}", names.iter().map(row).collect::<String>())
+    };
+    GROUPS.iter().map(group).collect::<Vec<_>>().join("\n").trim_end().to_string()
+}
+
+/// Adds to the error about a command that is not there the names of those that are, where none of
+/// them is similar.
+pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
+    let is_unlike = why.kind() == ErrorKind::InvalidSubcommand
+        && why.get(ContextKind::SuggestedSubcommand).is_none();
+    if !is_unlike {
+        return;
+    }
+    let group = std::env::args_os()
+        .skip(1)
+        .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
+    let names = group.get_subcommands().map(clap::Command::get_name);
+    let names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    let tip = format!("there are {}", names.join(", "));
+    why.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+}

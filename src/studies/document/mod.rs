@@ -1,0 +1,217 @@
+//! The audit report that a referee hands in, as one report: HTML and Markdown are renderings of it.
+
+pub(crate) mod command;
+mod glossary;
+pub mod page;
+
+use crate::audit::Audit;
+use crate::audit::claims::Verdict as ClaimVerdict;
+use crate::audit::conclusion::Conclusion;
+use crate::audit::findings::Verdict;
+use crate::audit::prices::Price;
+use crate::audit::variants::End;
+use crate::audit::{claims::table as claims, prices::table as prices, tables as audit};
+use crate::calculix::table::{self as comparison, Compared};
+use engine::{Assessment, Hertz, Solution, TriangleValues};
+use paper::listings::Which;
+use problem::modelling::Variant;
+use problem::scene::{Scene, sha256_of};
+use report::folder::field_picture;
+use report::layout::listed;
+use report::model::{Report, Table};
+use report::picture::{self, Drawing};
+use report::quantities::triangle_array;
+use report::{pressure, tables};
+
+/// What an audit report is made of.
+pub struct Contents<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The command that makes the report again.
+    pub command: String,
+    /// What was asked, in words: what, and what it was set to.
+    pub asked: Vec<(&'static str, String)>,
+    /// The audit and its conclusion, where it was asked for.
+    pub audit: Option<(&'a Audit, &'a Conclusion)>,
+    /// The print, repaired one finding at a time; empty where that was not asked for.
+    pub repairs: Vec<Price>,
+    /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
+    pub runs: Vec<Run<'a>>,
+    /// The run beside CalculiX.
+    pub calculix: Option<Compared<'a>>,
+    /// Charts of `trade`: name and SVG.
+    pub charts: Vec<(String, String)>,
+}
+
+/// A run of a report.
+pub struct Run<'a> {
+    /// What was computed.
+    pub solution: &'a Solution,
+    /// What is said of its errors.
+    pub assessment: Assessment<'a>,
+}
+
+/// Returns the audit report: the conclusion, what it rests on, and what makes it again.
+pub fn document(contents: &Contents) -> Report {
+    let Contents { scene, charts, .. } = contents;
+    let report = match contents.audit {
+        Some((audit, conclusion)) => audited(audit, conclusion, &contents.repairs, scene),
+        None => Report::titled(format!("Runs of scene {} ({})", scene.name, scene.title))
+            .then(what_was_audited()),
+    };
+    let charts =
+        charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
+    report
+        .then(figures(contents))
+        .then(other_codes(contents))
+        .then(contents.audit.map_or(Report::default(), |(audit, _)| unchecked(audit)))
+        .then(charts)
+        .then(glossary::report())
+        .then(origin(contents))
+}
+
+fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Scene) -> Report {
+    let findings =
+        Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
+    let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
+        report.then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
+    });
+    audit::opening(audit, conclusion, scene)
+        .then(what_was_audited())
+        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
+        .then(prices::section(conclusion.reading, &audit.prices, repairs, scene))
+        .then(audit::evidence(audit))
+        .then(findings)
+}
+
+/// Says what the paper does, and what stands beside it.
+fn what_was_audited() -> Report {
+    Report::default()
+        .heading("What was audited")
+        .line(
+            "The paper: A. M. Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом конечных \
+             элементов» (plane contact by the finite element method), Инженерный вестник Дона. It meshes two \
+             elastic bodies with three-node triangles, finds which nodes of the stamp touch which edges of the \
+             block, ties them together by its eq. (1), and solves. It prints two listings for Mathcad: `c_cnt` \
+             (fig. 2) finds the contact, `Km` (fig. 3) assembles the stiffness matrix. Figure 4 is its mesh, \
+             figure 5 its von Mises stress and strain.",
+        )
+        .line(
+            "This program executes both listings as printed. Beside their results stands a \
+             solution of the same scene on the same mesh that fulfils the contact conditions: the equilibrium \
+             under friction, and without friction the reference solution. The method is run in these variants:",
+        )
+        .notes(Variant::help().split("; "))
+        .line("Every term is defined in the glossary at the end.")
+}
+
+/// Shows this project's own figures 4 and 5, of the last run, then pressure, shear and gap of all runs.
+fn figures(contents: &Contents) -> Report {
+    let Some(Run { solution, assessment }) = contents.runs.last() else { return Report::default() };
+    let scene = contents.scene;
+    let drawing = Drawing::new(scene, &scene.title);
+    let name = pressure::name(solution);
+    let report = Report::default()
+        .heading("This project's own figures 4 and 5")
+        .line(format!(
+            "Figure 5 is of the run {name}. `plane-contact solve` writes such pictures of every run to a folder."
+        ))
+        .figure("Figure 4: the mesh", picture::mesh(&drawing));
+    let triangles = TriangleValues::all(solution, None);
+    let fields = [("a", "von_mises_stress"), ("b", "von_mises_strain")];
+    let report = fields.into_iter().fold(report, |report, (figure, field)| {
+        let quantity = TriangleValues::QUANTITIES.iter().find(|quantity| quantity.name == field);
+        let quantity = quantity.expect("it is declared");
+        match triangle_array(quantity, &triangles, &scene.units) {
+            Some(array) => report.figure(
+                format!("Figure 5{figure}: {} of {name}", quantity.title),
+                field_picture(&drawing, solution, quantity.title, &array),
+            ),
+            None => report,
+        }
+    });
+    let surface = if solution.contact.is_empty() { Report::default() } else { surface(contents) };
+    report.then(tables::error_estimates(solution, assessment)).then(surface)
+}
+
+/// Shows pressure, shear and gap along the contact surface, a curve of each run.
+fn surface(contents: &Contents) -> Report {
+    let runs: Vec<&Solution> = contents.runs.iter().map(|run| run.solution).collect();
+    let hertz = runs.iter().rev().find_map(|run| Hertz::from_solution(run));
+    let picture = pressure::picture(contents.scene, &runs, hertz.as_ref());
+    let [shear, gap] = pressure::shear_and_gap(contents.scene, &runs);
+    Report::default()
+        .heading("Contact surface")
+        .figure("Contact pressure of every run", picture)
+        .figure("Contact shear of every run", shear)
+        .figure("Gap of every run, below 0 where a node penetrates", gap)
+}
+
+/// Reports the differences from CalculiX, or how they are found.
+fn other_codes(contents: &Contents) -> Report {
+    let report = Report::default().heading("Differences from another code");
+    match &contents.calculix {
+        Some(compared) => report.then(comparison::report(compared).deeper(2)),
+        None => report.line(format!(
+            "No other code was run here. `plane-contact report {} --ccx` runs CalculiX by its own contact \
+             beside the variant unilateral.",
+            contents.scene.name
+        )),
+    }
+}
+
+/// Reports the claims that cannot be checked, the runs that stop, and the findings that are not
+/// triggered.
+fn unchecked(audit: &Audit) -> Report {
+    let claims = audit.claims.iter().filter(|j| j.measured.verdict == ClaimVerdict::NotCheckable);
+    let claims = claims.map(|judged| {
+        let claim = &judged.claim;
+        format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
+    });
+    let variants = audit.variants.iter().filter_map(|row| match &row.end {
+        End::Failure { failure } => {
+            Some(format!("variant {}, which stops: {}", row.variant, audit::in_short(failure)))
+        }
+        End::Result { .. } => None,
+    });
+    let readings = audit.readings.iter().filter_map(|effect| {
+        let why = audit::in_short(effect.failure.as_deref()?);
+        Some(format!("reading {}, which stops: {why}", effect.reading))
+    });
+    let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Verdict::NotTriggered);
+    let untriggered: Vec<&str> = untriggered.map(|(finding, _)| finding.id).collect();
+    let findings = (!untriggered.is_empty()).then(|| {
+        let ids = listed(&untriggered);
+        format!(
+            "findings that this scene does not trigger, each shown on its own smallest scene: {ids}"
+        )
+    });
+    Report::default()
+        .heading("What could not be checked on this scene")
+        .notes(claims)
+        .notes(variants)
+        .notes(readings)
+        .notes(findings)
+}
+
+/// Reports what makes the report again: the command, and what it starts from.
+fn origin(contents: &Contents) -> Report {
+    let Contents { scene, command, asked, .. } = contents;
+    let hashes = scene.hashes().into_iter().flatten().cloned();
+    let hashes = ["scene, SHA-256", "mesh, SHA-256"].into_iter().zip(hashes);
+    let listings = [("listing c_cnt, SHA-256", Which::CCnt), ("listing Km, SHA-256", Which::Km)];
+    let listings = listings.map(|(what, which)| (what, hash(which.text())));
+    let rows: Vec<(&str, String)> = asked.iter().cloned().chain(hashes).chain(listings).collect();
+    let table = Table::from_rows(rows)
+        .column("what", |(what, _)| *what)
+        .column("set to", |(_, value)| value.clone());
+    Report::default()
+        .heading("How to make this report again")
+        .line("One command computes every number and draws every figure:")
+        .code(command)
+        .table("Program, scene and options", table)
+}
+
+fn hash(text: &str) -> String {
+    sha256_of(text.as_bytes()).expect("memory can be read")
+}

@@ -1,0 +1,115 @@
+//! `plane-contact lesson`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::audit::Case;
+use crate::audit::findings::{Evidence, FINDINGS, Finding};
+use crate::lesson::page::{self as page, Chapter};
+use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
+use base::files;
+use base::plain::shown;
+use engine::error::Result;
+use paper::edited::Edited;
+use problem::model::Model;
+use problem::scene::Scene;
+use report::language::Language;
+
+use commands::{read_listing, report_written, waiting};
+
+/// Write a lesson: both listings, stepped forwards and backwards on a scene.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The page is one file that opens offline. It shows the listing as printed with the current line lit,
+the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and
+the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene;
+one goes from the print to the right answer, a repair at a time.
+
+Examples:
+  plane-contact lesson
+  plane-contact lesson two-blocks --out two-blocks.html
+  plane-contact lesson strand --nodes 113,114
+  plane-contact lesson fig1 --listing my-c_cnt.txt       an edited listing beside the printed one
+  plane-contact lesson --lang ru                         in Russian")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one [default: fig1].
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    /// Show the turns of these contact nodes only, and the triangles at them.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    nodes: Vec<usize>,
+    /// An edited listing, offered beside the printed one.
+    #[arg(long, value_name = "FILE")]
+    listing: Option<PathBuf>,
+    /// The language of the page: en, ru; messages of the interpreter stay English.
+    #[arg(long, default_value_t)]
+    lang: Language,
+    /// The file of the page [default: out/lesson.html].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
+    files::write(&out, &lesson(args)?)?;
+    report_written(&out);
+    Ok(())
+}
+
+fn lesson(args: &Args) -> Result<String> {
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("fig1")))?;
+    let mut asked = vec![Switch::as_printed()];
+    if let Some(file) = &args.listing {
+        let edited = Edited::new(&shown(file), &read_listing(file)?)?;
+        asked.push(Switch::edited(edited.which, edited.listing()));
+    }
+    let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
+        // Refuses what a page cannot show.
+        for switch in asked.clone() {
+            execute(&scene, switch, &args.nodes)?;
+        }
+        let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
+        let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
+        let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
+        let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
+        chapters.chain(FINDINGS.iter().map(chapter)).collect()
+    })?;
+    Ok(page::html(&chapters, args.lang))
+}
+
+/// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such way.
+fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
+    let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
+    let (scene, nodes, (repairs, iterations)) = match found {
+        Some(found) => found,
+        None => {
+            let fig1 = Scene::open("fig1")?;
+            let found = Repairs::new(&fig1).expect("the corrected algorithm solves fig. 1");
+            (fig1, vec![], found)
+        }
+    };
+    let printed = Switch::as_printed();
+    let model = printed.model(&scene)?;
+    let runs = vec![(printed, model)];
+    Ok(Chapter { scene, runs, nodes, finding: None, repairs: Some(repairs), iterations })
+}
+
+/// Returns the chapter of a finding, on the smallest scene that shows it.
+fn chapter(finding: &'static Finding) -> Result<Chapter> {
+    let case = Case::new(finding.scene());
+    let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
+    let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
+    let measured = finding.measure(&case);
+    Ok(opened(case.scene, runs, vec![], Some((finding, measured))))
+}
+
+/// Returns a chapter with its iterations, on the model of its first run.
+fn opened(
+    scene: Scene,
+    runs: Vec<(Switch, Arc<Model>)>,
+    nodes: Vec<usize>,
+    finding: Option<(&'static Finding, Evidence)>,
+) -> Chapter {
+    let iterations = Iterations::new(&scene, &runs[0].1);
+    Chapter { scene, runs, nodes, finding, repairs: None, iterations }
+}

@@ -1,0 +1,27 @@
+//! `plane-contact listing`.
+
+mod evaluate;
+mod run;
+
+use engine::error::Result;
+
+/// Run a listing of the paper, or evaluate a program in its notation.
+#[derive(clap::Subcommand)]
+#[command(after_help = "\
+Examples:
+  plane-contact listing run c_cnt fig1
+  plane-contact listing run Km fig1 --coupled-by none
+  plane-contact listing evaluate sum.txt --call \"sum(10)\"")]
+pub enum Command {
+    #[command(subcommand)]
+    Run(run::Which),
+    Evaluate(evaluate::Args),
+}
+
+/// Runs the command; returns the exit status.
+pub fn run(command: &Command) -> Result<u8> {
+    match command {
+        Command::Run(which) => run::run(which).map(|()| 0),
+        Command::Evaluate(args) => evaluate::run(args),
+    }
+}

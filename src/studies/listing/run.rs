@@ -1,0 +1,111 @@
+//! `plane-contact listing run`.
+
+use std::path::PathBuf;
+
+use base::limits;
+use engine::Request;
+use engine::error::Result;
+use paper::door::Call;
+use problem::scene::Scene;
+use report::{json, matrix_market, tables};
+
+use commands::{ReadingArg, TablesArgs, print, write_or_print};
+
+/// Run a listing once, at the initial shape of a scene.
+#[derive(clap::Subcommand)]
+#[command(after_help = "\
+Examples:
+  plane-contact listing run c_cnt fig1
+  plane-contact listing run Km fig1")]
+pub enum Which {
+    #[command(name = "c_cnt")]
+    CCnt(CCntArgs),
+    #[command(name = "Km")]
+    Km(KmArgs),
+}
+
+/// Find the contact pairs.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in
+contact), then the rows of k_cnt that are not zero. --json: {\"ct\": [...], \"yt\": [...], \"dy\":
+[...], \"k_cnt\": [[master, weight, master, weight], ...]}.
+
+Examples:
+  plane-contact listing run c_cnt fig1
+  plane-contact listing run c_cnt fig1 --reading R4=left-to-right    the listing stops: exit status 3
+  plane-contact listing run c_cnt my/scene.json --json")]
+pub struct CCntArgs {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
+}
+
+/// Assemble the stiffness matrix MJS.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Writes MJS in Matrix Market coordinate format, 17 significant digits, zeros left out.
+
+Examples:
+  plane-contact listing run Km fig1
+  plane-contact listing run Km fig1 --coupled-by none
+  plane-contact listing run Km strand --matrix-market MJS.mtx --reading R3=nested")]
+pub struct KmArgs {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    matrix_market: Option<PathBuf>,
+    /// The contact pairs that enter: those of c_cnt at the initial shape, or none.
+    #[arg(long, value_name = "PAIRS", default_value = "c-cnt")]
+    coupled_by: CoupledBy,
+    #[command(flatten)]
+    reading: ReadingArg,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum CoupledBy {
+    CCnt,
+    None,
+}
+
+pub fn run(which: &Which) -> Result<()> {
+    match which {
+        Which::CCnt(args) => c_cnt(args),
+        Which::Km(args) => km(args),
+    }
+}
+
+fn c_cnt(args: &CCntArgs) -> Result<()> {
+    let reading = args.reading.reading;
+    let scene = Scene::open(&args.scene)?;
+    let model = Request::new(&scene).reading(reading).model()?;
+    let call = Call::c_cnt(&model, &reading, &model.nodes)?;
+    if args.json {
+        return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
+    }
+    args.tables.print(tables::pairs(&scene, &model, &reading, &call))
+}
+
+fn km(args: &KmArgs) -> Result<()> {
+    let reading = args.reading.reading;
+    let scene = Scene::open(&args.scene)?;
+    let model = Request::new(&scene).reading(reading).model()?;
+    limits::DENSE.check(model.dofs(), "the mesh")?;
+    let call = match args.coupled_by {
+        CoupledBy::CCnt => Call::c_cnt(&model, &reading, &model.nodes)?,
+        CoupledBy::None => Call::without_contact(&model),
+    };
+    let matrix = call.km(&reading)?;
+    let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
+    let text = matrix_market::matrix_market(&matrix, &comment);
+    write_or_print(&args.matrix_market, &text)
+}

@@ -1,0 +1,47 @@
+//! `plane-contact scene export`.
+
+use std::path::PathBuf;
+
+use crate::calculix::{Problem, deck};
+use base::files;
+use engine::error::Result;
+
+use crate::calculix::arguments::{Code, DeckArgs};
+use commands::write_or_print;
+
+/// Write a scene as an input deck of CalculiX.
+#[derive(clap::Args)]
+#[command(after_help = "\
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's
+last iteration has it, with the whole load; --contact pair lets CalculiX look for contact itself,
+from the initial shape. Mathcad and Octave: see mathcad export.
+
+Examples:
+  plane-contact scene export fig1
+  plane-contact scene export strand --variant tied --out strand.inp
+  plane-contact scene export strand --variant unilateral --coupling mortar --friction 0
+  plane-contact scene export strand --contact pair --penalty 1e7 --friction 0 --out strand.inp")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one.
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The code.
+    #[arg(long, value_name = "CODE", default_value = "calculix")]
+    to: Code,
+    #[command(flatten)]
+    deck: DeckArgs,
+    /// Write to a file in place of standard output.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let Code::Calculix = args.to;
+    args.out.as_deref().map_or(Ok(()), files::check_file)?;
+    let solution = args.deck.solve(&args.scene)?;
+    let parts = args.deck.parts(&solution)?;
+    let last = parts.last().expect("a run has an iteration");
+    let (scene, model) = (&solution.request.scene, &solution.model);
+    let text = deck(&Problem { scene, model, contact: &last.contact })?;
+    write_or_print(&args.out, &text)
+}

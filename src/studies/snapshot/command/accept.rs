@@ -1,0 +1,45 @@
+//! `plane-contact snapshot accept`.
+
+use std::path::PathBuf;
+
+use crate::snapshot::table::{self as report, VerifiedFile};
+use crate::snapshot::{accept, difference};
+use base::files;
+use base::plain::shown;
+use engine::error::Result;
+use problem::scene::Scene;
+
+use super::verify::snapshot_of;
+use commands::{print_report, waiting, within};
+
+/// Record a snapshot again, and print what changed.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Its runs, what is recorded of each, and its tolerances stay. What changed is printed as verify prints
+it; see it before by verify.
+
+Examples:
+  plane-contact snapshot accept out/fig1.snapshot.json
+  plane-contact snapshot accept my/snapshot.json --scene my/scene.json    the scene as it is today")]
+pub struct Args {
+    /// A snapshot.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Record this scene in place of the one in the snapshot.
+    #[arg(long, value_name = "SCENE")]
+    scene: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    let file = shown(&args.file);
+    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let text = files::read(&args.file);
+    // What cannot be read is named below.
+    let was = text.as_ref().ok().cloned().unwrap_or_default();
+    let old = snapshot_of(&args.file, text)?;
+    let new = waiting("recording", || accept(&old, scene.as_ref()));
+    let new = new.map_err(|error| within(error, &file))?;
+    files::rewrite(&args.file, &was, &report::file(&new))?;
+    let verified = Ok(difference(&old, &new));
+    print_report(report::report(&[VerifiedFile { file, verified }]))
+}

@@ -1,0 +1,98 @@
+//! `plane-contact snapshot diff`.
+
+use std::path::{Path, PathBuf};
+
+use crate::snapshot::table::{self as report, VerifiedFile};
+use crate::snapshot::{Bounds, Snapshot, difference};
+use base::error::InputError;
+use base::files::json;
+use base::plain::shown;
+use engine::error::Result;
+use numbers::solve::{Arithmetic, ScalarName, Solver};
+use paper::mirror::Reading;
+use problem::modelling::Variant;
+use problem::scene::{Scene, SceneFile};
+
+use super::verify::DIFFERS;
+use commands::{print_either, waiting};
+
+/// Compare two snapshots, or a scene under two sets of options.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two
+values, one for each run. A difference is printed as by verify.
+
+Examples:
+  plane-contact snapshot diff strand --variant stepped,tied
+  plane-contact snapshot diff old.json new.json
+  plane-contact snapshot diff my/snapshot.json my/scene.json
+  plane-contact snapshot diff fig1 --reading R5=node --reading R5=node_n")]
+pub struct Args {
+    /// A snapshot or a scene, and another one.
+    #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
+    sides: Vec<PathBuf>,
+    /// The variants of both sides, or one for both [default: the scene's].
+    #[arg(long, value_name = "V,...", value_delimiter = ',')]
+    variant: Vec<Variant>,
+    /// The solvers of both sides, or one for both.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    solver: Vec<Solver>,
+    /// The scalars of both sides, or one for both.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    scalar: Vec<ScalarName>,
+    /// The readings of a side, as elsewhere; twice for both sides.
+    #[arg(long, value_name = "LIST")]
+    reading: Vec<Reading>,
+    /// Print JSON in place of text.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The value of a side: that of two, or the one of both.
+fn of_side<T: Copy>(values: &[T], side: usize, option: &str) -> Result<Option<T>> {
+    match values.len() {
+        0 => Ok(None),
+        1 => Ok(Some(values[0])),
+        2 => Ok(Some(values[side])),
+        _ => Err(InputError::new(option, "there are two sides", "give one value, or two").into()),
+    }
+}
+
+pub fn run(args: &Args) -> Result<u8> {
+    let names = [&args.sides[0], args.sides.last().expect("one is required")];
+    let varied = [args.variant.len(), args.solver.len(), args.scalar.len(), args.reading.len()];
+    if args.sides.len() == 1 && !varied.contains(&2) {
+        let what = "one side and no option with two values: there is nothing to compare";
+        let fix = "give another snapshot or scene, or two values, as --variant stepped,tied";
+        return Err(InputError::new("diff", what, fix).into());
+    }
+    let sides = waiting("running", || -> Result<_> {
+        Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
+    })?;
+    let verified = difference(&sides[0], &sides[1]);
+    let status = if verified.is_same() { 0 } else { DIFFERS };
+    let file = format!("{} and {}", shown(names[0]), shown(names[1]));
+    let checked = [VerifiedFile { file, verified: Ok(verified) }];
+    print_either(args.json, || report::json(&checked), || report::report(&checked))?;
+    Ok(status)
+}
+
+/// Reads a snapshot, or runs a scene.
+fn side(args: &Args, side: usize, name: &Path) -> Result<Snapshot> {
+    // It is read once: it may come through a pipe.
+    let file = SceneFile::read(name)?;
+    if json::has_field(&file.text, "format") {
+        let snapshot = Snapshot::read(&file.text);
+        // What it says of its scene must be true.
+        let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
+        return Ok(checked.map_err(|error| error.within(&shown(name)))?);
+    }
+    let scene = Scene::of_file(&file)?;
+    let mut request = engine::Request::new(&scene);
+    request.variant = of_side(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
+    request.reading = of_side(&args.reading, side, "--reading")?.unwrap_or_default();
+    let scalar = of_side(&args.scalar, side, "--scalar")?.unwrap_or_default();
+    let solver = of_side(&args.solver, side, "--solver")?;
+    let request = request.arithmetic(Arithmetic { scalar, solver, ..Arithmetic::default() });
+    Snapshot::record(&scene, &[request], Bounds::Computed)
+}

@@ -1,0 +1,33 @@
+//! `plane-contact snapshot`.
+
+mod accept;
+mod diff;
+mod record;
+mod verify;
+
+use engine::error::Result;
+
+/// Record, verify, diff, or accept what a scene gives.
+#[derive(clap::Subcommand)]
+#[command(after_help = "\
+Examples:
+  plane-contact snapshot record fig1
+  plane-contact snapshot verify out/fig1.snapshot.json
+  plane-contact snapshot diff fig1 --variant tied,stepped
+  plane-contact snapshot accept my/snapshot.json")]
+pub enum Command {
+    Record(record::Args),
+    Verify(verify::Args),
+    Diff(diff::Args),
+    Accept(accept::Args),
+}
+
+/// Runs the command; returns the exit status.
+pub fn run(command: &Command) -> Result<u8> {
+    match command {
+        Command::Record(args) => record::run(args).map(|()| 0),
+        Command::Verify(args) => verify::run(args),
+        Command::Diff(args) => diff::run(args),
+        Command::Accept(args) => accept::run(args).map(|()| 0),
+    }
+}

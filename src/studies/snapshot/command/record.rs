@@ -1,0 +1,110 @@
+//! `plane-contact snapshot record`.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::snapshot::table as report;
+use crate::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
+use base::error::InputError;
+use base::files;
+use base::plain::shown;
+use clap::builder::PossibleValuesParser;
+use engine::error::Result;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+
+use commands::ArithmeticArgs;
+use commands::{ModelArgs, ReadingArg, print_report, waiting};
+
+/// Record what a scene gives, to be verified later: a regression snapshot.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
+discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
+numbers, each array with the bound on its rounding errors. A snapshot of a scene that fails as
+printed is a snapshot like any other. An existing snapshot is not replaced: see
+snapshot accept.
+
+Examples:
+  plane-contact snapshot record fig1 --variant printed,tied,stepped,unilateral
+  plane-contact snapshot record my/scene.json --out my/snapshot.json
+  plane-contact snapshot record fig1 --only u,pressure             a small one: what comes out at the end
+  plane-contact snapshot record fig1 --reading R4=left-to-right    an expected failure")]
+pub struct Args {
+    /// Paths of scenes, or names of embedded ones.
+    #[arg(value_name = "SCENE", required = true)]
+    scenes: Vec<PathBuf>,
+    #[arg(long, value_name = "V,...", value_delimiter = ',', help = format!(
+        "Variants, each of which is run. {} [default: the scene's]",
+        Variant::help()
+    ))]
+    variant: Vec<Variant>,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    arithmetic: ArithmeticArgs,
+    #[command(flatten)]
+    reading: ReadingArg,
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(FIELDS.map(Quantity::name)), help = format!(
+        "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
+        FIELDS.map(Quantity::name).join(", ")
+    ))]
+    only: Vec<String>,
+    /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    if args.out.is_some() && args.scenes.len() > 1 {
+        let what = "one file cannot hold the snapshots of several scenes";
+        return Err(InputError::new("--out", what, "leave it out, or record one by one").into());
+    }
+    args.out.as_deref().map_or(Ok(()), files::check_file)?;
+    for name in &args.scenes {
+        let scene = Scene::open(name)?;
+        let variants: Vec<Option<Variant>> = match args.variant.is_empty() {
+            true => vec![None],
+            false => args.variant.iter().copied().map(Some).collect(),
+        };
+        let requests = variants.into_iter().map(|variant| {
+            args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic.into())
+        });
+        let requests: Vec<_> = requests.collect();
+        let mut snapshot =
+            waiting("recording", || Snapshot::record(&scene, &requests, Bounds::Computed))?;
+        if !args.only.is_empty() {
+            snapshot.keep_only(&args.only);
+        }
+        let file = args
+            .out
+            .clone()
+            .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
+        write_new(&file, &report::file(&snapshot))?;
+        print_report(report::recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
+    }
+    Ok(())
+}
+
+/// Writes a snapshot; an existing file with another content is kept.
+fn write_new(file: &Path, text: &str) -> Result<()> {
+    files::check_file(file)?;
+    let place = shown(file);
+    if let Err(why) = files::write_new(file, text) {
+        if why.kind() != io::ErrorKind::AlreadyExists {
+            let what = format!("the file cannot be written: {why}");
+            return Err(InputError::new(place, what, "choose another place").into());
+        }
+        let what = match files::read(file) {
+            Ok(there) if there == text.as_bytes() => return Ok(()),
+            Ok(_) => "there is another snapshot".into(),
+            Err(why) => format!("the file that is there cannot be read: {why}"),
+        };
+        let fix = "see what differs by `plane-contact snapshot verify`, take new values by
+                   `plane-contact snapshot accept`, or \
+                   delete the file";
+        return Err(InputError::new(place, what, fix).into());
+    }
+    Ok(())
+}

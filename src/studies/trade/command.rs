@@ -1,0 +1,84 @@
+//! `plane-contact trade`.
+
+use std::path::PathBuf;
+
+use crate::trade::table as report;
+use crate::trade::{self, Options, Varied};
+use base::files;
+use base::plain::shown;
+use engine::Request;
+use engine::error::Result;
+use problem::scene::Scene;
+
+use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
+
+/// The runs of each trial by default.
+const RUNS: u16 = 3;
+
+/// Measure speed against accuracy: precisions, solvers and the paper's own parameters.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors
+anew; a trial that took 0.05 s is not repeated. Settings of contact are varied in f64 by
+sparse-cholesky, meshes under unilateral. Writes trade.json and trade.svg to --out.
+
+Examples:
+  plane-contact trade
+  plane-contact trade fig1 --only arithmetic,solver
+  plane-contact trade strand --only c_tll --runs 1 --json")]
+pub struct Args {
+    /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
+    #[arg(value_name = "SCENE", default_value = "strand")]
+    scene: PathBuf,
+    /// Runs of each trial.
+    #[arg(long, value_name = "N", default_value_t = RUNS)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
+    runs: u16,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help = format!("What to vary: {} [default: all]", Varied::help()))]
+    only: Vec<Varied>,
+    #[command(flatten)]
+    reading: ReadingArg,
+    /// Print trade.json in place of the tables; files are written only to a folder that --out names.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    tables: TablesArgs,
+    /// Folder for the files [default: out/trade-<scene>, and every option that is given].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(args: &Args) -> Result<()> {
+    args.tables.check()?;
+    let scene = Scene::open(&args.scene)?;
+    let request = Request::new(&scene).reading(args.reading.reading);
+    let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
+    let options = Options { runs: usize::from(args.runs), only };
+    let runs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
+    let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(runs).collect();
+    let start = format!("trade-{}", scene.name);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let is_written = !args.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, &["trade.json"])?;
+    }
+    let bar = progress(trade::steps(&request, &options), "{pos} of {len} {wide_bar} {eta} {msg}");
+    let watch = |trial: &str| {
+        bar.set_message(trial.to_string());
+        bar.inc(1);
+    };
+    let measured = trade::measure(&request, &options, watch)?;
+    bar.finish_and_clear();
+    let json = report::json(&scene, &measured);
+    if is_written {
+        let mut written = vec![("trade.json", &json)];
+        let picture = report::picture(&measured);
+        written.extend(picture.iter().map(|picture| ("trade.svg", picture)));
+        files::write_all(&out, &written)?;
+    }
+    if args.json {
+        return print(&json);
+    }
+    let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
+    args.tables.print(report)
+}
