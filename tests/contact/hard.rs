@@ -478,8 +478,8 @@ fn a_disc_that_can_turn_is_named() {
     }
 }
 
-/// Bodies that overlap and are held by contact alone start where a vanishing load brings them; where it holds them
-/// in no place without friction, there is none.
+/// Bodies that overlap and are held by contact alone start where a vanishing load brings them. Where it holds them in no
+/// place without friction, there is no start, but for flat ones: there all nodes touch at once and none slips.
 #[test]
 fn an_overlap_that_comes_apart_in_many_ways_has_no_start() {
     for seed in 0..40 {
@@ -491,7 +491,10 @@ fn an_overlap_that_comes_apart_in_many_ways_has_no_start() {
         hard.bodies.restrained.retain(|(node, _)| *node < first);
         hard.bodies.nodes[first..].iter_mut().for_each(|[_, y]| *y -= 0.01);
         hard.bodies.loads.iter_mut().for_each(|(_, force)| *force = [1.0, 0.0]);
+        let y = |n: usize| hard.bodies.nodes[n][1];
+        let is_level = |nodes: &[usize]| nodes.iter().all(|n| y(*n) == y(nodes[0]));
+        let is_flat = is_level(&hard.bodies.contact) && is_level(hard.bodies.target.as_flattened());
         let why = hard.solve().expect_err("nothing holds it");
-        assert!(overlaps(&why) && why.exit_status() == 4, "{seed}: {why}");
+        assert!(overlaps(&why) != is_flat && why.exit_status() == 4, "{seed}: {why}");
     }
 }
