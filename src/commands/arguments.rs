@@ -180,6 +180,9 @@ impl SceneArgs {
 pub const LARGEST_LISTING: u64 = 1 << 24;
 
 /// Reads a file of listings.
+///
+/// # Errors
+/// The file cannot be read, is too long, or is no text.
 pub fn read_listing(path: &Path) -> Result<String, InputError> {
     let file = files::read_most(path, LARGEST_LISTING);
     file.and_then(files::text).map_err(|why| {
@@ -238,6 +241,9 @@ impl TablesArgs {
     }
 
     /// Prints a report, and writes its tables; [`TABLES`], which names them, marks their folder.
+    ///
+    /// # Errors
+    /// Standard output or a file cannot be written.
     pub fn print(&self, report: Report) -> Result<()> {
         if let Some(folder) = &self.csv {
             let tables = report.csv().into_iter();

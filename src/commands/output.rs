@@ -15,6 +15,9 @@ use report::text::fitted;
 
 /// Prints a document or a file to standard output, as it is; a reader that has gone away (`| head`)
 /// is no error. Text for people goes through [`print_fitted`].
+///
+/// # Errors
+/// Standard output cannot be written.
 pub fn print(text: &str) -> Result<()> {
     print_by(|out| out.write_all(text.as_bytes()))
 }
@@ -52,6 +55,9 @@ pub fn print_stderr(text: &str) {
 }
 
 /// Shows the help that was asked for, with the styles of a terminal where it fits.
+///
+/// # Errors
+/// Standard output cannot be written.
 pub fn help(asked: &clap::Error) -> Result<()> {
     let text = asked.render().to_string();
     let fits = text.lines().all(|line| line.chars().count() <= width());
@@ -75,16 +81,25 @@ pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
 }
 
 /// Prints a report, fitted to the terminal.
+///
+/// # Errors
+/// Standard output cannot be written.
 pub fn print_report(report: Report) -> Result<()> {
     print(&report.text(width()))
 }
 
 /// Prints lines of prose, fitted to the terminal.
+///
+/// # Errors
+/// Standard output cannot be written.
 pub fn print_fitted(text: &str) -> Result<()> {
     print(&fitted(text, width()))
 }
 
 /// Prints a document, or in its place a report.
+///
+/// # Errors
+/// Standard output cannot be written.
 pub fn print_either(
     json: bool,
     document: impl FnOnce() -> String,
@@ -102,6 +117,9 @@ pub fn width() -> usize {
 }
 
 /// Writes to the file that is asked for, else to standard output.
+///
+/// # Errors
+/// The file or standard output cannot be written.
 pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
     match file {
         Some(path) => Ok(files::write(path, text)?),

@@ -34,6 +34,9 @@ pub enum Command {
 
 impl Command {
     /// Runs the command; returns the exit status.
+    ///
+    /// # Errors
+    /// Those of the command.
     pub fn run(self) -> Result<u8> {
         let done = |()| 0;
         match self {
