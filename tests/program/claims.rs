@@ -78,12 +78,14 @@ fn the_change_by_c_tol_is_that_of_trade() {
 /// What the conclusion says of wider ducts is so.
 #[test]
 fn in_wider_ducts_p10_and_p11_are_true() {
-    assert!(WIDER.starts_with(" P10 and P11 are true from a clearance of 0.9 mm on"));
+    assert!(WIDER.starts_with(" From a clearance of 0.9 mm on P10 is true, and P11"));
     for judged in JUDGED.iter().filter(|judged| ["P10", "P11"].contains(&judged.claim.id)) {
         let clearances = judged.elsewhere.iter();
         for at in clearances.filter(|at| at.place.parameter == Parameter::Clearance) {
-            let is_true = at.measured.verdict == Verdict::True;
-            assert_eq!(is_true, at.place.value >= 0.9, "{}, {}", judged.claim.id, at.place.value);
+            let is_wide = at.place.value >= 0.9;
+            let is_by_rounding = judged.claim.id == "P11" && at.measured.detail == BY_ROUNDING;
+            let is_true = at.measured.verdict == Verdict::True || is_wide && is_by_rounding;
+            assert_eq!(is_true, is_wide, "{}, {}", judged.claim.id, at.place.value);
         }
     }
 }

@@ -18,10 +18,9 @@ use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.
 fn texts(ending: &str) -> Vec<String> {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report/page");
-    let entries = std::fs::read_dir(page.join("lesson")).expect("a folder");
-    let paths =
-        entries.map(|entry| entry.expect("an entry").path()).chain([page.join("lesson.rs")]);
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/studies/lesson");
+    let entries = std::fs::read_dir(page.join("page")).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path()).chain([page.join("page.rs")]);
     let own: Vec<PathBuf> = paths.filter(|path| path.to_string_lossy().ends_with(ending)).collect();
     own.iter().map(|path| std::fs::read_to_string(path).expect("UTF-8")).collect()
 }

@@ -348,7 +348,7 @@ fn fields_with_another_value_are_written() {
     let scene = held(blocks(&["a"]), 1);
     let written = |scene: &SceneBuilder| file::write(&scene.description, "m.msh");
     let plain = written(&scene);
-    for field in ["thickness", "iterations", "load_steps", "loads", "drop_orphans", "variant"] {
+    for field in ["thickness", "iterations", "load_steps", "loads", "drop_orphans"] {
         assert!(!plain.contains(field), "{plain}");
     }
     assert!(plain.contains("\n  \"restraints\": [{"), "one item on the line of its field: {plain}");

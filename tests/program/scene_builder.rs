@@ -59,11 +59,13 @@ fn a_scene_file_says_what_code_says() {
     assert_eq!(read_back(&by_tag), by_tag);
 }
 
+/// The variant is written always: a file without one runs as `unilateral`.
 #[test]
 fn what_has_its_default_is_not_written() {
     let bare = SceneBuilder::new("bare", Mesh::default(), Plane::Strain).pressure("top", 1.0);
     let text = "{\n  \"mesh\": \"m.msh\",\n  \"plane\": \"strain\",\n  \"materials\": {},\n  \
-                \"loads\": [{\"on\":\"top\",\"pressure\":1.0}]\n}\n";
+                \"loads\": [{\"on\":\"top\",\"pressure\":1.0}],\n  \
+                \"variant\": \"stepped\"\n}\n";
     assert_eq!(file::write(&bare.description, "m.msh"), text);
 }
 

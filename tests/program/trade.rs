@@ -135,14 +135,14 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
     let number = |id: &str| {
         let judged = JUDGED.iter().find(|judged| judged.claim.id == id).expect("a claim");
         let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
-        at.measured.number.expect("a number")
+        at.measured.number
     };
-    let [own, least] = [1e-3, 1e-6].map(run);
-    let change = max_displacement(&(&least.u - &own.u)) / max_displacement(&own.u);
-    assert_near("P10", number("P10"), change, change, &CLAIM);
+    let own = run(1e-3);
+    // With a thousandth of c_tol rounding decides who is in contact.
+    assert_eq!(number("P10"), None);
     let truth = solve(&request.equilibrium(), &mut |_| ()).expect("there is one");
     let error = distance(&own, &truth).energy_relative;
-    assert_near("P12", number("P12"), error, error, &CLAIM);
+    assert_near("P12", number("P12").expect("a number"), error, error, &CLAIM);
 }
 
 #[test]

@@ -195,30 +195,26 @@ impl Problem<'_> {
     }
 
     /// Returns why a body that can turn about a place does not stay there: the whole load, which keeps its direction,
-    /// turns it by its moment, or topples it, as it does more work the further the body turns; or restraints hold no
-    /// node away from that place. None where none of these is so, to rounding.
+    /// turns it by its moment, or topples it, as it does more work the further the body turns; or restraints hold one
+    /// node at most: several hold a body that has turned by a finite angle. None where none of these is so, to rounding.
     fn turned(&self, body: usize, centre: [f64; 2]) -> Option<&'static str> {
         let (load, body) = (self.load(1.0), &self.model.bodies[body]);
         let (mut moment, mut outwards, mut size) = (0.0, 0.0, 0.0);
-        let (mut held, mut extent): (f64, f64) = (0.0, 0.0);
+        let mut held = 0;
         for node in self.model.node_ids().filter(|node| body.has(*node)) {
             let ([x, y], [fx, fy]) = (self.model.coordinates(node), node.components(&load));
             let [rx, ry] = [x - centre[0], y - centre[1]];
-            let arm = rx.hypot(ry);
             moment += rx * fy - ry * fx;
             outwards += rx * fx + ry * fy;
-            size += arm * fx.hypot(fy);
-            extent = extent.max(arm);
-            if node.dofs().iter().any(|dof| self.model.restrained[dof.index()]) {
-                held = held.max(arm);
-            }
+            size += rx.hypot(ry) * fx.hypot(fy);
+            held += usize::from(node.dofs().iter().any(|dof| self.model.restrained[dof.index()]));
         }
         if moment.abs() > size * BALANCED {
             Some("the load turns it")
         } else if outwards < -size * BALANCED {
             Some("the load topples it")
-        } else if held <= extent * BALANCED {
-            Some("restraints hold that place alone")
+        } else if held <= 1 {
+            Some("restraints hold one of its nodes at most")
         } else {
             None
         }

@@ -15,13 +15,13 @@ const CASES: &[Case] = &[
         contains: &["Found on springs", "Equilibrium: "],
         lacks: &["there is no equilibrium"],
     },
+    // A known failure: one node, which overlaps before any load, carries the body; it has been solved from another
+    // start, where rounding may have decided which state was found.
     Case {
         input: "rough",
         command: "plane-contact solve scene.json",
-        status: 0,
-        contains: &[
-            "contact states of the last step that differ at one node; earlier steps were not examined",
-        ],
+        status: 4,
+        contains: &["no equilibrium was found", "node 85 is closed and pulls"],
         lacks: &[],
     },
     // The load lifts the arm: every node open is the only equilibrium.
@@ -39,9 +39,9 @@ const CASES: &[Case] = &[
     Case {
         input: "overlap",
         command: "plane-contact solve scene.json",
-        status: 0,
-        contains: &["error of the size of the steps is unknown: nodes that overlap the target"],
-        lacks: &["half as many"],
+        status: 4,
+        contains: &["the start is not determined", "restrain the body"],
+        lacks: &[],
     },
     // The same in units of stress that are 1e10 times smaller.
     Case {

@@ -99,7 +99,7 @@ const CASES: &[Case] = &[
         command: "(printf '{\"title\": '; head -c 100000 /dev/zero | tr '\\0' '[') >deep.json; \
                   plane-contact scene plan deep.json",
         status: 2,
-        contains: &["a list where a string is expected", "field title"],
+        contains: &["a list where text is expected", "field title"],
         lacks: &[],
     },
     Case {

@@ -27,8 +27,7 @@ const CLEARANCE: &str = " The clearance of 0.1 mm is ours: with it contact spans
     Real ducts are wider.";
 
 /// What holds in wider ducts under the default reading, as golden/tables/range.md has it.
-pub const WIDER: &str =
-    " P10 and P11 are true from a clearance of 0.9 mm on (golden/tables/range.md).";
+pub const WIDER: &str = " From a clearance of 0.9 mm on P10 is true, and P11 is true or decided by rounding (golden/tables/range.md).";
 
 /// An answer of the conclusion.
 #[derive(Clone, Debug, Serialize)]
