@@ -117,32 +117,26 @@ fn every_parameter_has_its_rows_and_every_row_its_columns() {
     }
 }
 
-/// A place of the range is the scene that `mesh strand` makes: run alone, in double-doubles.
+/// A place of the range is the scene that the generator makes: run alone, in double-doubles. The place is one where
+/// rounding does not decide who is in contact.
 #[test]
 fn a_place_of_the_range_is_a_run_of_its_scene() {
-    let scene = Strand { duct: 8.0, ..Strand::default() }.generate().and_then(|b| b.build());
+    let strand = Strand { strand: 5.0, duct: 5.1, ..Strand::default() };
+    let scene = strand.generate().and_then(|builder| builder.build()).expect("in range");
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
-    let request =
-        Request::new(&scene.expect("in range")).variant(Variant::Stepped).arithmetic(arithmetic);
-    let run = |tolerance| {
+    let request = Request::new(&scene).variant(Variant::Stepped).arithmetic(arithmetic);
+    let [own, least] = [1e-3, 1e-6].map(|tolerance| {
         let mut request = request.clone();
         request.tolerance = Some(tolerance);
         solve(&request, &mut |_| ()).expect("it runs")
-    };
-    let here = |place: ParameterValue| {
-        place.parameter == range::Parameter::Clearance && place.value == 0.4
-    };
-    let number = |id: &str| {
-        let judged = JUDGED.iter().find(|judged| judged.claim.id == id).expect("a claim");
-        let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
-        at.measured.number
-    };
-    let own = run(1e-3);
-    // With a thousandth of c_tol rounding decides who is in contact.
-    assert_eq!(number("P10"), None);
-    let truth = solve(&request.equilibrium(), &mut |_| ()).expect("there is one");
-    let error = distance(&own, &truth).energy_relative;
-    assert_near("P12", number("P12").expect("a number"), error, error, &CLAIM);
+    });
+    let here =
+        |place: ParameterValue| place.parameter == range::Parameter::Radius && place.value == 5.0;
+    let judged = JUDGED.iter().find(|judged| judged.claim.id == "P10").expect("a claim");
+    let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
+    let number = at.measured.number.expect("a number");
+    let change = max_displacement(&(&least.u - &own.u)) / max_displacement(&own.u);
+    assert_near("P10", number, change, change, &CLAIM);
 }
 
 #[test]

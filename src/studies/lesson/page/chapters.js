@@ -95,7 +95,7 @@ function showFinding(chapter) {
       {},
       ...part(t("Goal"), row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.")),
       ...part(t("Try it"), ...trials(row, data.meshes[chapter.runs[0].mesh])),
-      ...part(t("On this scene"), `${row.verdict}: ${inProse(row.number)} ${row.of}. ${row.detail}`),
+      ...part(t("On this scene"), `${row.verdict}: ${row.number === null ? t("decided by rounding:") : inProse(row.number)} ${row.of}. ${row.detail}`),
       ...part(t("Why it matters"), row.why),
       ...part(t("A repair"), row.repair),
       ...part(t("Before and after"), row.edit.none?.reason ?? t("before: {about}; after: choose the reading “repaired”, the listing with the repair, and see what it changes", chapter.runs[0])),
