@@ -5,7 +5,7 @@ use crate::common::annulus::annulus;
 use crate::common::json::build;
 use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, HALF, LAME_ENERGY_ORDER, assert_near};
 use plane_contact::engine::error::Error;
-use plane_contact::engine::{Request, Solution, distance, max_displacement, solve};
+use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::error::InputError;
 use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::element::{self, Plane};
