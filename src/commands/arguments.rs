@@ -240,7 +240,7 @@ impl TablesArgs {
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &[TABLES]))?)
     }
 
-    /// Prints a report, and writes its tables; [`TABLES`], which names them, marks their folder.
+    /// Prints a report, and writes its tables; `tables.json`, which names them, marks their folder.
     ///
     /// # Errors
     /// Standard output or a file cannot be written.
