@@ -58,6 +58,20 @@ pub struct RunArgs {
     #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
     variant: Option<Variant>,
     #[command(flatten)]
+    method: MethodArgs,
+}
+
+impl RunArgs {
+    /// Returns what is asked of a scene.
+    pub fn request(&self, scene: &Scene) -> Request {
+        self.method.request(scene, self.variant)
+    }
+}
+
+/// How a variant of a scene is run.
+#[derive(clap::Args)]
+pub struct MethodArgs {
+    #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
     arithmetic: ArithmeticArgs,
@@ -65,10 +79,10 @@ pub struct RunArgs {
     reading: ReadingArg,
 }
 
-impl RunArgs {
-    /// Returns what is asked of a scene.
-    pub fn request(&self, scene: &Scene) -> Request {
-        let request = self.model.request(scene, self.variant, &self.reading);
+impl MethodArgs {
+    /// Returns what is asked of a variant of a scene, of the scene's own where none is given.
+    pub fn request(&self, scene: &Scene, variant: Option<Variant>) -> Request {
+        let request = self.model.request(scene, variant, &self.reading);
         request.arithmetic(self.arithmetic.into())
     }
 }
@@ -223,9 +237,12 @@ pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
 /// The file that tells that a folder of tables is this program's: CSV has no place for it.
 const TABLES: &str = "tables.json";
 
-/// Where tables go beside standard output.
+/// What is printed: tables, which go to a folder too, or JSON in their place.
 #[derive(clap::Args)]
 pub struct TablesArgs {
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
     /// Write each table that is printed to a folder too, as CSV.
     #[arg(long, value_name = "DIR", conflicts_with = "json")]
     csv: Option<PathBuf>,

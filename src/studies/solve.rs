@@ -41,6 +41,7 @@ Examples:
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
   plane-contact solve strand --variant unilateral --check-rounding
   plane-contact solve my/scene.json --reading R6=stress,R8=m", report::folder::help()))]
+#[command(mut_arg("json", |json| json.help("Print result.json in place of the tables; files are written only to a folder that --out names")))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
@@ -82,10 +83,6 @@ pub struct Args {
     /// Have the values of all nodes and triangles in result.json, however many there are.
     #[arg(long)]
     fields: bool,
-    /// Print result.json in place of the tables; files are written only to a folder that --out
-    /// names.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
 }
@@ -96,7 +93,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let request = request(args)?;
     let out = folder(&args.out, own_folder(args, &request));
     let wanted = FolderOptions { pictures: !args.no_pictures, fields: args.fields };
-    let is_written = !args.json || args.out.is_some();
+    let is_written = !args.tables.json || args.out.is_some();
     if is_written {
         let names = report::folder::names(wanted);
         files::check_folder(&out, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
@@ -110,7 +107,7 @@ pub fn run(args: &Args) -> Result<u8> {
     } else {
         report::folder::result(&solution, &assessment, Some(&plan), wanted)
     };
-    if args.json {
+    if args.tables.json {
         print_stderr(&accuracy.text(usize::MAX));
         print(&result)?;
         return Ok(status(&solution));

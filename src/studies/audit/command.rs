@@ -78,9 +78,6 @@ pub struct Args {
     repairs: bool,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
     /// Write the tables, JSON and pictures to a folder.
@@ -101,8 +98,7 @@ pub fn run(args: &Args) -> Result<()> {
 fn prices(args: &Args) -> Result<()> {
     args.tables.check()?;
     let reading = args.reading.reading;
-    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
-    let case = Case::within_memory(&scene, reading)?;
+    let case = case(args)?;
     let places = places(args)?;
     let compared = Compared::new(&case)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
@@ -115,16 +111,22 @@ fn prices(args: &Args) -> Result<()> {
     bar.finish_and_clear();
     let document =
         price_report::Document { reading, prices: &alone, repairs: &repairs, range: &range };
-    let json = price_report::json(&document, &scene);
+    let json = price_report::json(&document, &case.scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
         let files: Vec<_> = picture.into_iter().chain([("prices.json", json.clone())]).collect();
         files::write_all(out, &files)?;
     }
-    if args.json {
+    if args.tables.json {
         return print(&json);
     }
-    args.tables.print(price_report::report(&document, &scene))
+    args.tables.print(price_report::report(&document, &case.scene))
+}
+
+/// Opens the case of the scene that is asked for.
+fn case(args: &Args) -> Result<Case> {
+    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
+    Ok(Case::within_memory(&scene, args.reading.reading)?)
 }
 
 /// Returns the places of the range, none where they are not asked for.
@@ -161,8 +163,7 @@ fn listed<T>(
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let reading = args.reading.reading;
-    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
-    let case = Case::within_memory(&scene, reading)?;
+    let case = case(args)?;
     let (judged, by_reading) = waiting("judging", || {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
@@ -171,7 +172,11 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     if let Some(out) = &args.out {
         files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
     }
-    print_either(args.json, || json, || claims::explanation(&document, &case.scene, &reading))
+    print_either(
+        args.tables.json,
+        || json,
+        || claims::explanation(&document, &case.scene, &reading),
+    )
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
@@ -188,7 +193,9 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
         files::write_all(out, &[(svg, picture), (document, json())])?;
     }
-    print_either(args.json, json, || report::explanation(finding, &measured, &case.scene, &reading))
+    print_either(args.tables.json, json, || {
+        report::explanation(finding, &measured, &case.scene, &reading)
+    })
 }
 
 fn whole(args: &Args) -> Result<()> {
@@ -196,9 +203,7 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         files::check_folder(out, &["audit.txt", "audit.json"])?;
     }
-    let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
-    let reading = args.reading.reading;
-    let case = Case::within_memory(&scene, reading)?;
+    let case = case(args)?;
     let places = places(args)?;
     if !std::io::stderr().is_terminal() {
         print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
@@ -212,7 +217,7 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }
-    if args.json { print(&json) } else { args.tables.print(report) }
+    if args.tables.json { print(&json) } else { args.tables.print(report) }
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

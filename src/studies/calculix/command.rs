@@ -29,6 +29,7 @@ Examples:
   plane-contact compare strand --variant tied
   plane-contact compare strand --variant unilateral --coupling mortar --friction 0
   plane-contact compare strand --variant unilateral --friction 0 --contact pair --penalty 1e7")]
+#[command(mut_arg("json", |json| json.help("Print compare.json in place of the tables; files are written only to a folder that --out names")))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
@@ -45,10 +46,6 @@ pub struct Args {
     /// option that differs from the scene's own].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print compare.json in place of the tables; files are written only to a folder that --out
-    /// names.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
 }
@@ -80,11 +77,11 @@ pub fn run(args: &Args) -> Result<()> {
     asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
     let start = format!("{}-{}", scene.name, request.variant);
     let out = folder(&args.out, folder_name(start, &request, &asked));
-    if args.json && args.out.is_none() {
+    if args.tables.json && args.out.is_none() {
         return print(&report::json(&compared));
     }
     let json = report::write(&out, &compared)?;
-    if args.json {
+    if args.tables.json {
         return print(&json);
     }
     let report = report::report(&compared).line(format!("Written to {}", shown(&out)));

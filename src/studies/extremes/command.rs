@@ -26,9 +26,6 @@ pub struct Args {
     /// Generators [default: all].
     #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(GENERATORS.iter().map(|g| g.name)))]
     names: Vec<String>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
     /// Folder for extremes.txt, extremes.json and a picture for each generator [default:
@@ -40,7 +37,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     args.tables.check()?;
     let out = folder(&args.out, "extremes".into());
-    let is_written = !args.json || args.out.is_some();
+    let is_written = !args.tables.json || args.out.is_some();
     if is_written {
         files::check_folder(&out, &["extremes.txt", "extremes.json"])?;
     }
@@ -58,5 +55,5 @@ pub fn run(args: &Args) -> Result<()> {
     written.extend(measured.iter().map(picture));
     written.push(("extremes.json".into(), json.clone()));
     files::write_all(&out, &written)?;
-    if args.json { print(&json) } else { args.tables.print(report) }
+    if args.tables.json { print(&json) } else { args.tables.print(report) }
 }

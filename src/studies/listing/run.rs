@@ -41,9 +41,6 @@ pub struct CCntArgs {
     scene: PathBuf,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
 }
@@ -89,7 +86,7 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     let call = Call::c_cnt(&model, &reading, &model.nodes)?;
-    if args.json {
+    if args.tables.json {
         return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
     }
     args.tables.print(tables::pairs(&scene, &model, &reading, &call))

@@ -27,9 +27,6 @@ pub struct Args {
     scene: PathBuf,
     #[command(flatten)]
     run: RunArgs,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
 }
@@ -37,7 +34,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let plan = Plan::new(&args.run.request(&scene))?;
-    if args.json {
+    if args.tables.json {
         return print(&report::json(&scene, &plan));
     }
     args.tables.print(report::report(&plan, &scene.units))

@@ -26,6 +26,7 @@ Examples:
   plane-contact trade
   plane-contact trade fig1 --only arithmetic,solver
   plane-contact trade strand --only c_tll --runs 1 --json")]
+#[command(mut_arg("json", |json| json.help("Print trade.json in place of the tables; files are written only to a folder that --out names")))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
@@ -38,9 +39,6 @@ pub struct Args {
     only: Vec<Varied>,
     #[command(flatten)]
     reading: ReadingArg,
-    /// Print trade.json in place of the tables; files are written only to a folder that --out names.
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
     tables: TablesArgs,
     /// Folder for the files [default: out/trade-<scene>, and every option that is given].
@@ -58,7 +56,7 @@ pub fn run(args: &Args) -> Result<()> {
     let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(runs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
-    let is_written = !args.json || args.out.is_some();
+    let is_written = !args.tables.json || args.out.is_some();
     if is_written {
         files::check_folder(&out, &["trade.json"])?;
     }
@@ -76,7 +74,7 @@ pub fn run(args: &Args) -> Result<()> {
         written.extend(picture.iter().map(|picture| ("trade.svg", picture)));
         files::write_all(&out, &written)?;
     }
-    if args.json {
+    if args.tables.json {
         return print(&json);
     }
     let report = report::report(&measured).line(format!("Written to {}", shown(&out)));

@@ -13,8 +13,7 @@ use engine::error::Result;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
-use commands::ArithmeticArgs;
-use commands::{ModelArgs, ReadingArg, print_report, waiting};
+use commands::{MethodArgs, print_report, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -40,11 +39,7 @@ pub struct Args {
     ))]
     variant: Vec<Variant>,
     #[command(flatten)]
-    model: ModelArgs,
-    #[command(flatten)]
-    arithmetic: ArithmeticArgs,
-    #[command(flatten)]
-    reading: ReadingArg,
+    method: MethodArgs,
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
         value_parser = PossibleValuesParser::new(FIELDS.map(Quantity::name)), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
@@ -68,9 +63,7 @@ pub fn run(args: &Args) -> Result<()> {
             true => vec![None],
             false => args.variant.iter().copied().map(Some).collect(),
         };
-        let requests = variants.into_iter().map(|variant| {
-            args.model.request(&scene, variant, &args.reading).arithmetic(args.arithmetic.into())
-        });
+        let requests = variants.into_iter().map(|variant| args.method.request(&scene, variant));
         let requests: Vec<_> = requests.collect();
         let mut snapshot =
             waiting("recording", || Snapshot::record(&scene, &requests, Bounds::Computed))?;
