@@ -135,9 +135,11 @@ impl Surfaces {
         Ok(Surfaces { nodes, contact, target })
     }
 
-    /// Returns the nodes of the edges of both surfaces.
-    pub fn edges(&self) -> Vec<[NodeId; 2]> {
-        self.contact.edges.iter().chain(&self.target.edges).map(|edge| edge.nodes).collect()
+    /// Returns the edges of both surfaces in a shape: their nodes, their normal and their length.
+    pub fn edges(&self, shape: &[Vector]) -> Vec<([NodeId; 2], Vector, f64)> {
+        let edges = self.contact.edges.iter().chain(&self.target.edges);
+        let placed = edges.map(|edge| (edge.nodes, edge.in_shape(shape)));
+        placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
     }
 
     /// Returns the largest height of the arc of a circle over an edge, of the edges that meet others in a bend

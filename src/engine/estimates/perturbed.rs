@@ -99,7 +99,7 @@ pub fn equivalent(request: &Request) -> impl Iterator<Item = Request> {
 /// Returns whether a number of an equivalent request shows that rounding decides on it: it differs by more
 /// than a millionth, of what is no smaller than a thousandth of the quantity's own `scale`.
 pub fn moves(own: Option<f64>, other: Option<f64>, scale: f64) -> bool {
-    match [own, other].map(|x| x.filter(|x| x.is_finite())) {
+    match [own, other].map(|x| x.and_then(finite)) {
         [Some(a), Some(b)] => (a - b).abs() > NOTICEABLE * a.abs().max(b.abs()).max(SMALL * scale),
         [own, other] => own.is_some() != other.is_some(),
     }

@@ -76,10 +76,12 @@ pub(super) fn uniqueness(
         steps.iter().map(of_step).collect()
     };
     let last_alone = std::slice::from_ref(last);
-    let (steps, all, states) = match (every(taken), every(last_alone)) {
-        (Some(states), _) => (taken, true, states),
-        (None, Some(states)) => (last_alone, true, states),
-        (None, None) => (last_alone, false, vec![problem.neighbours(last)]),
+    let (steps, all, states) = if let Some(states) = every(taken) {
+        (taken, true, states)
+    } else if let Some(states) = every(last_alone) {
+        (last_alone, true, states)
+    } else {
+        (last_alone, false, vec![problem.neighbours(last)])
     };
     let number = states.iter().map(|states| states.number).sum();
     let others = steps.iter().zip(&states);

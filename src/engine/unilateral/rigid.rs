@@ -185,12 +185,15 @@ pub(super) fn release(
 }
 
 /// Returns a body that can turn as a rigid one while its part of some edges, an arc of a circle, slides along
-/// itself, and the place about which it turns; None where there is none.
-pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64; 2])> {
+/// itself, and the place about which it turns; None where there is none. `edges` have their normal and their length.
+pub(super) fn turns(
+    model: &Model,
+    edges: &[([NodeId; 2], [f64; 2], f64)],
+) -> Option<(usize, [f64; 2])> {
     let motions = RigidMotions::new(model, &model.nodes);
     (0..model.bodies.len()).find_map(|b| {
-        let of_body = |edge: &&[NodeId; 2]| motions.body[edge[0].index()] == Some(b);
-        let arc: Vec<[NodeId; 2]> = edges.iter().filter(of_body).copied().collect();
+        let of_body = edges.iter().filter(|(nodes, ..)| motions.body[nodes[0].index()] == Some(b));
+        let arc: Vec<_> = of_body.collect();
         let own = |rows: DMatrix<f64>| rows.view((3 * b, 3 * b), (3, 3)).into_owned();
         let basis = free_part(&own(motions.restrained()));
         if arc.len() < ARC || basis.ncols() == 0 {
@@ -198,9 +201,9 @@ pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64
         }
         // The motion of which the least part is along the normals in the middle of the edges.
         let (mut across, mut all) = (DMatrix::zeros(3, 3), DMatrix::zeros(3, 3));
-        for [start, end] in &arc {
-            let middle = |d| own_part(&motions, b, [*start, *end], d);
-            let normal = middle(normal_of(model, [*start, *end]));
+        for (nodes, normal, _) in &arc {
+            let middle = |d| own_part(&motions, b, *nodes, d);
+            let normal = middle(*normal);
             across += &normal * normal.transpose();
             for direction in [[1.0, 0.0], [0.0, 1.0]] {
                 let row = middle(direction);
@@ -225,20 +228,9 @@ pub(super) fn turns(model: &Model, edges: &[[NodeId; 2]]) -> Option<(usize, [f64
             let [x, y] = model.coordinates(node);
             (x - centre[0]).hypot(y - centre[1])
         };
-        let half = |[a, b]: &[NodeId; 2]| {
-            let ([ax, ay], [bx, by]) = (model.coordinates(*a), model.coordinates(*b));
-            (bx - ax).hypot(by - ay) / 2.0
-        };
-        let is_round = arc.iter().all(|edge| half(edge) <= FACET * far(edge[0]));
+        let is_round = arc.iter().all(|(nodes, _, length)| length / 2.0 <= FACET * far(nodes[0]));
         (part <= ALONG * ALONG && is_round).then_some((b, centre))
     })
-}
-
-/// Returns the normal of an edge.
-fn normal_of(model: &Model, edge: [NodeId; 2]) -> [f64; 2] {
-    let [[ax, ay], [bx, by]] = edge.map(|node| model.coordinates(node));
-    let length = (bx - ax).hypot(by - ay);
-    [(by - ay) / length, (ax - bx) / length]
 }
 
 /// Returns the component along a direction of the middle of an edge of a body in each of its rigid motions.

@@ -176,7 +176,9 @@ impl Problem<'_> {
         if self.friction > 0.0 {
             return Ok(());
         }
-        let Some((body, [x, y])) = rigid::turns(self.model, &self.surfaces.edges()) else {
+        let Some((body, [x, y])) =
+            rigid::turns(self.model, &self.surfaces.edges(&self.model.nodes))
+        else {
             return Ok(());
         };
         let Some(how) = self.turned(body, [x, y]) else {
@@ -207,7 +209,7 @@ impl Problem<'_> {
             moment += rx * fy - ry * fx;
             outwards += rx * fx + ry * fy;
             size += rx.hypot(ry) * fx.hypot(fy);
-            held += usize::from(node.dofs().iter().any(|dof| self.model.restrained[dof.index()]));
+            held += usize::from(node.dofs().into_iter().any(|dof| self.model.is_restrained(dof)));
         }
         if moment.abs() > size * BALANCED {
             Some("the load turns it")
