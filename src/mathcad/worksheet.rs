@@ -72,8 +72,7 @@ pub fn execute(worksheet: &Worksheet, limits: &Limits) -> Vec<ExecutedRegion> {
     execute_watched(worksheet, limits, &mut |_, _| ())
 }
 
-/// Executes a worksheet as [`execute`] does; `watch` is told how many regions are done, and of how
-/// many.
+/// Executes a worksheet as [`execute`] does; `watch` receives the number of regions done, and of all.
 pub fn execute_watched(
     worksheet: &Worksheet,
     limits: &Limits,

@@ -188,7 +188,7 @@ fn an_edit_must_fit_its_listing() {
         matches!(error("f lines 2-3:\n 2    x"), Some(EditError::NoSuchLines { .. })),
         "too few lines"
     );
-    assert!(matches!(error("f lines 3-2:"), Some(EditError::NoSuchLines { .. })), "turned round");
+    assert!(matches!(error("f lines 3-2:"), Some(EditError::NoSuchLines { .. })), "reversed");
     assert!(matches!(error("f line 2:\n 2    x ←"), Some(EditError::Parse(_))));
     assert!(matches!(error("f line x:"), Some(EditError::Format { line: 1, .. })));
     assert!(matches!(error(" 2    x"), Some(EditError::Format { line: 1, .. })));

@@ -204,7 +204,7 @@ fn executed(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
 }
 
 /// Returns the value of a program, its trace and last values, or its failure.
-fn told(outcome: &Fallible<Outcome>) -> String {
+fn in_words(outcome: &Fallible<Outcome>) -> String {
     match outcome {
         Ok(outcome) => {
             let written = |value| serde_json::to_string(&json::Written(value)).expect("JSON");
@@ -224,7 +224,7 @@ fn program(rng: &mut Rng) -> String {
     let asked = one_of(rng, &SETTINGS);
     let settings: Settings = asked.parse().expect("settings");
     let result = match Listing::parse("f", &text) {
-        Ok(listing) => told(&executed(&listing, &settings)),
+        Ok(listing) => in_words(&executed(&listing, &settings)),
         Err(error) => format!("no listing: {error}"),
     };
     format!("{asked} {text}{result}\n\n")

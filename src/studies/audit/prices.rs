@@ -407,7 +407,7 @@ fn contact_nodes(model: &Model) -> BTreeSet<NodeId> {
 
 fn free_dofs(model: &Model, nodes: &BTreeSet<NodeId>) -> Vec<Dof> {
     let dofs = nodes.iter().flat_map(|node| node.dofs());
-    dofs.filter(|dof| !model.restrained[dof.index()]).collect()
+    dofs.filter(|dof| !model.is_restrained(*dof)).collect()
 }
 
 /// Returns the component along the load of the forces of contact on the target, over the load.
@@ -419,7 +419,7 @@ fn transmitted(model: &Model, forces: &DVector<f64>) -> f64 {
             let dofs = free_dofs(model, nodes).into_iter().filter(|dof| dof.direction() == d);
             dofs.map(|dof| forces[dof.index()]).sum::<f64>()
         };
-        let is_held = target.iter().any(|node| model.restrained[node.dofs()[d].index()]);
+        let is_held = target.iter().any(|node| model.is_restrained(node.dofs()[d]));
         load[d] * if is_held { 0.0 - sum(&contact_nodes(model)) } else { sum(&target) }
     };
     over(component(0) + component(1), load[0] * load[0] + load[1] * load[1])

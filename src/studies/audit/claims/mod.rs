@@ -27,6 +27,7 @@ use base::error::InputError;
 use engine::Solution;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
+use numbers::finite;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
@@ -170,9 +171,9 @@ impl Evidence {
     fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
         let error = |(run, solution): (&str, &Solution)| MeshError {
             run: run.into(),
-            energy_relative: Some(Discretisation::new(&solution.model, &solution.elements))
-                .map(|estimate| estimate.relative())
-                .filter(|error| error.is_finite()),
+            energy_relative: finite(
+                Discretisation::new(&solution.model, &solution.elements).relative(),
+            ),
         };
         self.mesh_errors = runs.into_iter().map(error).collect();
         self
