@@ -61,7 +61,7 @@ fn at(json: &mut Value, n: usize, x: f64, y: f64) {
 fn shows(id: &str, measured: &Evidence, number: f64, words: &[&str]) {
     assert_eq!(measured.verdict, Verdict::Present, "{id}: {}", measured.detail);
     let scale = if number == 0.0 { 1.0 } else { number };
-    assert_near(id, measured.number, number, scale, &FINDING);
+    assert_near(id, measured.number.expect("a number"), number, scale, &FINDING);
     for word in words {
         assert!(measured.detail.contains(word), "{id}: {word:?} is not in {:?}", measured.detail);
     }
@@ -344,7 +344,7 @@ fn verdicts() {
             let measured = finding.measure(&case);
             println!("{} {}: {}", scene.name, finding.id, measured.detail);
             assert_ne!(measured.verdict, Verdict::Contradicted, "{}", finding.id);
-            let (verdict, number) = (measured.verdict.name(), number(measured.number));
+            let (verdict, number) = (measured.verdict.name(), number(measured.number.expect("a number")));
             writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
         }
     }

@@ -27,7 +27,7 @@ fn status_rows(first: &str) -> Vec<Vec<&'static str>> {
 }
 
 fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome<'static> {
-    Ok(Evidence::new(verdict, Some(number), detail))
+    Ok(Evidence::new(verdict, number, detail))
 }
 
 fn true_if(is_true: bool) -> Verdict {
@@ -60,7 +60,7 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
              ({tolerance:.1e}); {pulls}"
         ),
     };
-    let measured = Evidence::new(verdict, Some(relative), detail);
+    let measured = Evidence::new(verdict, relative, detail);
     Ok(Evidence { variant: Some(variant), ..measured }.on([(variant.name(), solution)]))
 }
 
@@ -70,7 +70,7 @@ pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
     let sticking = case.sticking()?;
     let needed = case.friction_needed().ok_or("no node is in contact")?;
     let detail = "the coefficient of friction is at least the value";
-    let measured = Evidence::new(Verdict::TrueOnlyIf, Some(needed), detail);
+    let measured = Evidence::new(Verdict::TrueOnlyIf, needed, detail);
     Ok(measured.on([("unilateral, sticking", sticking)]))
 }
 
@@ -144,7 +144,7 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
         tolerance / 1000.0,
         100.0 * over(least_largest - own_largest, own_largest).abs()
     );
-    let measured = Evidence::new(true_if(change < NOTICEABLE), Some(change), detail);
+    let measured = Evidence::new(true_if(change < NOTICEABLE), change, detail);
     Ok(measured.on([(variant.name(), own), ("with a thousandth of c_tol", least)]))
 }
 
@@ -157,7 +157,7 @@ pub(super) fn settles(case: &Case) -> Outcome<'_> {
         1 => "the contact state has settled",
         _ => "the contact state repeats in a cycle",
     };
-    let measured = Evidence::new(true_if(length == 1), Some(length as f64), detail);
+    let measured = Evidence::new(true_if(length == 1), length as f64, detail);
     Ok(measured.on([(Variant::Tied.name(), tied)]))
 }
 
@@ -178,7 +178,7 @@ pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
             format!("{} are equally near", names.join(" and "))
         }
     };
-    let measured = Evidence::new(true_if(least < NOTICEABLE), Some(least), detail);
+    let measured = Evidence::new(true_if(least < NOTICEABLE), least, detail);
     let measured = Evidence { variant: Some(variants[0]), ..measured };
     let runs = variants.iter().zip(&nearest).map(|(variant, k)| (variant.name(), distances[*k].1));
     Ok(measured.on(runs.chain([("equilibrium", equilibrium)])))

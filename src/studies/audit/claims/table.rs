@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use crate::audit::Assumption;
-use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, MeshError, UnderReading};
+use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, UnderReading};
+use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;

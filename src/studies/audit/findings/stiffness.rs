@@ -130,7 +130,7 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
         1 => Verdict::NotTriggered,
         _ => Verdict::Present,
     };
-    Ok(Evidence { verdict, number: cycle.length as f64, detail, by_rounding: false })
+    Ok(Evidence::new(verdict, cycle.length as f64, detail))
 }
 
 /// K9: nodes that eq. (1) binds to the target with a pull, at the end of `stepped`.

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::audit::BY_ROUNDING;
 use crate::audit::claims::table::under;
+use crate::audit::evidence::BY_ROUNDING;
 use crate::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use crate::audit::range::ParameterValue;
 use paper::mirror::Reading;
