@@ -10,6 +10,7 @@ use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use numbers::finite;
 use problem::modelling::Variant;
+use report::model::Cell;
 
 /// What is said in place of a figure that inputs of the same meaning change.
 pub const BY_ROUNDING: &str = "decided by rounding";
@@ -85,6 +86,20 @@ impl<V> Evidence<V> {
         };
         self.mesh_errors = runs.into_iter().map(error).collect();
         self
+    }
+
+    /// Writes the number; where there is none, a dash, or that rounding decides on it.
+    pub fn figure(&self, write: fn(f64) -> String) -> String {
+        match self.number {
+            Some(number) => write(number),
+            None if self.by_rounding => BY_ROUNDING.into(),
+            None => "-".into(),
+        }
+    }
+
+    /// Returns the number as a cell of a table; where rounding decides on it, that.
+    pub fn cell(&self) -> Cell {
+        if self.by_rounding { BY_ROUNDING.into() } else { self.number.into() }
     }
 
     /// Returns whether another input leads to another number.

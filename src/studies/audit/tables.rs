@@ -103,14 +103,9 @@ fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Find
             lines => format!("{} {}", finding.listing, listed(lines)),
         })
         .column("verdict", |(_, measured)| measured.verdict.name())
-        .column("value", |(_, measured)| figure(measured))
+        .column("value", |(_, measured)| measured.cell())
         .column("what the value is", |(finding, _)| finding.number)
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
-}
-
-/// Returns the number of a finding, or that rounding decides on it.
-fn figure(measured: &Evidence) -> Cell {
-    measured.number.map_or(BY_ROUNDING.into(), Cell::from)
 }
 
 /// Reports the variants side by side, why some failed, and the two solutions without the print's
@@ -324,12 +319,12 @@ pub fn explanation(
     scene: &Scene,
     reading: &Reading,
 ) -> Report {
-    let value = measured.number.map_or(format!("{BY_ROUNDING}:"), short);
+    let value = measured.figure(short);
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")
         .then(quotation(finding))
         .heading(format!(
-            "On scene {}{}: {} ({value} {})",
+            "On scene {}{}: {} ({value}: {})",
             scene.name,
             claims::under(reading),
             measured.verdict.name(),

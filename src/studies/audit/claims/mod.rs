@@ -141,7 +141,11 @@ impl Measured for Evidence {
     }
 
     fn by_rounding(self) -> Self {
-        Evidence { number: None, by_rounding: true, detail: BY_ROUNDING.into(), ..self }
+        let detail = match self.verdict {
+            Verdict::TrueOnlyIf => self.detail,
+            Verdict::True | Verdict::False | Verdict::NotCheckable => BY_ROUNDING.into(),
+        };
+        Evidence { number: None, by_rounding: true, detail, ..self }
     }
 
     /// Without a common verdict there is none.
@@ -150,7 +154,7 @@ impl Measured for Evidence {
         let is_common = others.iter().all(|other| other.verdict == self.verdict);
         let verdict = if is_common { self.verdict } else { Verdict::NotCheckable };
         match others.iter().any(|other| self.moves(other)) {
-            true => Evidence { verdict, ..self.by_rounding() },
+            true => Evidence { verdict, ..self }.by_rounding(),
             false => self,
         }
     }

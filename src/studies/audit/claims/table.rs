@@ -28,7 +28,7 @@ pub fn report(
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
         .column("certainty", |judged| judged.claim.basis.to_string())
-        .column("value", |judged| judged.measured.number)
+        .column("value", |judged| judged.measured.cell())
         .column("the paper's words", |judged| judged.claim.translation)
         .column("what is judged", |judged| judged.claim.judged);
     let assumptions = Table::from_rows(assumptions)
@@ -50,7 +50,12 @@ pub fn report(
              the stamp and units of c_tol.",
         )
     } else {
-        report.note("Over the range of what the paper leaves open:").then(over_the_range(claims))
+        report
+            .note(
+                "Over the range of what the paper leaves open, each place on a mesh of `scene mesh strand`; that of the \
+                 scene strand is Gmsh's, so figures at its own values differ a little:",
+            )
+            .then(over_the_range(claims))
     };
     let entry = |report: Report, judged: &JudgedClaim| {
         let Claim { id, judged: what, .. } = judged.claim;
@@ -90,7 +95,7 @@ pub fn explanation(claim: &Document, scene: &Scene, reading: &Reading) -> Report
     let table = Table::from_rows(verdicts)
         .column("reading", |(reading, _)| reading.as_str())
         .column("verdict", |(_, measured)| measured.words())
-        .column("value", |(_, measured)| measured.number)
+        .column("value", |(_, measured)| measured.cell())
         .column("beside it", |(_, measured)| measured.detail.clone());
     report.table("Under other readings", table)
 }
@@ -112,7 +117,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
         .column("another verdict under", |(judged, found)| {
             let others = found.iter().filter(|(_, other)| other.verdict != judged.measured.verdict);
             let words = others.map(|(reading, other)| {
-                format!("{reading}: {} ({})", other.words(), or_dash(other.number, rounded))
+                format!("{reading}: {} ({})", other.words(), other.figure(rounded))
             });
             words.collect::<Vec<_>>().join("; ")
         });
@@ -137,7 +142,7 @@ pub fn claim_json(claim: &Document, scene: &Scene) -> String {
 /// Reports a claim: its words, what is judged, and what came of it.
 fn entry(judged: &JudgedClaim) -> Report {
     let Claim { place, quote, translation, condition, threshold, number, basis, .. } = judged.claim;
-    let value = judged.measured.number.map_or("-".into(), short);
+    let value = judged.measured.figure(short);
     Report::default()
         .detail(format!("the paper, {place}: «{quote}»"))
         .detail(format!("in English: \"{translation}\""))
@@ -192,7 +197,7 @@ pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
         .column("what is judged", |judged| judged.claim.judged)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
-        .column("value", |judged| or_dash(judged.measured.number, rounded))
+        .column("value", |judged| judged.measured.figure(rounded))
         .column("what the value is", |judged| judged.claim.number)
 }
 
@@ -232,7 +237,7 @@ pub fn over(judged: &JudgedClaim, parameter: Parameter) -> String {
     let alike = places.chunk_by(|a, b| a.measured.verdict == b.measured.verdict);
     let words = alike.map(|places| {
         let values = places.iter().map(|other| {
-            format!("{} ({})", other.place.value, or_dash(other.measured.number, rounded))
+            format!("{} ({})", other.place.value, other.measured.figure(rounded))
         });
         format!("{} at {}", places[0].measured.words(), listed(values))
     });
