@@ -344,7 +344,8 @@ fn verdicts() {
             let measured = finding.measure(&case);
             println!("{} {}: {}", scene.name, finding.id, measured.detail);
             assert_ne!(measured.verdict, Verdict::Contradicted, "{}", finding.id);
-            let (verdict, number) = (measured.verdict.name(), number(measured.number.expect("a number")));
+            let (verdict, number) =
+                (measured.verdict.name(), number(measured.number.expect("a number")));
             writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
         }
     }

@@ -12,11 +12,11 @@ use plane_contact::Scene;
 use plane_contact::engine::{Request, distance, solve};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
+use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
 use plane_contact::studies::audit::conclusion::words::WIDER;
-use plane_contact::studies::audit::range::{Parameter, Range, range};
-use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::evidence::BY_ROUNDING;
+use plane_contact::studies::audit::range::{Parameter, Range, range};
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))

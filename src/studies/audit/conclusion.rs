@@ -214,7 +214,8 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     Some(Fields {
         variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
-        by_rounding: of_the_paper(rows).any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
+        by_rounding: of_the_paper(rows)
+            .any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
         errors: Estimates::new(equilibrium).errors,
         theirs,
         own,

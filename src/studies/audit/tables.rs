@@ -126,9 +126,10 @@ fn variants(audit: &Audit) -> Report {
         ],
         audit.variants.iter().map(variant),
     );
-    let notes = audit.variants.iter().filter_map(|row| {
-        Some(format!("{}: {}", row.variant, row.end.failure()?.in_short()))
-    });
+    let notes = audit
+        .variants
+        .iter()
+        .filter_map(|row| Some(format!("{}: {}", row.variant, row.end.failure()?.in_short())));
     let report = Report::default().table("3. Variants side by side", table).notes(notes);
     if audit.friction.is_empty() {
         return report;

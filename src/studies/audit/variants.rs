@@ -103,7 +103,8 @@ impl End {
 impl Measured for End {
     fn moves(&self, other: &Self) -> bool {
         let (own, other) = (self.figures(), other.figures());
-        own.len() != other.len() || own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
+        own.len() != other.len()
+            || own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
     }
 
     fn by_rounding(self) -> Self {

@@ -172,9 +172,10 @@ fn unchecked(audit: &Audit) -> Report {
         NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
         NoFigures::Rounding => "on which rounding decides".into(),
     };
-    let variants = audit.variants.iter().filter_map(|row| {
-        Some(format!("variant {}, {}", row.variant, why(row.end.failure()?)))
-    });
+    let variants = audit
+        .variants
+        .iter()
+        .filter_map(|row| Some(format!("variant {}, {}", row.variant, why(row.end.failure()?))));
     let readings = audit.readings.iter().filter_map(|effect| {
         Some(format!("reading {}, {}", effect.reading, why(effect.failure.as_ref()?)))
     });

@@ -18,12 +18,32 @@ const NOTICEABLE: f64 = 0.01;
 /// What a test measured of the status rules on random scenes whose contact is known.
 const STATUSES: &str = include_str!("../../../../golden/tables/statuses.md");
 
-/// Returns the cells of the rows of that table whose first cell begins with `first`.
+/// What a test measured of the estimate of the error of the mesh.
+const MESH_ERRORS: &str = include_str!("../../../../golden/tables/mesh_errors.md");
+
+/// Returns the cells of the rows of a table, its head the first.
+fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
+    let rows = table.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
+    rows.map(|row| row.split(" | ").collect())
+}
+
+/// Returns the cells of the rows of the table of statuses whose first cell begins with `first`.
 fn status_rows(first: &str) -> Vec<Vec<&'static str>> {
-    let rows = STATUSES.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
-    rows.map(|row| row.split(" | ").collect::<Vec<_>>())
-        .filter(|cells| cells[0].starts_with(first))
-        .collect()
+    rows(STATUSES).filter(|cells| cells[0].starts_with(first)).collect()
+}
+
+/// Says how the estimate of the error of the mesh compares with the error.
+pub(super) fn how_good_is_the_estimate() -> String {
+    let last = |cells: Vec<&str>| cells.last().and_then(|cell| cell.parse().ok());
+    let mut quotients: Vec<f64> = rows(MESH_ERRORS).filter_map(last).collect();
+    quotients.sort_by(f64::total_cmp);
+    format!(
+        "Beside a mesh 64 times finer it was below the error in {} of {} runs, at the median {:.2} of it \
+         (golden/tables/mesh_errors.md)",
+        quotients.iter().filter(|quotient| **quotient < 1.0).count(),
+        quotients.len(),
+        quotients[quotients.len() / 2]
+    )
 }
 
 fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome<'static> {

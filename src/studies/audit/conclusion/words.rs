@@ -96,7 +96,9 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
                 }
                 (None, Some(why)) => {
                     let what = match why {
-                        NoFigures::Fails(_) => format!("stops: {}", why.in_short().trim_end_matches('.')),
+                        NoFigures::Fails(_) => {
+                            format!("stops: {}", why.in_short().trim_end_matches('.'))
+                        }
                         NoFigures::Rounding => format!("is {BY_ROUNDING}"),
                     };
                     format!("{entries}; printed {what}.")

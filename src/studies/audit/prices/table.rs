@@ -271,6 +271,9 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
                 "Under the corrected algorithm too no load passes between the bodies".into(),
             );
         }
+        Outcome::Result { energy_relative, .. } if !energy_relative.is_finite() => {
+            return Some("Nothing moves in the solution of this scene".into());
+        }
         Outcome::Result { .. } if !corrected.is_settled() => "does not settle on this scene".into(),
         Outcome::Result { .. } if corrected.error() > 0.0 => {
             format!("is {} from the solution on this scene", percent(corrected.error(), 1))
