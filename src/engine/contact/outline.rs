@@ -35,7 +35,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{Edge, FACING, PlacedEdge, Surface};
+use super::surface::{BEND, Edge, FACING, PlacedEdge, Surface};
 use problem::model::NodeId;
 use problem::tree::{Bounds, Tree};
 
@@ -46,10 +46,6 @@ const TIE: f64 = 1e-9;
 /// How far past an edge's end a closest point still counts as on it, over its length, and by how
 /// much a cosine may miss its limit: rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
-/// smooth surface: 30 degrees.
-pub const BEND: f64 = 0.866;
 
 /// How far past the end of the surface a node still rests on it, over the last edge's length: the
 /// same tolerance as mortar's. Edges that lie flush slide by their strain.
