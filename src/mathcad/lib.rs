@@ -17,7 +17,7 @@
 //! |---|---|
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
-//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
+//! | `square`, [`mod@array`], [`value`] | sparse matrices, the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -53,6 +53,7 @@ mod function;
 mod lexer;
 mod matrices;
 mod parser;
+mod square;
 mod state;
 pub mod syntax;
 pub mod unsupported;
@@ -66,5 +67,6 @@ pub use observe::{Observer, Recorder};
 pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;
+pub use square::SparseSquare;
 pub use state::Outcome;
 pub use value::{Array, Value};

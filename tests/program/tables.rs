@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
+use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve, summaries};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::studies::audit::Case;

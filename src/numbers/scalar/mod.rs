@@ -15,6 +15,7 @@
 mod bounded;
 mod exact;
 mod f64x2;
+mod field;
 mod native;
 mod number;
 mod operators;
@@ -23,4 +24,5 @@ pub mod rational;
 pub use bounded::{Bounded, BoundedDouble, Rounded, SumOfProducts, Unsure, WithBound, compared};
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
+pub use field::Field;
 pub use number::{Scalar, Subscript};
