@@ -37,6 +37,7 @@ pub mod array;
 pub mod edit;
 pub mod failure;
 pub mod file;
+#[cfg(feature = "files")]
 pub mod json;
 pub mod listing;
 pub mod observe;
@@ -44,7 +45,9 @@ pub mod run;
 pub mod settings;
 pub mod sheet;
 pub mod value;
+#[cfg(feature = "files")]
 pub mod worksheet;
+#[cfg(feature = "files")]
 pub mod xmcd;
 
 mod arithmetic;
@@ -57,6 +60,7 @@ mod square;
 mod state;
 pub mod syntax;
 pub mod unsupported;
+#[cfg(feature = "files")]
 mod words;
 mod x87;
 

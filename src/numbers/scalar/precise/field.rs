@@ -3,7 +3,7 @@
 
 use dashu_ratio::RBig;
 
-use super::number::Scalar;
+use crate::scalar::number::Scalar;
 
 /// A number that matrices are eliminated in.
 pub trait Field: Clone {
