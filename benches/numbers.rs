@@ -12,8 +12,8 @@ use std::time::Instant;
 
 use clap::Parser;
 use nalgebra::DVector;
+use plane_contact::engine::linear::SparseCholesky;
 use plane_contact::engine::{Elimination, Stiffness};
-use plane_contact::numbers::solve::SparseCholesky;
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};

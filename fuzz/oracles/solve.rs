@@ -5,9 +5,9 @@
 use arbitrary::{Result, Unstructured};
 use plane_contact::engine::Assessment;
 use plane_contact::engine::contact::pulling;
+use plane_contact::engine::linear::cost;
 use plane_contact::engine::plan::Plan;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
-use plane_contact::numbers::solve::cost;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{ResultFile, tables};
 use plane_contact::{Request, Solution, solve};

@@ -9,7 +9,7 @@ use base::files;
 use base::plain::{shown, six_digits};
 use engine::Request;
 use engine::error::Result;
-use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use engine::linear::{Arithmetic, Inputs, ScalarName, Solver};
 use paper::mirror::Reading;
 use problem::modelling::{
     ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,

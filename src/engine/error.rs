@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::linear::ScalarName;
 use base::error::InputError;
-use numbers::solve::ScalarName;
 use paper::mirror::Failure;
 
 /// A value, or the reason why there is none.

@@ -10,6 +10,7 @@ mod equations;
 pub mod error;
 pub mod estimates;
 mod hertz;
+pub mod linear;
 pub mod options;
 pub mod plan;
 mod published;

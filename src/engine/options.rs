@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::Request;
-use numbers::solve::{Arithmetic, Inputs, ScalarName, Solver};
+use crate::linear::{Arithmetic, Inputs, ScalarName, Solver};
 use paper::mirror::Reading;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
 use problem::scene::Scene;

@@ -21,12 +21,12 @@ use super::solution::{
 };
 use super::sparse::is_dense;
 use super::support::transmitted_force;
+use crate::linear::{Inputs, Precision, ScalarName, cost};
 use base::error::InputError;
 use base::limits;
 use base::plain::six_digits;
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
-use numbers::solve::{Inputs, Precision, ScalarName, cost};
 use paper::door::{self, NodeToSegment};
 use paper::edited::Interpreter;
 use paper::listings::Which;

@@ -14,7 +14,7 @@ use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
 use super::refinement::{CONTRACTION, REFINED, refine};
 use super::stiffness::Stiffness;
-use numbers::solve::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
+use crate::linear::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
 use problem::model::{Dof, Model, NodeId};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::elimination::Elimination;
 use super::stiffness::Stiffness;
-use numbers::solve::{Factors, Normed, backward_error};
+use crate::linear::{Factors, Normed, backward_error};
 
 /// The relative residual at which refinement ends.
 pub(super) const REFINED: f64 = 4.0 * f64::EPSILON;

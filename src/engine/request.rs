@@ -4,8 +4,8 @@ use serde::Serialize;
 use std::sync::Arc;
 
 use super::contact;
+use crate::linear::{Arithmetic, Solver};
 use base::error::InputError;
-use numbers::solve::{Arithmetic, Solver};
 use paper::door;
 use paper::edited::Edited;
 use paper::listings::Which;

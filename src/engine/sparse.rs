@@ -1,7 +1,7 @@
 //! Which solvers take the contact states of `tied` and `stepped` as sparse matrices, and whether
 //! the others hold dense ones.
 
-use numbers::solve::{Arithmetic, Solver};
+use crate::linear::{Arithmetic, Solver};
 use problem::modelling::Variant;
 
 /// Returns whether `solver` takes Tᵀ K T as a sparse matrix.

@@ -5,8 +5,8 @@ use std::ops::Range;
 use nalgebra::{DVector, SMatrix, SVector};
 
 use super::elimination::Elimination;
+use crate::linear::{Pattern, SparseSymmetric};
 use numbers::scalar::Scalar;
-use numbers::solve::{Pattern, SparseSymmetric};
 use problem::element::{self, D, Plane, State};
 use problem::model::{Dof, Model, NodeId, TriangleId};
 

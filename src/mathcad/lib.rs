@@ -17,7 +17,7 @@
 //! |---|---|
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
-//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
+//! | `square`, [`mod@array`], [`value`] | sparse matrices, the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -37,6 +37,7 @@ pub mod array;
 pub mod edit;
 pub mod failure;
 pub mod file;
+#[cfg(feature = "files")]
 pub mod json;
 pub mod listing;
 pub mod observe;
@@ -44,7 +45,9 @@ pub mod run;
 pub mod settings;
 pub mod sheet;
 pub mod value;
+#[cfg(feature = "files")]
 pub mod worksheet;
+#[cfg(feature = "files")]
 pub mod xmcd;
 
 mod arithmetic;
@@ -53,9 +56,11 @@ mod function;
 mod lexer;
 mod matrices;
 mod parser;
+mod square;
 mod state;
 pub mod syntax;
 pub mod unsupported;
+#[cfg(feature = "files")]
 mod words;
 mod x87;
 
@@ -66,5 +71,6 @@ pub use observe::{Observer, Recorder};
 pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;
+pub use square::SparseSquare;
 pub use state::Outcome;
 pub use value::{Array, Value};

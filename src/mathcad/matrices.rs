@@ -3,17 +3,11 @@
 use super::arithmetic::{finite, kind, sum};
 use super::failure::{Cause, Subscripts};
 use super::value::{Array, Grid, Value};
+use nalgebra::DMatrix;
 use nalgebra::linalg::{Schur, SymmetricEigen};
-use nalgebra::{DMatrix, DVector};
-use numbers::solve::{Factors as _, SparseLu, SparseSquare};
 
 /// The numbers that an elimination works through in the time of a statement.
 const NUMBERS_A_STEP: u64 = 16;
-
-/// The rows of a system beyond which only entries that are not 0 are eliminated, in an order in which
-/// they stay few: the 2,328 equations of `audit strand --prices` take 20 ms by them, and 350 ms by
-/// [`factor`]. Up to there the page's interpreter has the same bits.
-const DENSE: usize = 500;
 
 /// Returns the steps that the elimination of a matrix of n rows takes: about n³/3 products, of which
 /// many take the time of one statement, and a number for each entry.
@@ -68,21 +62,7 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     if n != a.cols() || n != b.rows() || b.cols() != 1 {
         return Err(Cause::sizes("lsolve", a.size(), b.size()));
     }
-    let x = if n > DENSE { sparse(a, b) } else { substituted(&factor(a), b.entries()) };
-    x.map(|x| Array::column(x).into())
-}
-
-/// Solves the equations of a matrix by its entries that are not 0.
-fn sparse(a: &Array, b: &Array) -> Result<Vec<f64>, Cause> {
-    let mut matrix = SparseSquare::zeros(a.rows());
-    for (i, row) in a.entries().chunks(a.cols()).enumerate() {
-        for (j, entry) in row.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
-            matrix[(i, j)] = *entry;
-        }
-    }
-    let factors = SparseLu::unjudged(&matrix).ok_or(Cause::Singular)?;
-    let x = factors.solve(&DVector::from_column_slice(b.entries()));
-    x.iter().map(|x| finite(*x)).collect()
+    substituted(&factor(a), b.entries()).map(|x| Array::column(x).into())
 }
 
 /// Returns the inverse of a square matrix, the solution for each unit column.

@@ -19,7 +19,7 @@ use base::plain::six_digits;
 use numbers::scalar::Scalar;
 
 choices! {
-    #[derive(schemars::JsonSchema)]
+    #[cfg_attr(feature = "scenes", derive(schemars::JsonSchema))]
     /// The plane problem behind `D` (reading R6: the paper does not print which).
     Plane {
         /// Plane strain: no strain across the plane.

@@ -3,6 +3,8 @@
 
 pub mod element;
 pub mod model;
+#[cfg(feature = "scenes")]
 pub mod modelling;
+#[cfg(feature = "scenes")]
 pub mod scene;
 pub mod tree;

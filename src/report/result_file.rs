@@ -8,6 +8,7 @@ use base::files;
 use base::files::json::{FORMAT, VERSION};
 use engine::contact::ContactNode;
 use engine::estimates::{ErrorEstimates, Perturbed};
+use engine::linear::Arithmetic;
 use engine::plan::Plan;
 use engine::{
     Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Solution,
@@ -15,7 +16,6 @@ use engine::{
 };
 use numbers::finite;
 use numbers::scalar::rational;
-use numbers::solve::Arithmetic;
 use paper::edited::Edited;
 use paper::listings::Which;
 use paper::mirror::Reading;

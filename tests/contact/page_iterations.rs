@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::Command;
 
 use nalgebra::DVector;
+use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Request, solve};
 use plane_contact::mathcad::{Settings, unsupported};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::corrected::{Bound, Program, STEPS, iterate, program};
 use plane_contact::paper::listings::Which;
 use plane_contact::problem::model::NodeId;

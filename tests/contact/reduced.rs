@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 use plane_contact::engine::contact::{Pairing, Surfaces};
+use plane_contact::engine::linear::SparseCholesky;
 use plane_contact::engine::reduction::{ReducedState, Reduction};
 use plane_contact::engine::{Constraint, Elimination, Motion, Stiffness};
-use plane_contact::numbers::solve::SparseCholesky;
 use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;

@@ -11,12 +11,13 @@ use crate::common::tolerances::{
 use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::engine::error::Error;
-use plane_contact::engine::{self, Request, Solution, Step};
-use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
-use plane_contact::numbers::solve::{
-    Arithmetic, DenseLu, Inputs, Ldlt, Precision, ScalarName, Solver, SparseSquare,
-    SparseSymmetric, inverse_norm, solve_dense,
+use plane_contact::engine::linear::{
+    Arithmetic, DenseLu, Inputs, Ldlt, Precision, ScalarName, Solver, SparseSymmetric,
+    inverse_norm, solve_dense,
 };
+use plane_contact::engine::{self, Request, Solution, Step};
+use plane_contact::mathcad::SparseSquare;
+use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
 use plane_contact::paper::door;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::Variant;

@@ -2,12 +2,12 @@
 
 use fastrand::Rng;
 use nalgebra::{DMatrix, DVector};
-use plane_contact::numbers::scalar::{F64x2, Scalar};
-use plane_contact::numbers::solve::cost;
-use plane_contact::numbers::solve::{
-    DenseLu, Factors, Lu, Precision, Singular, Solver, SparseCholesky, SparseSquare,
-    SparseSymmetric,
+use plane_contact::engine::linear::cost;
+use plane_contact::engine::linear::{
+    DenseLu, Factors, Lu, Precision, Singular, Solver, SparseCholesky, SparseSymmetric,
 };
+use plane_contact::mathcad::SparseSquare;
+use plane_contact::numbers::scalar::{F64x2, Scalar};
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
 /// spring of stiffness `ground`.

@@ -2,8 +2,8 @@
 //! of rounding, of another version, of a tampered number.
 
 use fastrand::Rng;
+use plane_contact::engine::linear::{Arithmetic, Solver};
 use plane_contact::engine::{Detail, Request, Step, solve};
-use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{GroupRef, Scene, SceneBuilder, Surface};
 use plane_contact::studies::snapshot::{

@@ -2,9 +2,9 @@
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use plane_contact::engine::linear::{Arithmetic, Solver};
 use plane_contact::engine::plan::{Idle, Plan, Storage};
 use plane_contact::engine::{Request, solve};
-use plane_contact::numbers::solve::{Arithmetic, Solver};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::plan::line;

@@ -26,7 +26,7 @@ const GIVEN: &[(&str, &str)] = &[
     ("section 8", "as above"),
     ("below 0 it has penetrated", "a definition"),
     ("between 0 and 1", "a definition"),
-    ("at most 1,000 free equations", "the limit of exact runs, in `src/numbers/solve/cost.rs`"),
+    ("at most 1,000 free equations", "the limit of exact runs, in `src/engine/linear/cost.rs`"),
     ("displacements other than 0", "a definition"),
     ("number, type, 2, physical tag", "a number of tags, in the paper's tables"),
     ("numbered 1 to R", "the paper counts from 1"),

@@ -1,8 +1,8 @@
 //! Result files read back as they were written.
 
+use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::plan::Plan;
 use plane_contact::engine::{Assessment, Request, solve};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::{MOST_TRIANGLES, ResultFile};

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
+use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Request, solve};
 use plane_contact::error::InputError;
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::paper::door;
 use plane_contact::paper::mirror::Worksheet;
 use plane_contact::problem::model::{NodeId, TriangleId};

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use nalgebra::DVector;
 use plane_contact::engine::estimates::Estimates;
+use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Assessment, Solution, SolutionDistance, Stiffness, solve, summaries};
-use plane_contact::numbers::solve::{Arithmetic, ScalarName};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::problem::scene::Refined;

@@ -9,10 +9,10 @@
 use nalgebra::{DVector, SVector};
 use serde::Serialize;
 
+use crate::linear::{Arithmetic, ScalarName};
 use crate::{Decision, Detail, Request, Solution, Step, StepBounds, Stiffness, solve};
 use numbers::finite;
 use numbers::scalar::{Bounded, Scalar};
-use numbers::solve::{Arithmetic, ScalarName};
 use problem::element::Plane;
 use problem::model::Model;
 use problem::modelling::Variant;

@@ -15,10 +15,10 @@ pub use candidates::MARGIN;
 
 use candidates::Candidates;
 
+use crate::linear::{ScalarName, Solver};
 use crate::{Request, is_dense};
 use base::choices;
 use base::error::Result;
-use numbers::solve::{ScalarName, Solver};
 use problem::model::Model;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use problem::scene::symmetry::half;

@@ -9,7 +9,7 @@ use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
-use numbers::solve::SparseCholesky;
+use crate::linear::SparseCholesky;
 use problem::model::Dof;
 
 /// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::problem::{Problem, Setting};
 use crate::elimination::{Constraint, Elimination};
+use crate::linear::{Singular, SparseCholesky};
 use crate::reduction::{ReducedLoad, ReducedState};
 use crate::refinement::refined;
-use numbers::solve::{Singular, SparseCholesky};
 
 /// The equations of the bodies under constraints and a load, factored.
 pub(super) enum HeldBodies<'a> {

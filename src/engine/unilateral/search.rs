@@ -14,8 +14,8 @@ use super::status::{History, first_closed, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
+use crate::linear::largest;
 use crate::solution::{Cycle, Margin, NearestDecision};
-use numbers::solve::largest;
 
 /// A first set of few nodes presses them far beyond the later contact: of the nodes outside it, the
 /// second set takes those that penetrate by more than this part of the deepest penetration.

@@ -18,7 +18,7 @@ use super::search::{SETTLED, STALLED};
 use super::status::History;
 use crate::contact::Status;
 use crate::error::{Cause, Error, NoEquilibrium};
-use numbers::solve::largest;
+use crate::linear::largest;
 
 /// The stiffness s of the first springs.
 const FIRST: f64 = 1e-3;

@@ -4,23 +4,18 @@
 //! |---|---|---|
 //! | `f32` | 7 | how much the answer hangs on the precision |
 //! | `f64` | 16 | Mathcad's own |
-//! | [`Bounded`] | 16 | `f64` with a bound on its error |
-//! | [`F64x2`] | 31 | a reference for scenes of any size |
-//! | [`BoundedDouble`] | 31 | the same with a bound on its error |
-//! | [`Exact`] | all | rational numbers: a reference without doubt, for small scenes |
+//! | `Bounded` | 16 | `f64` with a bound on its error |
+//! | `F64x2` | 31 | a reference for scenes of any size |
+//! | `BoundedDouble` | 31 | the same with a bound on its error |
+//! | `Exact` | all | rational numbers: a reference without doubt, for small scenes |
 //!
-//! The traits are in `number`, which imports none of the others; the types use it, `operators` and
-//! [`rational`].
+//! The traits are in `number`, which imports none of the others. Those below `f64` have the feature `precise`.
 
-mod bounded;
-mod exact;
-mod f64x2;
 mod native;
 mod number;
-mod operators;
-pub mod rational;
+#[cfg(feature = "precise")]
+mod precise;
 
-pub use bounded::{Bounded, BoundedDouble, Rounded, SumOfProducts, Unsure, WithBound, compared};
-pub use exact::{Exact, scope};
-pub use f64x2::F64x2;
 pub use number::{Scalar, Subscript};
+#[cfg(feature = "precise")]
+pub use precise::*;

@@ -3,7 +3,6 @@
 use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dashu_ratio::RBig;
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 
@@ -50,8 +49,9 @@ pub trait Scalar:
     }
 
     /// Returns the exact value, or nothing for an infinity or NaN.
-    fn to_rational(self) -> Option<RBig> {
-        RBig::try_from(self.to_f64()).ok()
+    #[cfg(feature = "precise")]
+    fn to_rational(self) -> Option<dashu_ratio::RBig> {
+        dashu_ratio::RBig::try_from(self.to_f64()).ok()
     }
 
     /// Returns `values` as numerators over one common denominator, where that is cheaper to

@@ -8,8 +8,8 @@ use super::search::{Quantity, Search};
 use super::verdict::Verdict;
 use super::{Generator, Made, answer};
 use engine::error::Error;
+use engine::linear::ScalarName;
 use numbers::scalar::F64x2;
-use numbers::solve::ScalarName;
 use problem::modelling::Variant;
 
 /// Fewer right digits than these, or than half of what the scalar carries, and an engineer is misled.

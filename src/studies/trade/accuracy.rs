@@ -7,8 +7,8 @@
 use base::error::InputError;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
+use engine::linear::{Arithmetic, ScalarName, Solver};
 use engine::{Request, Solution, max_displacement, solve};
-use numbers::solve::{Arithmetic, ScalarName, Solver};
 use problem::modelling::{Coupling, Variant};
 
 use super::trials::{by, most_exact, sparse};

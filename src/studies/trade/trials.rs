@@ -3,7 +3,7 @@
 use super::Varied;
 use base::error::InputError;
 use engine::Request;
-use numbers::solve::{Arithmetic, ScalarName, Solver, cost};
+use engine::linear::{Arithmetic, ScalarName, Solver, cost};
 use problem::modelling::{Coupling, StatusRule, Variant};
 use problem::scene::{Scene, symmetry};
 

@@ -7,8 +7,8 @@ use super::experiment::{
 };
 use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
+use engine::linear::DenseLu;
 use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
-use numbers::solve::DenseLu;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::model::{Body, Model, NodeId, TriangleId};

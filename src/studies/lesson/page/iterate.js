@@ -15,7 +15,7 @@ function called(listing, worksheet, settings, value) {
   return done;
 }
 
-/** The solution of a system; one whose pivot is rounding beside its column is singular, as src/numbers/solve/dense.rs has it. */
+/** The solution of a system; one whose pivot is rounding beside its column is singular, as src/engine/linear/dense.rs has it. */
 function solved(matrix, f) {
   const n = matrix.rows;
   const eliminated = factors(matrix);

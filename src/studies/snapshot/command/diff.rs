@@ -8,7 +8,7 @@ use base::error::InputError;
 use base::files::json;
 use base::plain::shown;
 use engine::error::Result;
-use numbers::solve::{Arithmetic, ScalarName, Solver};
+use engine::linear::{Arithmetic, ScalarName, Solver};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};

@@ -14,8 +14,8 @@ use dashu_ratio::RBig;
 use num_traits::Zero;
 
 use super::f64x2::F64x2;
-use super::number::{Scalar, Subscript};
 use crate::operators;
+use crate::scalar::number::{Scalar, Subscript};
 
 /// A number within `error` of `value`. It compares as its value, so that what runs in it takes the
 /// same turns as in V.

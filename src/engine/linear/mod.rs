@@ -3,7 +3,7 @@
 //! | modules, each using only those above it | what they contain |
 //! |---|---|
 //! | `arithmetic` | the scalar and the solver that are asked for |
-//! | `factors`, `square` | what factorisations share; sparse matrices that need not be symmetric |
+//! | `factors` | what factorisations share |
 //! | `dense` | faer's factors of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
 //! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations and
@@ -27,12 +27,11 @@ mod precision;
 mod schur;
 mod sparse;
 mod sparse_lu;
-mod square;
 mod symmetric;
 
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use dense::{DenseCholesky, DenseLu};
-pub use elimination::{Field, solve_dense};
+pub use elimination::solve_dense;
 pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
 pub use ldlt::Ldlt;
@@ -40,7 +39,6 @@ pub use precision::{Precision, Solved};
 pub use schur::{EliminatedLoad, Schur};
 pub use sparse::SparseCholesky;
 pub use sparse_lu::SparseLu;
-pub use square::SparseSquare;
 pub use symmetric::{Pattern, SparseSymmetric};
 
 /// Returns the size of a pivot, relative to what stood in its place before n equations were eliminated, below

@@ -9,9 +9,9 @@ use std::marker::PhantomData;
 use dashu_int::UBig;
 use dashu_ratio::RBig;
 
-use super::number::{Scalar, Subscript};
 use super::rational;
 use crate::operators;
+use crate::scalar::number::{Scalar, Subscript};
 
 /// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN
 /// does.

@@ -4,11 +4,11 @@
 //! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is that
 //! of `ordering`.
 
-use super::elimination::Field;
 use super::factors::Singular;
 use super::ordering::{Tree, order, places};
 use super::rounding;
 use super::symmetric::SparseSymmetric;
+use numbers::scalar::Field;
 
 /// A symmetric matrix as L D Lᵀ, in an order of its equations that keeps L sparse.
 pub struct Ldlt<F> {

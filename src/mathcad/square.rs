@@ -4,7 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::DMatrix;
 
-use crate::scalar::Scalar;
+use numbers::scalar::Scalar;
 
 /// A square matrix, counted from 0: of each column the entries that were written, rows ascending.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl<T: Scalar> SparseSquare<T> {
     }
 
     /// Returns the entries of a column that were written, rows ascending: row, value.
-    pub(super) fn column(&self, j: usize) -> impl Iterator<Item = &(usize, T)> {
+    pub fn column(&self, j: usize) -> impl Iterator<Item = &(usize, T)> {
         self.columns[j].iter()
     }
 

@@ -11,9 +11,9 @@ use std::fmt;
 
 use dashu_ratio::RBig;
 
-use super::number::{Scalar, Subscript};
 use super::rational;
 use crate::operators;
+use crate::scalar::number::{Scalar, Subscript};
 
 /// hi + lo, hi being the `f64` nearest to the sum. An overflow or NaN stands in hi; lo is then 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]

@@ -7,7 +7,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use nalgebra::{DMatrix, DVector};
 
 use super::factors::backward_error;
-use crate::scalar::Scalar;
+use numbers::scalar::Scalar;
 
 /// The places of the entries in the lower triangle of a symmetric matrix.
 #[derive(Debug)]

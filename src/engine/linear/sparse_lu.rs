@@ -4,12 +4,12 @@ use super::rounding;
 use faer::Par;
 use faer::sparse::linalg::solvers::{self, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use mathcad::SparseSquare;
 use nalgebra::DVector;
 
 use super::dense::DenseLu;
 use super::factors::{Factors, Lu, Singular, backward_error, largest, solve};
 use super::sparse::{largest_motion, mechanism};
-use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
 
 /// The motion under loads of 1, over that which a pivot of dense LU that counts as 0 would bring,

@@ -9,7 +9,7 @@
 use nalgebra::DVector;
 
 use super::factors::Factors;
-use crate::scalar::{BoundedDouble, Rounded, Scalar, SumOfProducts, WithBound};
+use numbers::scalar::{BoundedDouble, Rounded, Scalar, SumOfProducts, WithBound};
 
 /// Returns a bound on the largest |δ|, infinite where A cannot be told from a singular matrix.
 /// `factors` are those of A rounded to `f64`; `entries` those of the whole of A: row, column, value.

@@ -8,13 +8,13 @@ use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::perm::Perm;
 use faer::{Accum, Par, Side};
+use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::is_large;
 use super::factors::{
     Factors, Lu, Singular, backward_error, column, largest, of_columns, of_columns_mut, solve,
 };
-use super::square::SparseSquare;
 
 /// LU factors of a matrix, of which the entries that are not 0 are kept beside them.
 pub struct DenseLu {

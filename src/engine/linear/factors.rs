@@ -4,7 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
-use crate::scalar::Scalar;
+use numbers::scalar::Scalar;
 
 /// The factors of a square matrix A.
 pub trait Factors: Sync {

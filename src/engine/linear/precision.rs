@@ -11,15 +11,17 @@ use nalgebra::DVector;
 
 use super::arithmetic::Solver;
 use super::dense::DenseLu;
-use super::elimination::{Field, solve_dense};
+use super::elimination::solve_dense;
 use super::error_bound::error_bound;
 use super::factors::{Factors, Lu, Singular};
 use super::ldlt::Ldlt;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
-use super::square::SparseSquare;
 use super::symmetric::SparseSymmetric;
-use crate::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
+use mathcad::SparseSquare;
+use numbers::scalar::{
+    Bounded, BoundedDouble, Exact, F64x2, Field, Rounded, Scalar, WithBound, scope,
+};
 
 /// A solution of linear equations.
 #[derive(Clone, Debug)]
