@@ -4,6 +4,7 @@
 pub mod child;
 pub mod choices;
 pub mod error;
+pub mod exit;
 pub mod files;
 pub mod limits;
 pub mod plain;
