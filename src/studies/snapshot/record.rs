@@ -249,11 +249,11 @@ impl Recorded<'_> {
                 }
             }
             (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
-                let t = Elimination::new(&model.restrained, &step.constraints);
+                let t = Elimination::new(model.restraints(), &step.constraints);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
             (Detail::Unilateral(_), _) => {
-                let t = Elimination::closing(&model.restrained, &step.constraints);
+                let t = Elimination::closing(model.restraints(), &step.constraints);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
         }
