@@ -11,6 +11,7 @@ use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::request::Request;
 use base::choices;
+use base::exit::ExitStatus;
 use mathcad::array::{Column, Table, rows};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
@@ -412,6 +413,16 @@ pub struct Equilibrium {
 }
 
 impl Solution {
+    /// Returns whether other equilibria than the one that was found are known.
+    pub fn has_others(&self) -> bool {
+        self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
+    }
+
+    /// Returns the exit status of the process, which is one of its own where other equilibria are known.
+    pub fn exit_status(&self) -> ExitStatus {
+        if self.has_others() { ExitStatus::Equilibrium } else { ExitStatus::Done }
+    }
+
     /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")

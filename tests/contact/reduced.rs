@@ -60,7 +60,7 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
     let state = ReducedState::new(&reduction, constraints).expect("the bodies are held");
-    let t = Elimination::closing(&model.restrained, constraints);
+    let t = Elimination::closing(model.restraints(), constraints);
     let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
         assert!(whole.amax() > 1e-3, "{what}");

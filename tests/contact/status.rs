@@ -11,7 +11,7 @@ use plane_contact::engine::{self, Constraint, Detail, Request, Solution, summari
 use plane_contact::paper::door::{self, Call};
 use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::{EdgeId, Model, NodeId};
+use plane_contact::problem::model::{EdgeId, Model, NodeId, Restraint};
 use plane_contact::problem::modelling::StatusRule::{Intersection, Signs};
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -502,8 +502,8 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
     let node = model.contact.nodes[1];
     let reaction = DVector::from_element(model.dofs(), 3.0);
     let mut of = |restrained: [bool; 2], normal: [f64; 2], eliminated: bool| {
-        for (dof, is_restrained) in node.dofs().into_iter().zip(restrained) {
-            model.restrained[dof.index()] = is_restrained;
+        for (dof, is_fixed) in node.dofs().into_iter().zip(restrained) {
+            model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
         }
         let (edge, masters) = (EdgeId::new(0), Vec::new());
         let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0 };

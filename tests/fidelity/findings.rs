@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use plane_contact::engine::{self, Detail, Request};
 use plane_contact::paper::door::{Call, free_stiffness, linked, worksheet};
 use plane_contact::paper::mirror::{Km, Reading};
-use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::model::{Dof, Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
@@ -467,7 +467,7 @@ fn constrained(model: &Model) -> DMatrix<f64> {
             }
         }
     }
-    for e in (0..free.nrows()).filter(|e| model.restrained[*e]) {
+    for e in (0..free.nrows()).filter(|e| model.is_restrained(Dof::new(*e))) {
         t.column_mut(e).fill(0.0);
     }
     let mut mjs = t.transpose() * free * t;

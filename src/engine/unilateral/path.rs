@@ -312,7 +312,7 @@ fn step(
     let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
     let at_supports = problem.supports.iter().copied();
     let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-    let support = support_force(problem.model, &problem.model.restrained, &reaction, load);
+    let support = support_force(problem.model, problem.model.restraints(), &reaction, load);
     let target_force = transmitted_force(problem.model, support);
     Step {
         k,

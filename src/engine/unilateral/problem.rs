@@ -176,7 +176,7 @@ impl<'a> Problem<'a> {
             model,
             surfaces,
             closed: CLOSED * size(model),
-            supports: stiffness.about(&supports(model, &model.restrained)),
+            supports: stiffness.about(&supports(model, model.restraints())),
             surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,

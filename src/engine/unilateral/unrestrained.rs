@@ -310,7 +310,7 @@ impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
         let Problem { model, stiffness, .. } = self.problem;
-        let t = Elimination::closing(&model.restrained, &self.constraints(statuses));
+        let t = Elimination::closing(model.restraints(), &self.constraints(statuses));
         let singular = SparseCholesky::new(stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())
     }

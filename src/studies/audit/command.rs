@@ -36,8 +36,8 @@ than the default, to see whether it rescues a claim. All figures are repeated on
 mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
 takes 150 to 300 times as long as solve.
 
-A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
-status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
+A variant that runs to its end and passes no load on, as printed does, is an audit result, no
+failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
 Examples:
   plane-contact audit
