@@ -190,6 +190,9 @@ pub enum Start {
     /// They overlapped, and neither contact nor the load holds them without friction: they were moved apart as rigid
     /// ones, so that all nodes that overlapped touch and none slipped.
     Unslipped,
+    /// They overlapped, and the load holds them by friction alone: a first small part of it is a step of its own, in
+    /// which no other contact state is in equilibrium.
+    Pressed,
     /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
     /// changes the result.
     Loose,
@@ -276,6 +279,15 @@ impl Uniqueness {
             Uniqueness::Unique | Uniqueness::Unknown { .. } => false,
             Uniqueness::Indifferent { .. } => true,
             Uniqueness::Tried { others, .. } => !others.is_empty(),
+        }
+    }
+
+    /// Returns whether it is known that there is no other equilibrium in the steps that were looked at.
+    pub fn is_proven(&self) -> bool {
+        match self {
+            Uniqueness::Unique => true,
+            Uniqueness::Indifferent { .. } | Uniqueness::Unknown { .. } => false,
+            Uniqueness::Tried { all, others, .. } => *all && others.is_empty(),
         }
     }
 }

@@ -243,6 +243,16 @@ impl<'a> Problem<'a> {
         Configuration { shape: Arc::new(shape), pairings }
     }
 
+    /// Returns the target that each contact node faces before any load.
+    pub(super) fn at_rest(&self) -> Configuration {
+        self.configuration(&DVector::zeros(self.model.dofs()))
+    }
+
+    /// Returns the number of stages of the path: without friction only the whole load counts.
+    pub(super) fn stages(&self) -> usize {
+        if self.friction > 0.0 { self.model.stages.len() } else { 1 }
+    }
+
     /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
     fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
         pairing.opening(|n| self.model.coordinates(n)) + pairing.opening(|n| n.components(u))
@@ -311,8 +321,7 @@ impl<'a> Problem<'a> {
     /// touch.
     pub(super) fn coarse_facets(&self) -> Option<[f64; 2]> {
         let height = self.surfaces.facet_height(&self.model.nodes);
-        let start = self.configuration(&DVector::zeros(self.model.dofs()));
-        let gaps = self.initial_gaps(&start).into_iter().flatten();
+        let gaps = self.initial_gaps(&self.at_rest()).into_iter().flatten();
         let least = gaps.reduce(f64::min)?.abs();
         (self.closed < least && height > COARSE * least).then_some([height, least])
     }
