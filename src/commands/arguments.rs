@@ -257,19 +257,27 @@ impl TablesArgs {
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &[TABLES]))?)
     }
 
-    /// Prints a report, and writes its tables; `tables.json`, which names them, marks their folder.
+    /// Writes the tables of a report where that was asked for; `tables.json`, which names them, marks their
+    /// folder.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, report: &Report) -> Result<()> {
+        let Some(folder) = &self.csv else { return Ok(()) };
+        let tables = report.csv().into_iter();
+        let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
+        let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
+        let mark = json::line(None, &BTreeMap::from([("tables", names)]));
+        tables.push((TABLES.into(), mark));
+        Ok(files::write_all(folder, &tables)?)
+    }
+
+    /// Prints a report, and writes its tables.
     ///
     /// # Errors
     /// Standard output or a file cannot be written.
     pub fn print(&self, report: Report) -> Result<()> {
-        if let Some(folder) = &self.csv {
-            let tables = report.csv().into_iter();
-            let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
-            let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
-            let mark = json::line(None, &BTreeMap::from([("tables", names)]));
-            tables.push((TABLES.into(), mark));
-            files::write_all(folder, &tables)?;
-        }
+        self.write(&report)?;
         print_report(report)
     }
 }

@@ -10,6 +10,7 @@ pub mod findings;
 pub mod prices;
 pub mod range;
 pub mod readings;
+pub mod screen;
 pub mod tables;
 pub mod variants;
 
@@ -76,6 +77,8 @@ pub struct Compared {
     pub model: ContactModel,
     /// How many contact nodes are in contact.
     pub in_contact: usize,
+    /// The force that contact passes on over the size of the whole load; 0 without a load.
+    pub target_share: f64,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
     /// The decision of its contact state that is nearest to another one.
@@ -139,6 +142,7 @@ fn compared(solution: &Solution) -> Compared {
     Compared {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
+        target_share: variants::target_share(solution),
         bodies: summaries(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: perturbed(solution),

@@ -192,7 +192,8 @@ fn stresses(bodies: &[BodySummary]) -> String {
 
 /// Reports a solution that others are compared with, and what rounding does to it.
 fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
-    let Some(Compared { model, in_contact, bodies, nearest, rounding }) = other else {
+    let Some(Compared { model, in_contact, target_share: _, bodies, nearest, rounding }) = other
+    else {
         return Report::default().note(format!("{what}: there is none"));
     };
     Report::default()

@@ -153,19 +153,24 @@ fn sizes(body: &BodySummary) -> [f64; 3] {
     [body.max_displacement, body.max_von_mises_stress, body.max_von_mises_strain]
 }
 
+/// Returns the force that contact passes on at the end over the size of the whole load; 0 without a load.
+pub(super) fn target_share(solution: &Solution) -> f64 {
+    let [fx, fy] = solution.model.total_load();
+    let load = fx.hypot(fy);
+    if load == 0.0 { 0.0 } else { solution.target_force() / load }
+}
+
 fn end(case: &Case, variant: Variant) -> End {
     let solution = match case.run(variant) {
         Ok(solution) => solution,
         Err(why) => return End::Failure { failure: NoFigures::fails(why) },
     };
     let (model, last) = (&*solution.model, solution.last());
-    let [fx, fy] = model.total_load();
-    let load = fx.hypot(fy);
     let needed = solution.contact.iter().filter_map(|c| c.friction_needed);
     End::Result {
         in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
         contact_set: last.contact_set(model),
-        target_share: if load == 0.0 { 0.0 } else { solution.target_force() / load },
+        target_share: target_share(solution),
         transmits_nothing: solution.transmits_nothing(),
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),

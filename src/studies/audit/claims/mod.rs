@@ -44,6 +44,8 @@ pub struct Claim {
     pub condition: &'static str,
     /// The threshold of the condition, and where that comes from.
     pub threshold: &'static str,
+    /// Whether the threshold, or a part of the statement, is this audit's and not the paper's.
+    pub is_ours: bool,
     /// What the verdict rests on.
     pub basis: Basis,
     /// What the measured number is, with its unit.

@@ -80,8 +80,9 @@ pub fn report(answers: &[Answer]) -> Report {
     })
 }
 
-fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
-    let answer = match coupled {
+/// Says whether the print couples the bodies, and what passes between them.
+pub fn coupling(coupled: Option<&Coupled>) -> String {
+    match coupled {
         None => "The scene has no contact: there is nothing to couple.".into(),
         Some(Coupled { joins, share, failure }) => {
             let entries = match joins {
@@ -106,11 +107,14 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
                 (None, None) => format!("{entries}."),
             }
         }
-    };
+    }
+}
+
+fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
     let joins = coupled.and_then(|coupled| coupled.joins);
     Answer {
         question: "Does the printed algorithm couple the bodies?",
-        answer,
+        answer: coupling(coupled),
         value: joins.map(|joins| joins as f64),
         of: "entries of MJS that join the two bodies",
         command: format!("audit {} --finding K1 --json", scene.name),
@@ -165,7 +169,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
 }
 
 /// Names a run.
-fn named(NearRun { variant, reading, .. }: &NearRun) -> String {
+pub fn named(NearRun { variant, reading, .. }: &NearRun) -> String {
     match reading {
         None => format!("{variant} under the default reading"),
         Some(reading) => format!("{variant} under the reading {reading}"),
@@ -314,7 +318,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
 }
 
 /// Returns the places of the prices that shift the solution, the farthest first.
-fn shifts(prices: &[Price]) -> Vec<usize> {
+pub fn shifts(prices: &[Price]) -> Vec<usize> {
     let mut shifting: Vec<usize> =
         (0..prices.len()).filter(|k| prices[*k].weight == Weight::Shifts).collect();
     let distance = |k: &usize| prices[*k].outcome.from_equilibrium().unwrap_or(0.0);
