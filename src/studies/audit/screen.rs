@@ -4,7 +4,7 @@
 use crate::audit::claims::table as claims;
 use crate::audit::claims::{JudgedClaim, Scope, Verdict};
 use crate::audit::conclusion::words as conclusion;
-use crate::audit::conclusion::{Conclusion, Coupled};
+use crate::audit::conclusion::{Conclusion, Coupled, NearRun};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::variants::{End, VariantRow};
@@ -60,9 +60,9 @@ fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
     let nearest = conclusion.nearest.as_ref().map(|nearest| {
         let runs = &nearest.runs;
         format!(
-            "Of {}, {} {} nearest to the equilibrium: {} off in the energy norm, on the same mesh.",
+            "Of {} {} {} nearest to the equilibrium: {} from it in the energy norm, on the same mesh.",
             counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
-            listed(runs.iter().map(conclusion::named)),
+            listed(runs.iter().map(short_name)),
             if runs.len() == 1 { "is" } else { "are equally" },
             percent(runs[0].energy, 0)
         )
@@ -74,11 +74,16 @@ fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
     std::iter::once(coupled).chain(nearest).chain(other_code).collect()
 }
 
+/// Names a run, with its reading where that is not the default.
+fn short_name(NearRun { variant, reading, .. }: &NearRun) -> String {
+    reading.as_ref().map_or(variant.to_string(), |reading| format!("{variant} ({reading})"))
+}
+
 /// The paper's variants, and the equilibrium.
 fn runs(audit: &Audit, scene: &Scene) -> Table {
-    let stress = with_unit("largest von Mises stress", &scene.units.stress);
     let bodies: Vec<&str> = scene.model.bodies.iter().map(|body| body.name.as_str()).collect();
-    let stress = format!("{stress}, {}", bodies.join(" / "));
+    let stress =
+        format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
     let variants = audit.variants.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant));
     let rows = variants.map(run).chain(audit.equilibrium.as_ref().map(equilibrium));
     Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
@@ -141,9 +146,12 @@ fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
         {
             let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
             let status = if found.in_contact { "in contact" } else { "not in contact" };
-            let pulls = counted(pulling.len(), "node in contact pulls", "nodes in contact pull");
+            let pulls = match pulling.len() {
+                0 => String::new(),
+                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
+            };
             Some(format!(
-                "{}: node {}, {status}, ends {depth} inside the target; {pulls}.",
+                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
                 row.variant, found.node
             ))
         }

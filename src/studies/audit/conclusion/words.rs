@@ -169,7 +169,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
 }
 
 /// Names a run.
-pub fn named(NearRun { variant, reading, .. }: &NearRun) -> String {
+fn named(NearRun { variant, reading, .. }: &NearRun) -> String {
     match reading {
         None => format!("{variant} under the default reading"),
         Some(reading) => format!("{variant} under the reading {reading}"),
