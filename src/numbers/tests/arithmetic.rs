@@ -1,21 +1,15 @@
 //! The scalars beside exact rational numbers: double-double within its proven errors, exact numbers
 //! to the last bit.
 
-use crate::common::random::fixed;
-use crate::common::tolerances::{DOUBLE_DOUBLE, Tolerance};
 use dashu_base::Abs;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
-use plane_contact::engine::Request;
-use plane_contact::mathcad::array::Column;
-use plane_contact::numbers::scalar::{
+use numbers::scalar::{
     Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, SumOfProducts, rational, scope,
 };
-use plane_contact::paper::door;
-use plane_contact::paper::mirror::{Cause, Failure, Reading, c_cnt};
-use plane_contact::problem::model::Model;
-use plane_contact::problem::scene::Scene;
 use proptest::prelude::*;
+use testing::random::fixed;
+use testing::tolerances::{DOUBLE_DOUBLE, Tolerance};
 
 /// A float of any sign whose size is within 2^±`range`.
 fn float(range: i32) -> impl Strategy<Value = f64> {
@@ -271,46 +265,6 @@ fn an_exact_number_ends_with_its_scope() {
     let escaped = scope(|| Exact::from_f64(0.5));
     let _other = Exact::from_f64(0.25);
     escaped.to_f64();
-}
-
-/// What `c_cnt` finds in the initial shape in one scalar: target edges and statuses.
-fn found<T: Scalar>(
-    model: &Model,
-    reading: &Reading,
-    number: impl Fn(f64) -> T,
-) -> Result<(Column<usize>, Column<usize>), Failure> {
-    let sheet = door::worksheet(model, number);
-    c_cnt(&sheet, reading, &sheet.node).map(|pairs| (pairs.ct, pairs.dy))
-}
-
-/// Listing failures are the same in every scalar: the smallest scenes of findings C3 (a vertical
-/// edge) and C10.
-#[test]
-fn the_mirror_fails_at_the_same_line_in_every_scalar() {
-    let mut failures = 0;
-    for name in ["fig1", "two-blocks", "findings/C3", "findings/C6", "findings/C10"] {
-        let scene = Scene::open(name).unwrap();
-        for reading in ["", "R4=left-to-right", "R4=eager"] {
-            let reading: Reading = reading.parse().unwrap();
-            let model = Request::new(&scene).reading(reading).model().unwrap();
-            let double = found(&model, &reading, |x| x);
-            let dd = found(&model, &reading, F64x2::from_f64);
-            let single = found(&model, &reading, f32::from_f64);
-            let rational = scope(|| found(&model, &reading, Exact::from_f64));
-            for other in [&dd, &single, &rational] {
-                match (&double, other) {
-                    (Ok(a), Ok(b)) => assert_eq!(a, b, "{name}"),
-                    (Err(a), Err(b)) => assert_eq!((a.line, a.cause), (b.line, b.cause), "{name}"),
-                    (a, b) => panic!("{name}: {a:?} and {b:?}"),
-                }
-            }
-            if let Err(failure) = double {
-                failures += 1;
-                assert!(matches!(failure.cause, Cause::Singularity | Cause::InvalidIndex));
-            }
-        }
-    }
-    assert!(failures > 0, "the scenes are here to fail");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The tree of boxes over the target's edges.
 
-use plane_contact::problem::tree::{Bounds, Tree};
+use problem::tree::{Bounds, Tree};
 
 #[test]
 fn the_edges_near_a_point_are_found_and_few_others() {

@@ -4,10 +4,10 @@
 use std::f64::consts::TAU;
 
 use fastrand::Rng;
-use plane_contact::problem::scene::Axis;
+use problem::scene::Axis;
 
-use crate::common::draws::one_of;
-use crate::corners::{Bodies, grid};
+use crate::bodies::{Bodies, grid};
+use crate::draws::{between, one_of};
 
 /// What a scene shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -64,11 +64,6 @@ impl Drawn {
     pub fn turns(&self) -> bool {
         self.bodies.restrained.iter().all(|(_, axes)| axes.len() == 2)
     }
-}
-
-/// A number between two.
-fn between(rng: &mut Rng, least: f64, most: f64) -> f64 {
-    least + (most - least) * rng.f64()
 }
 
 /// `n` numbers from `least` to `most`, evenly or unevenly spaced.

@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
+use problem::element::Plane;
+use problem::modelling::Variant;
+use problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// A quarter of a thick-walled cylinder under internal pressure, of `radial` divisions through the wall and
 /// `around` the quarter.

@@ -9,9 +9,10 @@
 //!                                is drawn between.
 //! ```
 
+use crate::draws::between;
 use fastrand::Rng;
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use problem::element::Plane;
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;
@@ -53,11 +54,6 @@ pub fn draw(rng: &mut Rng, kind: Kind) -> DrawnScene {
     let scene = scene(&surface, &stamp, kind, turned).build();
     let scene = scene.expect("a scene that is drawn is sound");
     DrawnScene { scene, touching }
-}
-
-/// A number between `low` and `high`.
-fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
-    low + (high - low) * rng.f64()
 }
 
 /// The nodes of the target surface from left to right.

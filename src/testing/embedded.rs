@@ -1,6 +1,6 @@
 //! Embedded scenes, to be changed and built anew.
 
-use plane_contact::problem::scene::SCENES;
+use problem::scene::SCENES;
 use serde_json::Value;
 
 /// The file of an embedded scene as JSON.

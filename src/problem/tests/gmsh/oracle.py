@@ -1,7 +1,7 @@
-"""Prints what meshio reads in each mesh beside it, in a canonical text that tests/program/gmsh.rs compares with.
+"""Prints what meshio reads in each mesh beside it, in a canonical text that src/problem/tests/gmsh.rs compares with.
 
     pip install meshio==5.3.5
-    python3 tests/program/gmsh/oracle.py > tests/program/gmsh/expected.txt
+    python3 src/problem/tests/gmsh/oracle.py > src/problem/tests/gmsh/expected.txt
 
 Per file: `node <row> <x> <y> <z>` for each node, `<name>: <kind> <rows of its nodes>` for each element of each physical
 group; the lines of a file sorted. Rows count from 1 in ascending order of the file's own node numbers.
@@ -44,7 +44,7 @@ def read(path):
 
 
 def main():
-    print(f"# What meshio {meshio.__version__} reads; made by tests/program/gmsh/oracle.py, not by hand.")
+    print(f"# What meshio {meshio.__version__} reads; made by src/problem/tests/gmsh/oracle.py, not by hand.")
     for path in sorted(Path(__file__).parent.glob("*.msh")):
         print(f"\nfile {path.name}")
         print("\n".join(canonical(read(path))))

@@ -1,9 +1,9 @@
 //! Scenes and meshes built in code, written and read back; chains of edges.
 
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
-use plane_contact::problem::scene::surface::chain;
-use plane_contact::problem::scene::{
+use problem::element::Plane;
+use problem::modelling::{Coupling, Friction, Geometry, StatusRule, Variant};
+use problem::scene::surface::chain;
+use problem::scene::{
     Axis, Contact, Element, Mesh, MeshBuilder, SceneBuilder, SceneFile, file, gmsh,
 };
 use serde_json::json;

@@ -3,14 +3,14 @@
 
 use std::fs;
 
-use crate::common::random::fixed;
-use plane_contact::problem::scene::gmsh::GmshError;
-use plane_contact::problem::scene::gmsh::{read, write};
-use plane_contact::problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
+use problem::scene::gmsh::GmshError;
+use problem::scene::gmsh::{read, write};
+use problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
 use proptest::prelude::*;
 use proptest::sample::Index;
+use testing::random::fixed;
 
-/// `tests/program/gmsh/blocks.geo` as Gmsh saves it.
+/// `tests/gmsh/blocks.geo` as Gmsh saves it.
 const BLOCKS: [&str; 4] =
     ["blocks-2.2-ascii", "blocks-2.2-binary", "blocks-4.1-ascii", "blocks-4.1-binary"];
 
@@ -76,7 +76,7 @@ fn bytes(path: &str) -> Vec<u8> {
 }
 
 fn blocks(name: &str) -> Vec<u8> {
-    bytes(&format!("tests/program/gmsh/{name}.msh"))
+    bytes(&format!("tests/gmsh/{name}.msh"))
 }
 
 /// The mesh of [`SMALL_2`]; in version 4.1 it has no element 5.
@@ -108,7 +108,7 @@ fn small_4() -> Mesh {
     mesh
 }
 
-/// The text that `tests/program/gmsh/oracle.py` prints of a mesh.
+/// The text that `tests/gmsh/oracle.py` prints of a mesh.
 fn canonical(mesh: &Mesh) -> String {
     let row = |number| 1 + mesh.nodes.binary_search_by_key(&number, |node| node.number).unwrap();
     let mut lines: Vec<String> = mesh
@@ -137,7 +137,7 @@ fn canonical(mesh: &Mesh) -> String {
 
 #[test]
 fn all_encodings_are_read_as_meshio_reads_them() {
-    let expected = String::from_utf8(bytes("tests/program/gmsh/expected.txt")).unwrap();
+    let expected = String::from_utf8(bytes("tests/gmsh/expected.txt")).unwrap();
     let files: Vec<_> = expected.split("\nfile ").skip(1).collect();
     assert_eq!(files.len(), BLOCKS.len());
     for (name, expected) in BLOCKS.iter().zip(files) {
@@ -542,7 +542,7 @@ fn a_file_cut_anywhere_is_refused() {
 
 #[test]
 fn the_strand_is_read() {
-    let mesh = read(&bytes("golden/strand/strand.msh")).unwrap();
+    let mesh = read(&bytes("../../golden/strand/strand.msh")).unwrap();
     let of_group = |wanted: &str| {
         let name = mesh.names.iter().find(|name| name.name == wanted).unwrap();
         let kind = name.dim; // edges are of type 1, triangles of type 2
@@ -555,7 +555,7 @@ fn the_strand_is_read() {
 }
 
 /// A scene on a mesh file that restrains `node` and the group "base", and loads nothing.
-fn scene_on(mesh: &[u8], node: usize) -> plane_contact::error::Result<SceneBuilder> {
+fn scene_on(mesh: &[u8], node: usize) -> base::error::Result<SceneBuilder> {
     let scene = format!(
         "{{\"mesh\": \"m.msh\", \"plane\": \"strain\", \"materials\": {{\"the body\": {{\"E\": 1, \
          \"nu\": 0}}}}, \"restraints\": [{{\"on\": \"base\", \"fix\": [\"x\", \"y\"]}}, {{\"node\": {node}, \
@@ -619,7 +619,7 @@ proptest! {
             steps.iter().scan(0, |n, step| { *n += step; Some(*n) }).collect()
         };
         let (nodes, elements) = (numbers(&nodes), numbers(&elements));
-        let whole = read(&bytes("golden/strand/strand.msh")).expect("a mesh");
+        let whole = read(&bytes("../../golden/strand/strand.msh")).expect("a mesh");
         let mut mesh = whole.clone();
         mesh.nodes.iter_mut().for_each(|node| node.number = nodes[node.number]);
         for (place, element) in mesh.elements.iter_mut().enumerate() {

@@ -1,7 +1,7 @@
 //! Scenes that a test writes down.
 
-use plane_contact::error::InputError;
-use plane_contact::problem::scene::Scene;
+use base::error::InputError;
+use problem::scene::Scene;
 use serde_json::Value;
 
 /// Builds a scene from JSON; it has no file beside it.

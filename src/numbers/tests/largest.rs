@@ -1,6 +1,6 @@
 //! The largest of several values, where rounding alone may tell some of them apart.
 
-use plane_contact::numbers::largest::{Largest, largest};
+use numbers::largest::{Largest, largest};
 
 fn found(values: &[f64]) -> Option<Largest> {
     largest(values.iter().copied())

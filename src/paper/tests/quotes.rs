@@ -38,21 +38,17 @@ fn check(listing: &str, source: &str, lines: usize) {
 
 #[test]
 fn c_cnt_is_mirrored_line_by_line() {
-    check(
-        include_str!("../../listings/c_cnt.txt"),
-        include_str!("../../src/paper/mirror/c_cnt.rs"),
-        31,
-    );
+    check(include_str!("../../../listings/c_cnt.txt"), include_str!("../mirror/c_cnt.rs"), 31);
 }
 
 #[test]
 fn km_is_mirrored_line_by_line() {
-    check(include_str!("../../listings/Km.txt"), include_str!("../../src/paper/mirror/km.rs"), 34);
+    check(include_str!("../../../listings/Km.txt"), include_str!("../mirror/km.rs"), 34);
 }
 
 #[test]
 fn a_changed_quote_would_be_noticed() {
-    let source = include_str!("../../src/paper/mirror/km.rs").replacen("fl ← 0", "fl ← 1", 1);
-    let listing = include_str!("../../listings/Km.txt");
+    let source = include_str!("../mirror/km.rs").replacen("fl ← 0", "fl ← 1", 1);
+    let listing = include_str!("../../../listings/Km.txt");
     assert!(std::panic::catch_unwind(|| check(listing, &source, 34)).is_err());
 }

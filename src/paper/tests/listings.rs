@@ -1,11 +1,9 @@
 //! The paper's two listings on scenes small enough to be worked out by hand.
 
-use super::spelled::spelled;
-use plane_contact::mathcad::array::{Column, Table};
-use plane_contact::mathcad::failure::Fallible;
-use plane_contact::mathcad::{
-    Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value,
-};
+use crate::spelled::spelled;
+use mathcad::array::{Column, Table};
+use mathcad::failure::Fallible;
+use mathcad::{Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value};
 
 const LISTINGS: [(&str, &str); 2] = [
     ("c_cnt", include_str!("../../../listings/c_cnt.txt")),

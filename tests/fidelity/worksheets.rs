@@ -13,7 +13,14 @@ use plane_contact::mathcad::{Listing, Settings};
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::Reading;
 
-use crate::bitwise::all_readings;
+use crate::common::program::run;
+use testing::worksheets::all_readings;
+
+/// An embedded scene as a worksheet, as `export --to mathcad` writes it.
+fn exported(scene: &str) -> String {
+    let out = run(std::path::Path::new("."), &["mathcad", "export", scene, "--to", "mathcad"]);
+    String::from_utf8(out.stdout).expect("UTF-8")
+}
 
 /// Writes listings as a worksheet.
 fn worksheet(listings: &[Listing]) -> String {
@@ -48,7 +55,7 @@ fn nothing_is_written_that_mathcad_does_not_write() {
         .map(|line| line.split_whitespace().collect())
         .collect();
     let listings: Vec<_> = Which::ALL.iter().map(|w| w.under(&Reading::default())).collect();
-    for text in [worksheet(&listings), super::exported("fig1")] {
+    for text in [worksheet(&listings), exported("fig1")] {
         let xml = roxmltree::Document::parse(&text).unwrap();
         for node in xml.descendants().filter(roxmltree::Node::is_element) {
             let math = node.tag_name().namespace() == Some("http://schemas.mathsoft.com/math30");
@@ -86,7 +93,7 @@ fn the_package_reads_and_checks_what_is_written() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let names = ["fig1", "two-blocks"];
     for name in names {
-        let text = super::exported(name);
+        let text = exported(name);
         std::fs::write(folder.path().join(format!("{name}.xmcd")), text).expect("a file");
     }
     let script = "

@@ -1,13 +1,13 @@
 //! What a scene is built into: bodies and how they are held, loads of edges, identifiers and
 //! boxes; and what is refused at the edges of what a mesh and a load may be.
 
-use crate::common::embedded::scene_json;
-use crate::common::json::build;
 use nalgebra::DVector;
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
-use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
+use problem::element::Plane;
+use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
 use serde_json::{Value, json};
+use testing::embedded::scene_json;
+use testing::json::build;
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
 /// a gap; the nodes of block k are 4k + 1 to 4k + 4, counter-clockwise from the lower left one.
