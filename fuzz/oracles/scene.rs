@@ -10,7 +10,7 @@ use plane_contact::{Request, Scene};
 
 use super::sound;
 
-const MESH: &[u8] = include_bytes!("../../tests/program/gmsh/blocks-2.2-ascii.msh");
+const MESH: &[u8] = include_bytes!("../../src/problem/tests/gmsh/blocks-2.2-ascii.msh");
 
 pub fn hold(data: &[u8]) {
     match Scene::build("fuzz", data, |_| Ok(MESH.into())) {

@@ -31,7 +31,7 @@ const KINDS: &[(&str, &str)] = &[
 /// ```
 /// let error = serde_json::from_str::<Vec<f64>>(r#"["x"]"#).expect_err("no number");
 /// let words = "the text \"x\" where a number is expected";
-/// assert_eq!(base::plain::plain(&error), words);
+/// assert_eq!(plane_contact_base::plain::plain(&error), words);
 /// ```
 pub fn plain(error: &impl Display) -> String {
     let text = error.to_string();

@@ -38,7 +38,7 @@ pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> R
 
 /// Returns `x^y`: by repeated squaring from the last bit where y is whole.
 /// ```
-/// assert_eq!(mathcad::evaluate("(2^10   2^−1   2^0.5)").unwrap().to_string(), "1024 0.5 1.4142135623730951");
+/// assert_eq!(plane_contact_mathcad::evaluate("(2^10   2^−1   2^0.5)").unwrap().to_string(), "1024 0.5 1.4142135623730951");
 /// ```
 pub fn power(x: f64, y: f64) -> Result<f64, Cause> {
     let result = if y.fract() != 0.0 || y.abs() >= 1e15 {
@@ -69,7 +69,7 @@ fn whole_power(x: f64, mut n: u64) -> f64 {
 
 /// Returns whether `x` and `y` compare so, under the worksheet's `exact-boolean`.
 /// ```
-/// assert_eq!(mathcad::evaluate("(1 < 2   2 ≤ 1   0.1 + 0.2 = 0.3)").unwrap().to_string(), "1 0 0");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1 < 2   2 ≤ 1   0.1 + 0.2 = 0.3)").unwrap().to_string(), "1 0 0");
 /// ```
 pub fn compare(comparison: Comparison, x: f64, y: f64, settings: &Settings) -> bool {
     let [x, y] = [x, y].map(|x| if settings.tiny_is_zero && x.abs() < 1e-307 { 0.0 } else { x });
@@ -103,7 +103,7 @@ pub fn cost(operation: Operation, left: &Value, right: &Value) -> (u64, usize) {
 
 /// Returns what one of the four operations makes of two numbers or arrays.
 /// ```
-/// assert_eq!(mathcad::evaluate("(1 2; 3 4) − 1").unwrap().to_string(), "0 1; 2 3");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1 2; 3 4) − 1").unwrap().to_string(), "0 1; 2 3");
 /// ```
 pub fn operate(
     operation: Operation,
@@ -158,8 +158,8 @@ fn zip(
 /// Returns the matrix product; of two columns of one length, the scalar product. What has one entry
 /// is a number.
 /// ```
-/// assert_eq!(mathcad::evaluate("(1 2; 3 4)·(5; 6)").unwrap().to_string(), "17; 39");
-/// assert_eq!(mathcad::evaluate("(1; 2; 3)·(4; 5; 6)").unwrap().to_string(), "32");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1 2; 3 4)·(5; 6)").unwrap().to_string(), "17; 39");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1; 2; 3)·(4; 5; 6)").unwrap().to_string(), "32");
 /// ```
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
@@ -196,7 +196,7 @@ pub fn negative(value: Value) -> Result<Value, Cause> {
 
 /// Returns `xᵀ`; a number is its own transpose.
 /// ```
-/// assert_eq!(mathcad::evaluate("(1 2; 3 4)ᵀ").unwrap().to_string(), "1 3; 2 4");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1 2; 3 4)ᵀ").unwrap().to_string(), "1 3; 2 4");
 /// ```
 pub fn transpose(value: Value) -> Result<Value, Cause> {
     match value {
@@ -218,7 +218,7 @@ pub fn identity(n: usize) -> Value {
 /// Combines all numbers of the values by `f`, one after another: Mathcad's `min` and `max` flatten
 /// their arguments.
 /// ```
-/// assert_eq!(mathcad::evaluate("(max(1, (7; 3))   min((4 2; 5 6)))").unwrap().to_string(), "7 2");
+/// assert_eq!(plane_contact_mathcad::evaluate("(max(1, (7; 3))   min((4 2; 5 6)))").unwrap().to_string(), "7 2");
 /// ```
 pub fn fold(values: &[Value], f: impl Fn(f64, f64) -> f64) -> Result<Value, Cause> {
     let mut result = None;

@@ -166,7 +166,7 @@ impl<T, I: Subscript> IndexMut<I> for Column<T> {
 
 /// Returns Mathcad's `rows(v)`, the number of entries.
 /// ```
-/// use mathcad::array::{Column, rows};
+/// use plane_contact_mathcad::array::{Column, rows};
 /// assert_eq!(rows(&Column::from_vec(vec![1.5, 2.5])), 2);
 /// ```
 pub fn rows<T: nalgebra::Scalar>(v: &Column<T>) -> usize {
@@ -175,7 +175,7 @@ pub fn rows<T: nalgebra::Scalar>(v: &Column<T>) -> usize {
 
 /// Returns the smallest of the entries, as Mathcad's `min`.
 /// ```
-/// assert_eq!(mathcad::array::min([2.0, 1.0]), 1.0);
+/// assert_eq!(plane_contact_mathcad::array::min([2.0, 1.0]), 1.0);
 /// ```
 pub fn min<T: Scalar>(entries: [T; 2]) -> T {
     entries[0].min(entries[1])
@@ -183,7 +183,7 @@ pub fn min<T: Scalar>(entries: [T; 2]) -> T {
 
 /// Returns the largest of the entries, as Mathcad's `max`.
 /// ```
-/// assert_eq!(mathcad::array::max([2.0, 1.0]), 2.0);
+/// assert_eq!(plane_contact_mathcad::array::max([2.0, 1.0]), 2.0);
 /// ```
 pub fn max<T: Scalar>(entries: [T; 2]) -> T {
     entries[0].max(entries[1])

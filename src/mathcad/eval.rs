@@ -244,8 +244,8 @@ impl<O: Observer> Run<'_, '_, O> {
     /// Its step leads away from its end.
     ///
     /// ```
-    /// assert_eq!(mathcad::evaluate("for i ∈ 0, 0.5 .. 1.7\n  a[2·i+1] ← i\na").unwrap().to_string(), "0; 0.5; 1; 1.5");
-    /// assert_eq!(mathcad::evaluate("for i ∈ 3 .. 1\n  a[4−i] ← i\na").unwrap().to_string(), "3; 2; 1");
+    /// assert_eq!(plane_contact_mathcad::evaluate("for i ∈ 0, 0.5 .. 1.7\n  a[2·i+1] ← i\na").unwrap().to_string(), "0; 0.5; 1; 1.5");
+    /// assert_eq!(plane_contact_mathcad::evaluate("for i ∈ 3 .. 1\n  a[4−i] ← i\na").unwrap().to_string(), "3; 2; 1");
     /// ```
     fn span(&self, (from, second, to): Numbers) -> Fallible<Turns> {
         let step = match second {
@@ -531,7 +531,7 @@ impl<O: Observer> Run<'_, '_, O> {
 
     /// Returns a matrix to a whole power by repeated squaring, the smallest square on the right.
     /// ```
-    /// assert_eq!(mathcad::evaluate("(1 1; 0 1)^5").unwrap().to_string(), "1 5; 0 1");
+    /// assert_eq!(plane_contact_mathcad::evaluate("(1 1; 0 1)^5").unwrap().to_string(), "1 5; 0 1");
     /// ```
     fn repeated(&mut self, matrix: Value, power: f64) -> Fallible<Value> {
         let (mut rest, mut square, mut product) = (power as u64, matrix, None);
@@ -553,7 +553,7 @@ impl<O: Observer> Run<'_, '_, O> {
     /// Returns a sum or product of terms, added or multiplied one after another from the first; the
     /// variable is the series' own.
     /// ```
-    /// assert_eq!(mathcad::evaluate("∑(i ∈ 1 .. 4, i^2)").unwrap().to_string(), "30");
+    /// assert_eq!(plane_contact_mathcad::evaluate("∑(i ∈ 1 .. 4, i^2)").unwrap().to_string(), "30");
     /// ```
     fn series(&mut self, function: Slot, name: Slot, parts: &[Expr]) -> Fallible<Value> {
         let operation = match &self.functions[function] {
@@ -601,7 +601,7 @@ impl<O: Observer> Run<'_, '_, O> {
     /// Returns an expression's value where each operation and function takes its arrays entry by entry;
     /// they must be of one size.
     /// ```
-    /// assert_eq!(mathcad::evaluate("→((1; 2)·(3; 4))").unwrap().to_string(), "3; 8");
+    /// assert_eq!(plane_contact_mathcad::evaluate("→((1; 2)·(3; 4))").unwrap().to_string(), "3; 8");
     /// ```
     fn vectorized(&mut self, expr: &Expr) -> Fallible<Value> {
         self.spend(1)?;
@@ -678,9 +678,9 @@ impl<O: Observer> Run<'_, '_, O> {
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
     /// evaluating `∧`: one that is `decisive` decides alone. An `∧` has its `span` for the observer.
     /// ```
-    /// use mathcad::{Conjunction, Limits, Listing, Settings};
+    /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings};
     /// let listing = Listing::parse("f", "f(v) :=\n  v[1] > 1 ∧ v[0] > 1").unwrap();
-    /// let v = mathcad::evaluate("(1; 2)").unwrap();
+    /// let v = plane_contact_mathcad::evaluate("(1; 2)").unwrap();
     /// let under = |conjunction| {
     ///     let settings = Settings { conjunction, ..Settings::default() };
     ///     listing.runner(&settings, &Limits::default()).call(&[v.clone()]).is_ok()

@@ -18,7 +18,7 @@ pub fn steps(matrix: &Value) -> u64 {
 
 /// Returns the magnitude of a number, the length of a column or the determinant of a square matrix.
 /// ```
-/// assert_eq!(mathcad::evaluate("(|−2|   |(3; 4)|   |(1 2; 3 4)|)").unwrap().to_string(), "2 5 -2");
+/// assert_eq!(plane_contact_mathcad::evaluate("(|−2|   |(3; 4)|   |(1 2; 3 4)|)").unwrap().to_string(), "2 5 -2");
 /// ```
 pub fn magnitude(value: &Value) -> Result<Value, Cause> {
     match value {
@@ -33,7 +33,7 @@ pub fn magnitude(value: &Value) -> Result<Value, Cause> {
 
 /// Returns the determinant of a square matrix.
 /// ```
-/// assert_eq!(mathcad::evaluate("determinant((2 1; 1 3))").unwrap().to_string(), "5");
+/// assert_eq!(plane_contact_mathcad::evaluate("determinant((2 1; 1 3))").unwrap().to_string(), "5");
 /// ```
 pub fn determinant(value: &Value) -> Result<Value, Cause> {
     let a = square(value)?;
@@ -52,7 +52,7 @@ pub fn determinant(value: &Value) -> Result<Value, Cause> {
 /// # Errors
 /// The sizes do not match, or the matrix is singular.
 /// ```
-/// assert_eq!(mathcad::evaluate("lsolve((2 1; 1 3), (5; 10))").unwrap().to_string(), "1; 3");
+/// assert_eq!(plane_contact_mathcad::evaluate("lsolve((2 1; 1 3), (5; 10))").unwrap().to_string(), "1; 3");
 /// ```
 pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (Value::Array(a), Value::Array(b)) = (a, b) else {
@@ -67,7 +67,7 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
 
 /// Returns the inverse of a square matrix, the solution for each unit column.
 /// ```
-/// assert_eq!(mathcad::evaluate("(2 0; 0 4)^−1").unwrap().to_string(), "0.5 0; 0 0.25");
+/// assert_eq!(plane_contact_mathcad::evaluate("(2 0; 0 4)^−1").unwrap().to_string(), "0.5 0; 0 0.25");
 /// ```
 pub fn inverse(value: &Value) -> Result<Value, Cause> {
     let a = square(value)?;
@@ -143,7 +143,7 @@ fn factor(a: &Array) -> Factors {
 
 /// Returns the entries row by row of a value that has so many rows and columns.
 /// ```
-/// assert_eq!(mathcad::evaluate("(a   b) ← (1   2)\n(a   b) ← (b   a)\na").unwrap().to_string(), "2");
+/// assert_eq!(plane_contact_mathcad::evaluate("(a   b) ← (1   2)\n(a   b) ← (b   a)\na").unwrap().to_string(), "2");
 /// ```
 pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cause> {
     if value.size() != (rows, cols) {
@@ -163,7 +163,7 @@ fn three(value: &Value) -> Result<&[f64], Cause> {
 
 /// Returns the cross product of two columns of three numbers.
 /// ```
-/// assert_eq!(mathcad::evaluate("×((1; 2; 3), (4; 5; 6))").unwrap().to_string(), "-3; 6; -3");
+/// assert_eq!(plane_contact_mathcad::evaluate("×((1; 2; 3), (4; 5; 6))").unwrap().to_string(), "-3; 6; -3");
 /// ```
 pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
     let (a, b) = (three(a)?, three(b)?);
@@ -176,7 +176,7 @@ pub fn cross(a: &Value, b: &Value) -> Result<Value, Cause> {
 /// # Errors
 /// Some are complex.
 /// ```
-/// assert_eq!(mathcad::evaluate("eigenvals((3 0; 0 1))").unwrap().to_string(), "1; 3");
+/// assert_eq!(plane_contact_mathcad::evaluate("eigenvals((3 0; 0 1))").unwrap().to_string(), "1; 3");
 /// ```
 pub fn eigenvals(value: &Value) -> Result<Value, Cause> {
     Ok(Array::column(eigen(value)?.0).into())
@@ -187,7 +187,7 @@ pub fn eigenvals(value: &Value) -> Result<Value, Cause> {
 /// # Errors
 /// Some are complex, or, of a matrix that is not symmetric, two eigenvalues are the same.
 /// ```
-/// assert_eq!(mathcad::evaluate("eigenvecs((3 0; 0 1))").unwrap().to_string(), "0 1; 1 0");
+/// assert_eq!(plane_contact_mathcad::evaluate("eigenvecs((3 0; 0 1))").unwrap().to_string(), "0 1; 1 0");
 /// ```
 pub fn eigenvecs(value: &Value) -> Result<Value, Cause> {
     let (values, vectors) = eigen(value)?;
@@ -279,7 +279,7 @@ pub fn offsets(
 
 /// Returns the column `j` of an array, counted from `origin`.
 /// ```
-/// assert_eq!(mathcad::evaluate("(1 2; 3 4)⟨2⟩").unwrap().to_string(), "2; 4");
+/// assert_eq!(plane_contact_mathcad::evaluate("(1 2; 3 4)⟨2⟩").unwrap().to_string(), "2; 4");
 /// ```
 pub fn column(array: &Value, j: f64, origin: i32) -> Result<Value, Cause> {
     let rows = array.size().0;
@@ -289,7 +289,7 @@ pub fn column(array: &Value, j: f64, origin: i32) -> Result<Value, Cause> {
 /// Returns rows and columns of an array, from the first and third of `at` to the second and fourth,
 /// counted from `origin`.
 /// ```
-/// assert_eq!(mathcad::evaluate("submatrix((1 2; 3 4; 5 6), 2, 3, 1, 1)").unwrap().to_string(), "3; 5");
+/// assert_eq!(plane_contact_mathcad::evaluate("submatrix((1 2; 3 4; 5 6), 2, 3, 1, 1)").unwrap().to_string(), "3; 5");
 /// ```
 pub fn part(array: &Value, at: [f64; 4], origin: i32) -> Result<Value, Cause> {
     if let Value::Number(_) | Value::Text(_) = array {
@@ -310,7 +310,7 @@ pub fn part(array: &Value, at: [f64; 4], origin: i32) -> Result<Value, Cause> {
 
 /// Puts arrays side by side, or one below the other.
 /// ```
-/// assert_eq!(mathcad::evaluate("stack((1 2), augment((3;), (4;)))").unwrap().to_string(), "1 2; 3 4");
+/// assert_eq!(plane_contact_mathcad::evaluate("stack((1 2), augment((3;), (4;)))").unwrap().to_string(), "1 2; 3 4");
 /// ```
 pub fn join(arrays: &[Value], below: bool) -> Result<Value, Cause> {
     let along = |a: &Value| if below { a.size().1 } else { a.size().0 };

@@ -15,7 +15,7 @@ use super::value::Value;
 /// Returns the value of an expression, or of the lines of a program, under the default settings.
 ///
 /// ```
-/// assert_eq!(mathcad::evaluate("2·3 + 1").unwrap().to_string(), "7");
+/// assert_eq!(plane_contact_mathcad::evaluate("2·3 + 1").unwrap().to_string(), "7");
 /// ```
 ///
 /// # Errors

@@ -35,11 +35,11 @@ impl Program {
     /// Returns the text of record.
     pub fn text(self) -> &'static str {
         match self {
-            Program::Normals => include_str!("../../listings/corrected/normals.txt"),
-            Program::CCnt => include_str!("../../listings/corrected/c_cnt.txt"),
-            Program::Km => include_str!("../../listings/corrected/Km.txt"),
-            Program::Fm => include_str!("../../listings/corrected/Fm.txt"),
-            Program::Iterate => include_str!("../../listings/corrected/iterate.txt"),
+            Program::Normals => include_str!("listings/corrected/normals.txt"),
+            Program::CCnt => include_str!("listings/corrected/c_cnt.txt"),
+            Program::Km => include_str!("listings/corrected/Km.txt"),
+            Program::Fm => include_str!("listings/corrected/Fm.txt"),
+            Program::Iterate => include_str!("listings/corrected/iterate.txt"),
         }
     }
 
@@ -72,20 +72,20 @@ pub struct Fault {
 /// and C2 make the box of C9 their own. With all of them the programs are the print, but that edges are
 /// of the initial shape (C6).
 pub const FAULTS: &[Fault] = &[
-    Fault { finding: "C1", edit: include_str!("../../listings/corrected/faults/C1.edit") },
-    Fault { finding: "C2", edit: include_str!("../../listings/corrected/faults/C2.edit") },
-    Fault { finding: "C3", edit: include_str!("../../listings/corrected/faults/C3.edit") },
-    Fault { finding: "C5", edit: include_str!("../../listings/corrected/faults/C5.edit") },
-    Fault { finding: "C7", edit: include_str!("../../listings/corrected/faults/C7.edit") },
-    Fault { finding: "C9", edit: include_str!("../../listings/corrected/faults/C9.edit") },
-    Fault { finding: "C12", edit: include_str!("../../listings/corrected/faults/C12.edit") },
-    Fault { finding: "K1", edit: include_str!("../../listings/corrected/faults/K1.edit") },
-    Fault { finding: "K2", edit: include_str!("../../listings/corrected/faults/K2.edit") },
-    Fault { finding: "K4", edit: include_str!("../../listings/corrected/faults/K4.edit") },
-    Fault { finding: "K5", edit: include_str!("../../listings/corrected/faults/K5.edit") },
-    Fault { finding: "K8", edit: include_str!("../../listings/corrected/faults/K8.edit") },
-    Fault { finding: "K9", edit: include_str!("../../listings/corrected/faults/K9.edit") },
-    Fault { finding: "K9", edit: include_str!("../../listings/corrected/faults/K9-both.edit") },
+    Fault { finding: "C1", edit: include_str!("listings/corrected/faults/C1.edit") },
+    Fault { finding: "C2", edit: include_str!("listings/corrected/faults/C2.edit") },
+    Fault { finding: "C3", edit: include_str!("listings/corrected/faults/C3.edit") },
+    Fault { finding: "C5", edit: include_str!("listings/corrected/faults/C5.edit") },
+    Fault { finding: "C7", edit: include_str!("listings/corrected/faults/C7.edit") },
+    Fault { finding: "C9", edit: include_str!("listings/corrected/faults/C9.edit") },
+    Fault { finding: "C12", edit: include_str!("listings/corrected/faults/C12.edit") },
+    Fault { finding: "K1", edit: include_str!("listings/corrected/faults/K1.edit") },
+    Fault { finding: "K2", edit: include_str!("listings/corrected/faults/K2.edit") },
+    Fault { finding: "K4", edit: include_str!("listings/corrected/faults/K4.edit") },
+    Fault { finding: "K5", edit: include_str!("listings/corrected/faults/K5.edit") },
+    Fault { finding: "K8", edit: include_str!("listings/corrected/faults/K8.edit") },
+    Fault { finding: "K9", edit: include_str!("listings/corrected/faults/K9.edit") },
+    Fault { finding: "K9", edit: include_str!("listings/corrected/faults/K9-both.edit") },
 ];
 
 impl Fault {

@@ -37,8 +37,8 @@ impl Which {
     /// Returns the text of record.
     pub fn text(self) -> &'static str {
         match self {
-            Which::CCnt => include_str!("../../listings/c_cnt.txt"),
-            Which::Km => include_str!("../../listings/Km.txt"),
+            Which::CCnt => include_str!("listings/c_cnt.txt"),
+            Which::Km => include_str!("listings/Km.txt"),
         }
     }
 

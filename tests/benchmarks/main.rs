@@ -2,14 +2,12 @@
 
 #[path = "../common"]
 mod common {
-    pub mod annulus;
+    pub use testing::{annulus, golden_file, json, tolerances};
+
     pub mod conforming;
     pub mod fitted_hertz;
-    pub mod golden_file;
-    pub mod json;
     pub mod program;
     pub mod recovery;
-    pub mod tolerances;
 }
 
 mod conforming;

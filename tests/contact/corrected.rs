@@ -5,8 +5,6 @@ use std::sync::Arc;
 
 use crate::common::annulus::annulus;
 use crate::common::tolerances::{CORRECTED, CORRECTED_CONDITIONS, assert_near};
-use crate::corners::Writing;
-use crate::drawn::{Drawn, Kind, Support, scenes};
 use nalgebra::DVector;
 use plane_contact::engine::contact::Surfaces;
 use plane_contact::engine::{Request, Stiffness, solve};
@@ -21,6 +19,8 @@ use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
 use plane_contact::studies::audit::range::{Parameter, ParameterValue};
 use plane_contact::studies::benchmark::Hertz;
+use testing::bodies::Writing;
+use testing::drawn::{Drawn, Kind, Support, scenes};
 
 /// The iterations of the paper.
 const STEPS: usize = 20;

@@ -7,7 +7,7 @@ use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
 
 use crate::common::tolerances::{CLOSEST_POINT, assert_near};
-use crate::corners::{Bodies, Writing};
+use testing::bodies::{Bodies, Writing};
 
 type Chain<'a> = &'a [[f64; 2]];
 

@@ -6,7 +6,7 @@ use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::ContactModel;
 use plane_contact::problem::scene::Axis;
 
-use crate::corners::{Bodies, Writing};
+use testing::bodies::{Bodies, Writing};
 
 /// A pull counts beyond a hundred thousand millionth of the largest force, pressing or pulling, of
 /// a node in contact whose force is known.

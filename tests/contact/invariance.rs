@@ -6,13 +6,13 @@
 use std::collections::BTreeMap;
 
 use crate::common::tolerances::{INVARIANCE, OTHER_PATH};
-use crate::corners::{Bodies, Writing};
-use crate::drawn::{KINDS, scenes};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::estimates::perturbed;
 use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use testing::bodies::{Bodies, Writing};
+use testing::drawn::{KINDS, scenes};
 
 /// The number of scenes without friction, each in [`IMAGES`] of the writings.
 const SCENES: usize = 1000;

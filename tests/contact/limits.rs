@@ -6,8 +6,8 @@ use plane_contact::engine::{self, Detail, Request, Step, Unilateral};
 use plane_contact::problem::modelling::{ContactModel, Friction, Geometry};
 use plane_contact::problem::scene::{Axis, SceneBuilder};
 
-use crate::corners::{Bodies, Writing, grid};
 use crate::unilateral::{flat, solved, stacked, with};
+use testing::bodies::{Bodies, Writing, grid};
 
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];
 

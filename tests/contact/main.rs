@@ -2,16 +2,13 @@
 
 #[path = "../common"]
 mod common {
-    pub mod annulus;
-    pub mod draws;
-    pub mod embedded;
+    pub use testing::{annulus, draws, embedded, json, tolerances};
+
     pub mod golden;
     pub mod golden_floats;
-    pub mod json;
     pub mod outcome;
     pub mod program;
     pub mod recorded;
-    pub mod tolerances;
     pub mod tools;
 }
 
@@ -19,7 +16,6 @@ mod calculix;
 mod calculix_files;
 mod corners;
 mod corrected;
-mod drawn;
 mod faced;
 mod facing;
 mod friction;
@@ -32,5 +28,4 @@ mod quadratic_programme;
 mod reduced;
 mod searched;
 mod status;
-mod tree;
 mod unilateral;

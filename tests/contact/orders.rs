@@ -2,10 +2,11 @@
 //! that lie in each other before they are loaded.
 
 use crate::common::tolerances::{INVARIANCE, assert_near};
-use crate::corners::{Bodies, Writing, blocks, roof};
+use crate::corners::Solved;
 use plane_contact::engine::contact::ContactNode;
 use plane_contact::engine::{Request, solve};
 use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
+use testing::bodies::{Bodies, Writing, blocks, roof};
 
 fn contact(bodies: &Bodies) -> Result<Vec<ContactNode>, String> {
     let solution = bodies.solved(&Writing::default(), Coupling::Nts, Geometry::Initial);

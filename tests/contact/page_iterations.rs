@@ -21,8 +21,8 @@ use tempfile::TempDir;
 
 use crate::common::tolerances::{PAGE_ITERATIONS, assert_near};
 use crate::common::tools::has_node;
-use crate::corners::Writing;
-use crate::drawn::scenes;
+use testing::bodies::Writing;
+use testing::drawn::scenes;
 
 /// The number of random scenes.
 const DRAWN: usize = 40;

@@ -17,8 +17,6 @@
 use std::collections::BTreeMap;
 
 use crate::common::tolerances::{PROGRAMME, assert_near};
-use crate::corners::Writing;
-use crate::drawn::{Drawn, Kind, Support, scenes};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use plane_contact::engine::contact::{ContactNode, Pairing, Surfaces};
 use plane_contact::engine::error::Error;
@@ -26,6 +24,8 @@ use plane_contact::engine::{Request, Solution, solve};
 use plane_contact::problem::element::{B, D, area};
 use plane_contact::problem::model::{Dof, Model};
 use plane_contact::problem::modelling::{Coupling, Geometry};
+use testing::bodies::Writing;
+use testing::drawn::{Drawn, Kind, Support, scenes};
 
 /// The number of scenes, each under both couplings.
 const SCENES: usize = 1000;

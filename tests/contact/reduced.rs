@@ -12,7 +12,7 @@ use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
 
 use crate::common::tolerances::{REDUCED, assert_near};
-use crate::corners::{Bodies, Writing, grid};
+use testing::bodies::{Bodies, Writing, grid};
 
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];
 

@@ -9,8 +9,8 @@ use plane_contact::problem::scene::{Axis, SceneBuilder};
 
 use crate::common::draws::one_of;
 use crate::common::recorded::assert_recorded_exactly;
-use crate::corners::{Bodies, Writing, grid};
-use crate::drawn::{KINDS, draw};
+use testing::bodies::{Bodies, Writing, grid, regular};
+use testing::drawn::{KINDS, draw};
 
 /// Returns the statuses at the end of a run, or the exit status of one that fails.
 fn outcome(scene: &SceneBuilder) -> String {
@@ -31,49 +31,6 @@ fn letter(status: &Status) -> char {
         Status::Slip(Sense::Forward) => 'f',
         Status::Slip(Sense::Backward) => 'b',
         Status::Slip(Sense::Free) => 'c',
-    }
-}
-
-/// Two blocks on a grid of whole numbers: nodes stand over nodes, ends over ends, as far apart as the
-/// tolerance or not at all, and many comparisons are ties.
-fn regular(rng: &mut Rng) -> Bodies {
-    let (below, above) = (rng.usize(3..8), rng.usize(2..6));
-    let (from, step) = (one_of(rng, &[0.0, 1.0, 0.5]), one_of(rng, &[1.0, 0.5, 1.5]));
-    let gap = one_of(rng, &[0.0, 0.0, 0.0, 0.001, -0.001, 0.01]);
-    let rise = one_of(rng, &[0.0, 0.0, 0.0, 0.5, -0.5]);
-    let lower = |y: f64, rise: f64| {
-        (0..below).map(move |k| [k as f64, y + if k % 2 == 1 { rise } else { 0.0 }])
-    };
-    let upper = |y: f64| (0..above).map(move |k| [from + step * k as f64, y]);
-    let top = f64::max(rise, 0.0) + gap;
-    let mut nodes: Vec<[f64; 2]> = lower(-2.0, 0.0).chain(lower(-1.0, 0.0)).collect();
-    nodes.extend(lower(0.0, rise));
-    let first = nodes.len();
-    nodes.extend(upper(top).chain(upper(top + 1.0)));
-    let mut target: Vec<[usize; 2]> =
-        (0..below - 1).map(|k| [2 * below + k, 2 * below + k + 1]).collect();
-    if rng.bool() {
-        // Its sides too.
-        target.extend([[below, 2 * below], [2 * below - 1, 3 * below - 1]]);
-    }
-    let both = vec![Axis::X, Axis::Y];
-    let mut restrained: Vec<_> = (0..below).map(|n| (n, both.clone())).collect();
-    let on_top = first + above;
-    match rng.u8(..4) {
-        0 => restrained.push((on_top, vec![Axis::X])),
-        1 => restrained.extend([on_top, on_top + above - 1].map(|n| (n, both.clone()))),
-        _ => restrained.extend([on_top, on_top + above - 1].map(|n| (n, vec![Axis::X]))),
-    }
-    let side = one_of(rng, &[0.0, 0.0, 1.0, -3.0]);
-    let loads = (0..above).map(|k| (on_top + k, [side, -10.0])).collect();
-    Bodies {
-        nodes,
-        triangles: [grid(0, below, 3), grid(first, above, 2)],
-        moduli: one_of(rng, &[[(1e4, 0.25); 2], [(1e4, 0.0), (2e4, 0.0)]]),
-        contact: (first..first + above).collect(),
-        target,
-        restrained,
-        loads,
     }
 }
 

@@ -14,10 +14,10 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use tempfile::TempDir;
 
-use super::bitwise::{draw, initial, reading, worksheet};
 use crate::common::program::run;
 use crate::common::random::fixed;
 use crate::common::tolerances::{OCTAVE, assert_near};
+use testing::worksheets::{draw, initial, reading, worksheet};
 
 /// What Octave printed of a program: by name, the numbers column by column; nothing if it failed.
 type Printed = BTreeMap<String, Vec<f64>>;

@@ -31,10 +31,10 @@ use proptest::strategy::{Strategy, ValueTree};
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
 
-use super::bitwise::{draw, initial, reading, worksheet};
 use crate::common::draws::one_of;
 use crate::common::random::fixed;
 use crate::common::tools::has_node;
+use testing::worksheets::{draw, initial, reading, worksheet};
 
 const SCENES: usize = 300;
 const EDITED: usize = 250;

@@ -2,15 +2,11 @@
 
 #[path = "../common"]
 mod common {
-    pub mod annulus;
+    pub use testing::{annulus, embedded, golden_file, json, tolerances};
+
     pub mod conforming;
-    pub mod embedded;
     pub mod golden;
-    pub mod golden_file;
-    pub mod json;
     pub mod program;
-    pub mod random;
-    pub mod tolerances;
     pub mod tools;
 }
 
@@ -25,13 +21,11 @@ mod examples;
 mod faults;
 mod first_difference;
 mod fuzz;
-mod gmsh;
 mod hostile;
 mod limits;
 mod mathcad;
 mod messages;
 mod mistakes;
-mod models;
 #[path = "../../fuzz/oracles/mod.rs"]
 mod oracles;
 mod pages;
@@ -42,9 +36,7 @@ mod printed_numbers;
 mod prose;
 mod quantities;
 mod result_file;
-mod scene_builder;
 mod scenes;
-mod schema;
 mod snapshots;
 mod statuses;
 mod sweeps;

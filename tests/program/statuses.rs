@@ -11,7 +11,6 @@
 //! end.
 
 mod counted;
-mod drawn;
 
 use std::path::Path;
 
@@ -28,7 +27,7 @@ use plane_contact::studies::audit::claims::CLAIMS;
 use crate::common::golden_file::assert_file;
 use crate::tables::{markdown, percent};
 use counted::{Counted, counting};
-use drawn::{DrawnScene, Kind, draw};
+use testing::statuses::{DrawnScene, Kind, draw};
 
 /// Scenes for each row.
 const SCENES: usize = 200;

@@ -1,5 +1,7 @@
 //! Tests of the notation, the interpreter and worksheets, a file per subject.
 
+extern crate plane_contact_mathcad as mathcad;
+
 mod evidence;
 mod limits;
 mod notation;

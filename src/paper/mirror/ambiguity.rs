@@ -21,7 +21,7 @@ macro_rules! values {
     };
     (change) => { Change::None };
     (change $file:literal) => {
-        Change::Text(include_str!(concat!("../../../listings/readings/", $file)))
+        Change::Text(include_str!(concat!("../listings/readings/", $file)))
     };
 }
 pub(super) use values;

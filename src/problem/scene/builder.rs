@@ -15,8 +15,8 @@ use base::files;
 /// A scene before it is checked, from code or from a scene file.
 ///
 /// ```
-/// use problem::element::Plane;
-/// use problem::scene::{Axis, MeshBuilder, SceneBuilder};
+/// use plane_contact_problem::element::Plane;
+/// use plane_contact_problem::scene::{Axis, MeshBuilder, SceneBuilder};
 ///
 /// let mut mesh = MeshBuilder::default();
 /// let bottom = mesh.row([[0.0, 0.0], [1.0, 0.0]]);

@@ -15,7 +15,7 @@ macro_rules! findings {
     ($($id:literal),+) => {
         &[$(Embedded {
             name: concat!("findings/", $id),
-            scene: include_bytes!(concat!("../../../golden/findings/", $id, "/scene.json")),
+            scene: include_bytes!(concat!("../golden/findings/", $id, "/scene.json")),
             files: &[],
         }),+]
     };
@@ -25,13 +25,13 @@ macro_rules! findings {
 pub const SCENES: &[Embedded] = &[
     Embedded {
         name: "strand",
-        scene: include_bytes!("../../../golden/strand/scene.json"),
-        files: &[("strand.msh", include_bytes!("../../../golden/strand/strand.msh"))],
+        scene: include_bytes!("../golden/strand/scene.json"),
+        files: &[("strand.msh", include_bytes!("../golden/strand/strand.msh"))],
     },
-    Embedded { name: "fig1", scene: include_bytes!("../../../golden/fig1/scene.json"), files: &[] },
+    Embedded { name: "fig1", scene: include_bytes!("../golden/fig1/scene.json"), files: &[] },
     Embedded {
         name: "two-blocks",
-        scene: include_bytes!("../../../golden/two-blocks/scene.json"),
+        scene: include_bytes!("../golden/two-blocks/scene.json"),
         files: &[],
     },
 ];

@@ -1,0 +1,10 @@
+//! The reference: listing = mirror, quotes, and the listings worked out by hand.
+
+extern crate plane_contact_paper as paper;
+
+mod bitwise;
+mod listings;
+mod quotes;
+mod scalars;
+#[path = "../../mathcad/tests/spelled.rs"]
+mod spelled;

@@ -1,0 +1,658 @@
+//! Gmsh's mesh files: one mesh in every encoding, against what meshio reads; faulty files; random
+//! damage.
+
+use std::fs;
+
+use problem::scene::gmsh::GmshError;
+use problem::scene::gmsh::{read, write};
+use problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
+use proptest::prelude::*;
+use proptest::sample::Index;
+use testing::random::fixed;
+
+/// `tests/gmsh/blocks.geo` as Gmsh saves it.
+const BLOCKS: [&str; 4] =
+    ["blocks-2.2-ascii", "blocks-2.2-binary", "blocks-4.1-ascii", "blocks-4.1-binary"];
+
+/// One triangle, one of whose edges is in a physical group with a reversed orientation.
+const SMALL_2: &str = r#"$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "the body"
+1 7 "base"
+$EndPhysicalNames
+$Nodes
+3
+30 0 1 0
+10 0 0 0
+20 1 0 0
+$EndNodes
+$Elements
+3
+9 2 2 1 4 10 20 30
+8 1 2 -7 -3 20 10
+5 15 0 10
+$EndElements
+"#;
+
+/// The same mesh.
+const SMALL_4: &str = r#"$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "the body"
+1 7 "base"
+$EndPhysicalNames
+$Entities
+0 1 1 0
+-3 0 0 0 1 0 0 1 -7 0
+4 0 0 0 1 1 0 1 1 1 -3
+$EndEntities
+$Nodes
+2 3 10 30
+1 -3 1 2
+20
+10
+1 0 0 0.5
+0 0 0 0.75
+2 4 0 1
+30
+0 1 0
+$EndNodes
+$Elements
+2 2 8 9
+2 4 2 1
+9 10 20 30
+1 -3 1 1
+8 20 10
+$EndElements
+"#;
+
+fn bytes(path: &str) -> Vec<u8> {
+    fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn blocks(name: &str) -> Vec<u8> {
+    bytes(&format!("tests/gmsh/{name}.msh"))
+}
+
+/// The mesh of [`SMALL_2`]; in version 4.1 it has no element 5.
+fn small() -> Mesh {
+    let node = |number, x, y| Node { number, xyz: [x, y, 0.0] };
+    let element = |number, kind, physical: &[usize], geometric, nodes: &[usize]| Element {
+        number,
+        kind,
+        physical: physical.into(),
+        geometric,
+        nodes: nodes.into(),
+    };
+    let name = |dim, tag, name: &str| PhysicalName { dim, tag, name: name.to_owned() };
+    Mesh {
+        nodes: vec![node(10, 0.0, 0.0), node(20, 1.0, 0.0), node(30, 0.0, 1.0)],
+        elements: vec![
+            element(5, 15, &[], 0, &[10]),
+            element(8, 1, &[7], 3, &[20, 10]),
+            element(9, 2, &[1], 4, &[10, 20, 30]),
+        ],
+        names: vec![name(1, 7, "base"), name(2, 1, "the body")],
+        ..Mesh::default()
+    }
+}
+
+fn small_4() -> Mesh {
+    let mut mesh = small();
+    mesh.elements.remove(0);
+    mesh
+}
+
+/// The text that `tests/gmsh/oracle.py` prints of a mesh.
+fn canonical(mesh: &Mesh) -> String {
+    let row = |number| 1 + mesh.nodes.binary_search_by_key(&number, |node| node.number).unwrap();
+    let mut lines: Vec<String> = mesh
+        .nodes
+        .iter()
+        .map(|Node { number, xyz: [x, y, z] }| {
+            format!("node {} {x:.12} {y:.12} {z:.12}", row(*number))
+        })
+        .collect();
+    for element in &mesh.elements {
+        let (dim, kind) = match element.kind {
+            15 => (0, "vertex"),
+            1 => (1, "line"),
+            _ => (2, "triangle"),
+        };
+        let rows: Vec<String> = element.nodes.iter().map(|&node| row(node).to_string()).collect();
+        for name in &mesh.names {
+            if name.dim == dim && element.physical.contains(&name.tag) {
+                lines.push(format!("{}: {kind} {}", name.name, rows.join(" ")));
+            }
+        }
+    }
+    lines.sort();
+    lines.join("\n")
+}
+
+#[test]
+fn all_encodings_are_read_as_meshio_reads_them() {
+    let expected = String::from_utf8(bytes("tests/gmsh/expected.txt")).unwrap();
+    let files: Vec<_> = expected.split("\nfile ").skip(1).collect();
+    assert_eq!(files.len(), BLOCKS.len());
+    for (name, expected) in BLOCKS.iter().zip(files) {
+        let (file, expected) = expected.split_once('\n').unwrap();
+        assert_eq!(file, format!("{name}.msh"));
+        assert_eq!(canonical(&read(&blocks(name)).unwrap()), expected.trim_end(), "{file}");
+    }
+}
+
+#[test]
+fn text_and_binary_are_the_same_mesh() {
+    for [text, binary] in [[BLOCKS[0], BLOCKS[1]], [BLOCKS[2], BLOCKS[3]]] {
+        let (text, binary) = (read(&blocks(text)).unwrap(), read(&blocks(binary)).unwrap());
+        assert_eq!((&text.elements, &text.names), (&binary.elements, &binary.names));
+        for (a, b) in text.nodes.iter().zip(&binary.nodes) {
+            assert_eq!(a.number, b.number);
+            // Gmsh writes 16 digits, which may miss the double by some units of the last one.
+            a.xyz.iter().zip(b.xyz).for_each(|(a, b)| {
+                approx::assert_relative_eq!(*a, b, epsilon = 1e-15, max_relative = 1e-15);
+            });
+        }
+    }
+}
+
+#[test]
+fn the_shared_group_of_4_1_stands_beside_each_blocks_own() {
+    let mesh = read(&blocks("blocks-4.1-ascii")).unwrap();
+    let of_kind = |kind| mesh.elements.iter().filter(move |element| element.kind == kind);
+    assert!(of_kind(2).all(|e| e.physical[..] == [1, 3] || e.physical[..] == [2, 3]));
+    assert!(of_kind(1).all(|e| e.physical.len() == 1));
+}
+
+#[test]
+fn numbers_ascend_and_signs_are_dropped() {
+    assert_eq!(read(SMALL_2.as_bytes()), Ok(small()));
+    assert_eq!(read(SMALL_4.as_bytes()), Ok(small_4()));
+}
+
+#[test]
+fn windows_line_ends_and_a_missing_last_one_are_read() {
+    assert_eq!(read(SMALL_2.replace('\n', "\r\n").as_bytes()), Ok(small()));
+    assert_eq!(read(SMALL_4.replace('\n', "\r\n").as_bytes()), Ok(small_4()));
+    assert_eq!(read(SMALL_2.trim_end().as_bytes()), Ok(small()));
+}
+
+/// Numbers in any order, each once: the items ascend.
+#[test]
+fn numbers_may_come_in_any_order() {
+    let text = |numbers: &[usize]| {
+        let nodes: String = numbers.iter().map(|n| format!("{n} {n} 0 0\n")).collect();
+        let count = numbers.len();
+        format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n{nodes}$EndNodes\n\
+             $Elements\n0\n$EndElements\n"
+        )
+    };
+    let found = |numbers: &[usize]| {
+        let mesh = read(text(numbers).as_bytes());
+        mesh.map(|mesh| mesh.nodes.iter().map(|node| node.number).collect::<Vec<_>>())
+            .map_err(|error| error.to_string())
+    };
+    let orders: [&[usize]; 6] =
+        [&[1, 2, 3, 4], &[4, 3, 2, 1], &[2, 1, 4, 3], &[3, 4, 1, 2], &[7, 1, 9, 8, 2], &[5]];
+    for numbers in orders {
+        let mut sorted = numbers.to_vec();
+        sorted.sort_unstable();
+        assert_eq!(found(numbers), Ok(sorted), "{numbers:?}");
+        for again in numbers {
+            let error = found(&[numbers, &[*again]].concat()).unwrap_err();
+            assert!(error.contains(&format!("node {again}")), "{error}");
+        }
+    }
+}
+
+/// The largest number that is read, and the first that is not.
+#[test]
+fn dimensions_and_tags_at_their_bounds() {
+    let named =
+        |dim: usize| read(SMALL_2.replace("1 7 \"base\"", &format!("{dim} 7 \"base\"")).as_bytes());
+    assert!([0, 1, 2, 3].iter().all(|dim| named(*dim).is_ok()));
+    assert!(named(4).is_err());
+    let tags = |count: usize| {
+        let tags: String = (1..=count).map(|tag| format!(" {tag}")).collect();
+        read(SMALL_4.replace(" 1 1 1 -3", &format!(" {count}{tags} 1 -3")).as_bytes())
+    };
+    let tagged = tags(32).expect("as many as are allowed");
+    assert_eq!(tagged.elements[1].physical[..], (1..=32).collect::<Vec<_>>());
+    assert!(tags(33).unwrap_err().to_string().contains("at most 32 physical groups"));
+    let block = |dim: usize| {
+        let volume = SMALL_4.replace("0 1 1 0\n", "0 1 1 1\n");
+        let volume = volume.replace("$EndEntities", "4 0 0 0 1 1 1 0 0\n$EndEntities");
+        read(volume.replace("2 4 0 1\n30", &format!("{dim} 4 0 1\n30")).as_bytes())
+    };
+    assert!([2, 3].iter().all(|dim| block(*dim).is_ok()), "{:?}", block(3));
+    assert!(block(4).is_err());
+}
+
+#[test]
+fn other_sections_are_skipped() {
+    let comment = "$Comments\n$Nodes of 2 kinds\n$EndComments\n\n$NodeData\n$EndNodeData\n$Nodes\n";
+    assert_eq!(read(SMALL_2.replace("$Nodes\n", comment).as_bytes()), Ok(small()));
+    for name in BLOCKS {
+        let plain = blocks(name);
+        let at = plain.windows(7).position(|window| window == b"$Nodes\n").unwrap();
+        let periodic = b"$Periodic\n\x00\xff\n$End\x80\n$EndPeriodic\n";
+        let longer = [&plain[..at], periodic, &plain[at..]].concat();
+        assert_eq!(read(&longer), read(&plain), "{name}");
+    }
+}
+
+#[test]
+fn what_other_programs_write_before_the_format_is_skipped() {
+    for before in
+        ["\u{feff}", "\n\n", "$Comments\n$Nodes\n$EndComments\n", "\u{feff}$A\n$EndA\n$B\n$EndB\n"]
+    {
+        for (text, mesh) in [(SMALL_2, small()), (SMALL_4, small_4())] {
+            assert_eq!(read(format!("{before}{text}").as_bytes()), Ok(mesh), "{before:?}");
+        }
+        for name in BLOCKS {
+            let file = [before.as_bytes(), &blocks(name)].concat();
+            assert_eq!(read(&file), read(&blocks(name)), "{name}, {before:?}");
+        }
+    }
+    let wide: Vec<u8> = SMALL_2.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let error = read(&[&[0xFF, 0xFE], &wide[..]].concat()).expect_err("UTF-16").to_string();
+    assert!(error.contains("found a file in UTF-16"), "{error}");
+}
+
+#[test]
+fn names_that_are_not_in_utf_8_are_called_so() {
+    for text in [SMALL_2, SMALL_4] {
+        let latin: Vec<u8> = text.replace("base", "b\u{e4}se").chars().map(|c| c as u8).collect();
+        let error = read(&latin).expect_err("Latin-1").to_string();
+        assert!(error.starts_with("line 7: found \"b"), "{error}");
+        assert!(error.contains("not in UTF-8 (as Latin-1 is not)"), "{error}");
+    }
+}
+
+/// Physical groups and nodes of the triangles.
+fn triangles(mesh: &Mesh) -> Vec<(Vec<usize>, Vec<usize>)> {
+    let of = |element: &Element| (element.physical.to_vec(), element.nodes.to_vec());
+    mesh.of_dimension(2).map(of).collect()
+}
+
+#[test]
+fn a_triangle_of_several_groups_is_one_in_both_versions() {
+    let row = "9 2 2 1 4 10 20 30\n";
+    let with = |rows: &str| {
+        let text =
+            SMALL_2.replace("Elements\n3\n", &format!("Elements\n{}\n", 3 + rows.lines().count()));
+        triangles(&read(text.replace(row, &format!("{row}{rows}")).as_bytes()).expect("a mesh"))
+    };
+    let of_4 = SMALL_4.replace("1 1 0 1 1 1 -3", "1 1 0 3 2 1 5 1 -3");
+    let joined = with("12 2 2 5 4 10 20 30\n10 2 2 2 4 10 20 30\n");
+    assert_eq!(joined, triangles(&read(of_4.as_bytes()).expect("a mesh")));
+    assert_eq!(joined, [(vec![1, 2, 5], vec![10, 20, 30])]);
+    // Of one group, of none, on another surface, and turned round.
+    for other in ["2 1 4 10 20 30", "2 0 4 10 20 30", "2 5 6 10 20 30", "2 5 4 10 30 20"] {
+        assert_eq!(with(&format!("10 2 {other}\n")).len(), 2, "{other}");
+    }
+}
+
+/// Writes binary files, the least significant byte first.
+#[derive(Default)]
+struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    fn text(&mut self, text: &str) {
+        self.bytes.extend(text.as_bytes());
+    }
+
+    fn ints(&mut self, numbers: &[i32]) {
+        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
+    }
+
+    fn sizes(&mut self, numbers: &[u64]) {
+        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
+    }
+
+    fn doubles(&mut self, numbers: &[f64]) {
+        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
+    }
+
+    fn head(&mut self, version: &str) {
+        self.text(&format!("$MeshFormat\n{version} 1 8\n"));
+        self.ints(&[1]);
+        self.text("\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"the body\"\n1 7 \"base\"\n");
+        self.text("$EndPhysicalNames\n");
+    }
+
+    /// [`SMALL_2`] in binary.
+    fn small_2(&mut self) {
+        self.head("2.2");
+        self.text("$Nodes\n3\n");
+        for (number, x, y) in [(30, 0.0, 1.0), (10, 0.0, 0.0), (20, 1.0, 0.0)] {
+            self.ints(&[number]);
+            self.doubles(&[x, y, 0.0]);
+        }
+        self.text("\n$EndNodes\n$Elements\n3\n");
+        self.ints(&[2, 1, 2, 9, 1, 4, 10, 20, 30]);
+        self.ints(&[1, 1, 2, 8, -7, -3, 20, 10]);
+        self.ints(&[15, 1, 0, 5, 10]);
+        self.text("\n$EndElements\n");
+    }
+
+    /// [`SMALL_4`] in binary.
+    fn small_4(&mut self) {
+        self.head("4.1");
+        self.text("$Entities\n");
+        self.sizes(&[0, 1, 1, 0]);
+        for (tag, physical, bounds) in [(-3, -7, &[][..]), (4, 1, &[-3])] {
+            self.ints(&[tag]);
+            self.doubles(&[0.0; 6]);
+            self.sizes(&[1]);
+            self.ints(&[physical]);
+            self.sizes(&[bounds.len() as u64]);
+            self.ints(bounds);
+        }
+        self.text("\n$EndEntities\n$Nodes\n");
+        self.sizes(&[2, 3, 10, 30]);
+        self.ints(&[1, -3, 1]);
+        self.sizes(&[2, 20, 10]);
+        self.doubles(&[1.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.75]);
+        self.ints(&[2, 4, 0]);
+        self.sizes(&[1, 30]);
+        self.doubles(&[0.0, 1.0, 0.0]);
+        self.text("\n$EndNodes\n$Elements\n");
+        self.sizes(&[2, 2, 8, 9]);
+        self.ints(&[2, 4, 2]);
+        self.sizes(&[1, 9, 10, 20, 30]);
+        self.ints(&[1, -3, 1]);
+        self.sizes(&[1, 8, 20, 10]);
+        self.text("\n$EndElements\n");
+    }
+}
+
+#[test]
+fn binary_files_are_read() {
+    let mut file = Writer::default();
+    file.small_2();
+    assert_eq!(read(&file.bytes), Ok(small()));
+    let mut file = Writer::default();
+    file.small_4();
+    assert_eq!(read(&file.bytes), Ok(small_4()));
+}
+
+/// As a machine writes that stores the most significant byte first.
+#[test]
+fn the_other_byte_order_is_refused_by_name() {
+    for version in ["2.2", "4.1"] {
+        let mut file = Writer::default();
+        file.head(version);
+        let at = file.bytes.iter().position(|byte| *byte == 1).expect("the number 1");
+        file.bytes[at..at + 4].reverse();
+        let error = read(&file.bytes).expect_err(version).to_string();
+        assert!(error.contains("save the mesh again on this machine, or as text"), "{error}");
+    }
+}
+
+/// A physical tag of 0 is none, in version 4.1 too: of an entity's tags the others count.
+#[test]
+fn a_physical_tag_of_zero_is_none() {
+    let text = SMALL_4.replace("1 -7 0", "2 0 -7 0");
+    assert_ne!(text, SMALL_4);
+    assert_eq!(read(text.as_bytes()), Ok(small_4()));
+}
+
+/// The error of `text` with its first `from` replaced by `to`.
+fn error_of(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from:?} is not in the file");
+    read(text.replacen(from, to, 1).as_bytes()).expect_err(to).to_string()
+}
+
+#[test]
+fn faults_of_2_2_are_named_with_their_line() {
+    #[rustfmt::skip]
+    let faults = [
+        ("$MeshFormat\n", "MeshFormat\n",
+         "line 1: found \"MeshFormat\", expected $MeshFormat, the first section of a Gmsh mesh (MSH \
+          2.2 or 4.1)"),
+        ("$MeshFormat", "$NOD",
+         "line 1: the file has MSH version 1; versions 2.2 and 4.1 can be read: in Gmsh set \
+          Mesh.MshFileVersion = 4.1 and save the mesh again"),
+        ("$MeshFormat", "$Nodes\n$EndNodes\n$MeshFormat",
+         "line 1: found $Nodes, expected $MeshFormat, the first section of a Gmsh mesh (MSH 2.2 or \
+          4.1)"),
+        ("30 0 1 0", "3000000000 0 1 0",
+         "line 11: found \"3000000000\", beyond the largest number 2147483647, expected a node's \
+          number, 1 or more"),
+        ("2.2 0 8", "3 0 8",
+         "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
+          Mesh.MshFileVersion = 4.1 and save the mesh again"),
+        ("2.2 0 8", "2.2 2 8", "line 2: found 2, expected 0 (text) or 1 (binary)"),
+        ("2.2 0 8", "2.2 0 4",
+         "line 2: the file has numbers of 4 bytes, expected 8: save the mesh with a 64-bit Gmsh"),
+        ("2 1 \"the", "4 1 \"the", "line 6: found 4, expected a dimension from 0 to 3"),
+        ("2 1 \"the body\"", "2 1 body",
+         "line 6: found \"body\", expected a name in quotation marks"),
+        ("1 7 \"base\"", "2 -1 \"base\"",
+         "line 7: the name of the physical surface -1 comes a second time"),
+        ("30 0 1 0", "0 0 1 0", "line 11: found 0, expected a node's number, 1 or more"),
+        ("30 0 1 0", "30 0 one 0", r#"line 11: found "one", expected a node's coordinate"#),
+        ("30 0 1 0", "30 0 NaN 0",
+         "line 11: node 30 has the coordinate NaN, expected a finite number"),
+        ("30 0 1 0", "30 0 -1e999 0",
+         "line 11: node 30 has the coordinate -inf, expected a finite number"),
+        ("20 1 0 0", "10 1 0 0", "line 13: node 10 comes a second time"),
+        ("$Nodes\n3", "$Nodes\n2", r#"line 13: found "20", expected $EndNodes"#),
+        ("$Nodes\n3", "$Nodes\n4",
+         "line 14: found \"$EndNodes\", expected a node's number, 1 or more"),
+        ("$Nodes\n3", "$Nodes\n3 3", r#"line 10: found "3", expected the end of the line"#),
+        ("$EndNodes", "$EndNodes!", r#"line 14: found "$EndNodes!", expected $EndNodes"#),
+        ("$EndNodes\n", "$EndNodes\nmore\n",
+         "line 15: found \"more\", expected the beginning of a section, such as $Nodes"),
+        ("$Nodes", "$nodes", "line 21: found the end of the file, expected $Endnodes"),
+        ("$EndNodes\n", "$EndNodes\n$EndNodes\n",
+         "line 15: found \"$EndNodes\", expected the beginning of a section, such as $Nodes"),
+        ("$EndNodes\n", "$EndNodes\n$\n",
+         "line 15: found \"$\", expected the beginning of a section, such as $Nodes"),
+        ("9 2 2 1 4 10", "9 3 2 1 4 10",
+         "line 17: element 9 is a four-node quadrangle (surface 4, \"the body\"); only points, two-node \
+          edges and three-node triangles can be read: in Gmsh take out Recombine Surface, set \
+          Mesh.RecombineAll = 0, Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh \
+          again in two dimensions (-2)"),
+        ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
+        ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
+        ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
+    ];
+    for (from, to, expected) in faults {
+        assert_eq!(error_of(SMALL_2, from, to), expected, "{to:?}");
+    }
+}
+
+#[test]
+fn faults_of_4_1_are_named_with_their_line() {
+    #[rustfmt::skip]
+    let faults = [
+        ("2 4 0 1\n", "2 4 2 1\n", "line 21: found 2, expected 0 or 1 (parametric)"),
+        ("2 4 0 1\n", "4 4 0 1\n", "line 21: found 4, expected an entity's dimension, 0 to 3"),
+        ("2 3 10 30", "2 4 10 30", "line 23: 4 nodes are declared but 3 are given"),
+        ("2 2 8 9", "2 3 8 9", "line 30: 3 elements are declared but 2 are given"),
+        ("1 -3 1 1\n", "1 5 1 1\n",
+         "line 29: the elements are part of the curve 5, which is not in $Entities; if the mesh is \
+          partitioned, save it unpartitioned"),
+        ("1 -3 1 1\n", "1 -3 15 1\n",
+         "line 30: element 8 has dimension 0, but it is listed in an entity of dimension 1"),
+        ("1 -7 0", "33 -7 0",
+         "line 11: found 33, expected at most 32 physical groups of an entity"),
+        ("0 1 1 0\n", "0 1 2 0\n", "line 13: found \"$EndEntities\", expected an entity's tag"),
+        ("$EndElements\n", "$EndElements\n$Entities\n",
+         "line 32: found $Entities after $Elements, expected $Entities first"),
+    ];
+    for (from, to, expected) in faults {
+        assert_eq!(error_of(SMALL_4, from, to), expected, "{to:?}");
+    }
+}
+
+#[test]
+fn missing_and_repeated_sections_are_named() {
+    let cut = |text: &str, from: &str, to: &str| {
+        let (start, end) = (text.find(from).unwrap(), text.find(to).unwrap());
+        read((text[..start].to_owned() + &text[end..]).as_bytes())
+    };
+    let message = |result: Result<Mesh, GmshError>| result.unwrap_err().to_string();
+    let no_nodes = cut(SMALL_2, "$Nodes", "$Elements");
+    assert_eq!(
+        message(no_nodes),
+        "line 9: found $Elements, expected $Nodes before it (in Gmsh set Mesh.SaveParametric = 0)"
+    );
+    let no_elements = read(&SMALL_2.as_bytes()[..SMALL_2.find("$Elements").unwrap()]);
+    assert_eq!(message(no_elements), "line 15: the file has no section $Elements");
+    let nodes = &SMALL_2[SMALL_2.find("$Nodes").unwrap()..SMALL_2.find("$Elements").unwrap()];
+    let twice = SMALL_2.to_owned() + nodes;
+    assert_eq!(message(read(twice.as_bytes())), "line 21: a second section $Nodes, expected one");
+    let without_groups = cut(SMALL_4, "$Entities", "$Nodes").unwrap();
+    assert!(without_groups.elements.iter().all(|element| element.physical.is_empty()));
+}
+
+#[test]
+fn a_binary_fault_is_named_with_its_byte() {
+    let mut file = Writer::default();
+    file.small_2();
+    let nodes = file.bytes.windows(7).position(|window| window == b"$Nodes\n").unwrap();
+    let at = nodes + 9;
+    file.bytes[at..at + 4].fill(0);
+    let error = read(&file.bytes).unwrap_err().to_string();
+    assert_eq!(error, format!("byte {at}: found 0, expected a node's number, 1 or more"));
+}
+
+#[test]
+fn a_file_cut_anywhere_is_refused() {
+    for name in BLOCKS {
+        let file = blocks(name);
+        // The last byte is the last line's end, which may be missing.
+        for length in 0..file.len() - 1 {
+            assert!(read(&file[..length]).is_err(), "{name}, the first {length} bytes");
+        }
+    }
+}
+
+#[test]
+fn the_strand_is_read() {
+    let mesh = read(&bytes("../../golden/strand/strand.msh")).unwrap();
+    let of_group = |wanted: &str| {
+        let name = mesh.names.iter().find(|name| name.name == wanted).unwrap();
+        let kind = name.dim; // edges are of type 1, triangles of type 2
+        let inside = |e: &&Element| e.kind == kind && e.physical.contains(&name.tag);
+        mesh.elements.iter().filter(inside).count()
+    };
+    assert_eq!(mesh.nodes.len(), 1111);
+    assert_eq!([of_group("block"), of_group("stamp")], [1396, 618]);
+    assert_eq!([of_group("duct_wall"), of_group("stamp_arc")], [78, 54]);
+}
+
+/// A scene on a mesh file that restrains `node` and the group "base", and loads nothing.
+fn scene_on(mesh: &[u8], node: usize) -> base::error::Result<SceneBuilder> {
+    let scene = format!(
+        "{{\"mesh\": \"m.msh\", \"plane\": \"strain\", \"materials\": {{\"the body\": {{\"E\": 1, \
+         \"nu\": 0}}}}, \"restraints\": [{{\"on\": \"base\", \"fix\": [\"x\", \"y\"]}}, {{\"node\": {node}, \
+         \"fix\": [\"x\"]}}]}}"
+    );
+    SceneBuilder::read("small", scene.as_bytes(), |_| Ok(mesh.to_vec()))
+}
+
+/// Both versions, text and binary, number their nodes 10, 20, 30.
+#[test]
+fn node_numbers_with_gaps_are_closed_in_every_encoding() {
+    let (mut binary_2, mut binary_4) = (Writer::default(), Writer::default());
+    binary_2.small_2();
+    binary_4.small_4();
+    let text = [SMALL_2.as_bytes(), SMALL_4.as_bytes()];
+    for file in text.into_iter().chain([&*binary_2.bytes, &*binary_4.bytes]) {
+        let scene = scene_on(file, 30).expect("it is read");
+        assert_eq!(scene.mesh.nodes.iter().map(|n| n.number).collect::<Vec<_>>(), [1, 2, 3]);
+        assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
+        assert_eq!(scene.description.restraints[1].node, Some(3));
+        assert!(scene.mesh.adapted[0].contains("node 10 of the file is node 1"));
+        assert!(scene.build().is_ok());
+        let why = scene_on(file, 3).expect_err("the file has no node 3");
+        assert_eq!(why.what, "the mesh file has no node 3");
+    }
+}
+
+#[test]
+fn surfaces_that_run_clockwise_are_turned_as_a_whole() {
+    let turned = SMALL_2.replace("4 10 20 30", "4 10 30 20");
+    let scene = scene_on(turned.as_bytes(), 30).expect("it is read");
+    assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
+    assert!(scene.mesh.adapted[1].contains("surface 4, \"the body\" run clockwise"));
+    // One of two: the surface folds over itself.
+    let folded = turned.replace("$Elements\n3\n", "$Elements\n4\n7 2 2 1 4 10 20 40\n");
+    let folded = folded.replace("$Nodes\n3\n", "$Nodes\n4\n40 1 1 0\n");
+    let scene = scene_on(folded.as_bytes(), 30).expect("it is read");
+    let why = scene.build().expect_err("it folds").what;
+    assert!(why.ends_with("its area is -0.5 (surface 4, \"the body\")"), "{why}");
+}
+
+#[test]
+fn what_no_group_holds_is_named_with_what_gmsh_adds() {
+    let no_group =
+        SMALL_2.replace("9 2 2 1 4", "9 2 2 0 4").replace("2 1 \"the body\"", "2 6 \"x\"");
+    let why = scene_on(no_group.as_bytes(), 30).expect("it is read").build().expect_err("no group");
+    assert!(why.fix.contains("triangles of surfaces 4 are in none"), "{}", why.fix);
+    assert!(why.fix.contains("Physical Surface(\"the body\") = {4};"), "{}", why.fix);
+}
+
+proptest! {
+    #![proptest_config(fixed(64))]
+
+    /// Whatever numbers ascend in place of 1, 2, ..., the scene has the same mesh.
+    #[test]
+    fn any_gaps_close(
+        nodes in prop::collection::vec(1..9_usize, 2000),
+        elements in prop::collection::vec(1..900_usize, 4000),
+    ) {
+        let numbers = |steps: &[usize]| -> Vec<usize> {
+            steps.iter().scan(0, |n, step| { *n += step; Some(*n) }).collect()
+        };
+        let (nodes, elements) = (numbers(&nodes), numbers(&elements));
+        let whole = read(&bytes("../../golden/strand/strand.msh")).expect("a mesh");
+        let mut mesh = whole.clone();
+        mesh.nodes.iter_mut().for_each(|node| node.number = nodes[node.number]);
+        for (place, element) in mesh.elements.iter_mut().enumerate() {
+            element.number = elements[place];
+            element.nodes.iter_mut().for_each(|n| *n = nodes[*n]);
+        }
+        let scene = scene_on(write(&mesh).as_bytes(), nodes[7]).expect("it is read");
+        prop_assert_eq!(&scene.mesh.nodes, &whole.nodes);
+        let content = |mesh: &Mesh| -> Vec<_> {
+            mesh.elements.iter().map(|e| (e.nodes.clone(), e.physical.clone())).collect()
+        };
+        prop_assert!(content(&scene.mesh) == content(&whole));
+        prop_assert_eq!(scene.description.restraints[1].node, Some(7));
+    }
+}
+
+proptest! {
+    #![proptest_config(fixed(256))]
+
+    /// A damaged file is read or refused, without a panic and without an end.
+    #[test]
+    fn damage_does_no_harm(
+        name in prop::sample::select(&BLOCKS[..]),
+        damage in prop::collection::vec((any::<Index>(), any::<u8>()), 1..8),
+        length in any::<Index>(),
+    ) {
+        let mut file = blocks(name);
+        for (at, byte) in damage {
+            let at = at.index(file.len());
+            file[at] = byte;
+        }
+        let _ = read(&file);
+        file.truncate(length.index(file.len()));
+        let _ = read(&file);
+    }
+}

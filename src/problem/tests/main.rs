@@ -1,0 +1,10 @@
+//! The element, models, scenes and their files.
+
+extern crate plane_contact_problem as problem;
+
+mod element;
+mod gmsh;
+mod models;
+mod scene_builder;
+mod schema;
+mod tree;

@@ -1,0 +1,370 @@
+//! What a scene is built into: bodies and how they are held, loads of edges, identifiers and
+//! boxes; and what is refused at the edges of what a mesh and a load may be.
+
+use nalgebra::DVector;
+use problem::element::Plane;
+use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, Restraint, TriangleId, freedom};
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
+use serde_json::{Value, json};
+use testing::embedded::scene_json;
+use testing::json::build;
+
+/// Builds square blocks of the side 2, each of a material of the given name, side by side with
+/// a gap; the nodes of block k are 4k + 1 to 4k + 4, counter-clockwise from the lower left one.
+fn blocks(names: &[&str]) -> SceneBuilder {
+    let mut mesh = MeshBuilder::default();
+    for (k, name) in names.iter().enumerate() {
+        let left = 3.0 * k as f64 + 1.0;
+        let corners = [[left, 5.0], [left + 2.0, 5.0], [left + 2.0, 7.0], [left, 7.0]];
+        let [a, b, c, d] = mesh.row(corners)[..] else { unreachable!("four corners") };
+        mesh.triangles(*name, [[a, b, c], [a, c, d]]);
+        mesh.edges(format!("bottom {k}"), &[a, b]);
+        mesh.edges(format!("right {k}"), &[b, c]);
+        mesh.edges(format!("top {k}"), &[d, c]);
+    }
+    let mut distinct = names.to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let scene = SceneBuilder::new("blocks", mesh.finish(), Plane::Stress);
+    distinct.into_iter().fold(scene, |scene, name| scene.material(name, 1000.0, 0.25))
+}
+
+/// Fixes the lower side of the first `blocks` blocks.
+fn held(scene: SceneBuilder, blocks: usize) -> SceneBuilder {
+    (0..blocks).fold(scene, |s, k| s.restrain(format!("bottom {k}"), &[Axis::X, Axis::Y]))
+}
+
+#[test]
+fn bodies_of_one_name_are_numbered() {
+    let names = |of: &[&str]| -> Vec<String> {
+        let scene = held(blocks(of), of.len()).build().expect("a sound scene");
+        scene.model.bodies.iter().map(|body| body.name.clone()).collect()
+    };
+    assert_eq!(names(&["steel"]), ["steel"]);
+    assert_eq!(names(&["steel", "brass"]), ["steel", "brass"]);
+    assert_eq!(names(&["steel", "steel"]), ["steel 1", "steel 2"]);
+    let three = ["steel", "brass", "steel", "brass", "steel"];
+    assert_eq!(names(&three), ["steel 1", "brass 1", "steel 2", "brass 2", "steel 3"]);
+}
+
+#[test]
+fn bodies_have_their_own_nodes_and_triangles() {
+    let scene = held(blocks(&["a", "b"]), 2).build().expect("a sound scene");
+    for (k, body) in scene.model.bodies.iter().enumerate() {
+        assert_eq!(body.nodes, (4 * k..4 * k + 4).map(NodeId::new).collect::<Vec<_>>());
+        assert_eq!(body.triangles, [2 * k, 2 * k + 1].map(TriangleId::new));
+        for node in scene.model.node_ids() {
+            assert_eq!(body.has(node), body.nodes.contains(&node), "{node}");
+            assert_eq!(scene.model.body_of(node) == Some(body), body.has(node), "{node}");
+        }
+    }
+    // Two materials that meet make one body, under both names.
+    let mut mesh = MeshBuilder::default();
+    let rows = [0.0, 1.0, 2.0].map(|y| mesh.row([0.0, 1.0].map(|x| [x, y])));
+    mesh.join("soft", &rows[0], &rows[1]);
+    mesh.join("hard", &rows[1], &rows[2]);
+    mesh.edges("bottom", &rows[0]);
+    let scene = SceneBuilder::new("layers", mesh.finish(), Plane::Stress)
+        .material("hard", 2.0, 0.0)
+        .material("soft", 1.0, 0.0)
+        .restrain("bottom", &[Axis::X, Axis::Y])
+        .build()
+        .expect("a sound scene");
+    assert_eq!(scene.model.bodies.len(), 1);
+    assert_eq!(scene.model.bodies[0].name, "soft+hard");
+    assert!(scene.model.target().is_none() && !scene.model.has_contact());
+}
+
+/// Which directions of which nodes are restrained.
+type Restraints<'a> = &'a [(usize, &'a [Axis])];
+
+/// A body at (1, 5) is held where no motion is left: turning is one as well.
+#[test]
+fn what_restraints_leave_free() {
+    use Axis::{X, Y};
+    let cases: [(Restraints, Option<&str>); 14] = [
+        (&[], Some("move in x")),
+        (&[(1, &[Y]), (2, &[Y])], Some("move in x")),
+        (&[(1, &[X]), (4, &[X])], Some("move in y")),
+        (&[(1, &[X, Y])], Some("rotate")),
+        (&[(3, &[X, Y])], Some("rotate")),
+        (&[(1, &[X, Y]), (2, &[X])], Some("rotate")),
+        (&[(1, &[X, Y]), (4, &[Y])], Some("rotate")),
+        (&[(2, &[X]), (3, &[X]), (4, &[Y])], None),
+        // The lines of all restraints meet in a corner.
+        (&[(3, &[X]), (4, &[X, Y])], Some("rotate")),
+        (&[(3, &[X]), (4, &[X]), (2, &[Y]), (3, &[Y])], Some("rotate")),
+        (&[(1, &[X]), (4, &[Y])], Some("rotate")),
+        (&[(1, &[X, Y]), (2, &[Y])], None),
+        (&[(1, &[X, Y]), (4, &[X])], None),
+        (&[(1, &[X, Y]), (3, &[X])], None),
+    ];
+    for (restraints, expected) in cases {
+        // The scene is sound; the restraints are changed afterwards.
+        let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
+        model.all_dofs().for_each(|dof| model.restrain(dof, Restraint::Free));
+        for (node, axes) in restraints {
+            for axis in *axes {
+                let [x, y] = NodeId::from_number(*node).dofs();
+                model.restrain(if *axis == X { x } else { y }, Restraint::Fixed);
+            }
+        }
+        // Sizes and places change nothing.
+        for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, -2.0), (1.0, 1e7)] {
+            let mut moved = model.clone();
+            moved.nodes = model.nodes.iter().map(|p| p.map(|x| scale * x + shift)).collect();
+            let found = freedom(&moved, &moved.bodies[0].nodes);
+            assert_eq!(found, expected, "{restraints:?}, {scale} {shift}");
+        }
+    }
+}
+
+/// Two restraints along y, `apart` on a body of the size √2, and one along x: turning has the
+/// eigenvalue apart²/4, beside one of 2. A part of 1e-12 counts as none.
+#[test]
+fn restraints_beside_each_other_leave_a_body_free_to_turn() {
+    let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
+    for dof in model.all_dofs() {
+        let is_fixed = [0, 1, 3].contains(&dof.index());
+        model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
+    }
+    let mut found = |apart: f64| {
+        model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
+        freedom(&model, &model.bodies[0].nodes)
+    };
+    assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate"), None]);
+}
+
+#[test]
+fn a_body_that_can_move_is_refused() {
+    let what = |scene: SceneBuilder| scene.build().expect_err("it is refused").what;
+    let free = held(blocks(&["a", "b"]), 1);
+    let says = "body \"b\" is restrained by no contact and can still";
+    assert_eq!(what(free.clone()), format!("{says} move in x"));
+    assert_eq!(what(free.clone().restrain("bottom 1", &[Axis::X])), format!("{says} move in y"));
+    let turns = free.restrain_node(5, &[Axis::X, Axis::Y]);
+    assert_eq!(what(turns.clone()), format!("{says} rotate"));
+    assert!(turns.restrain_node(6, &[Axis::Y]).build().is_ok());
+}
+
+/// On an edge of length 2 and a thickness of 0.5, half of a traction on each end; a pressure
+/// pushes inwards, whichever way the edge runs.
+#[test]
+fn loads_of_edges() {
+    let scene = held(blocks(&["a"]), 1).thickness(0.5);
+    let load = |scene: SceneBuilder| scene.build().expect("a sound scene").model;
+    let traction = load(scene.clone().traction("right 0", [8.0, -2.0]));
+    let at = |model: &Model, n: usize| NodeId::from_number(n).components(&model.load);
+    assert_eq!(
+        [1, 2, 3, 4].map(|n| at(&traction, n)),
+        [[0.0; 2], [4.0, -1.0], [4.0, -1.0], [0.0; 2]]
+    );
+    let pressure = load(scene.clone().pressure("right 0", 8.0));
+    assert_eq!([2, 3].map(|n| at(&pressure, n)), [[-4.0, 0.0]; 2]);
+    let pressure = load(scene.clone().pressure("top 0", 8.0));
+    assert_eq!([3, 4].map(|n| at(&pressure, n)), [[0.0, -4.0]; 2]);
+    let all = scene.pressure("top 0", 8.0).force(3, [1.0, 2.0]).traction("bottom 0", [3.0, 5.0]);
+    let model = load(all.clone());
+    assert_eq!(model.total_load(), [4.0, -8.0 + 2.0 + 5.0]);
+    assert_eq!(model.free_part(&model.load).sum(), 1.0 - 8.0 + 2.0, "not that on held nodes");
+    // Twice each number: that is twice a force, and eight times what an edge of a body carries.
+    let twice = [12.0, 20.0, 12.0, 20.0, 2.0, 4.0 - 32.0, 0.0, -32.0];
+    assert_eq!(model.load_in(|x| 2.0 * x).as_slice(), twice);
+    // Stages: their parts and what was before.
+    let staged = load(all.force(4, [16.0, 0.0]).in_stage(2));
+    assert_eq!(staged.stages.len(), 2);
+    let sums = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0].map(|part| staged.load_after(part).sum());
+    assert_eq!(sums, [0.0, 1.5, 3.0, 11.0, 19.0, 19.0]);
+}
+
+#[test]
+fn stages_count_without_a_gap() {
+    let scene = held(blocks(&["a"]), 1);
+    let staged = |stages: &[usize]| {
+        let all = stages.iter().fold(scene.clone(), |s, k| s.force(3, [1.0, 0.0]).in_stage(*k));
+        all.build().map(|scene| scene.model.stages.len()).map_err(|error| error.what)
+    };
+    assert_eq!(scene.build().expect("sound").model.stages.len(), 1, "an empty one");
+    assert_eq!(staged(&[1]), Ok(1));
+    assert_eq!(staged(&[2, 1]), Ok(2));
+    assert_eq!(staged(&[1, 3, 2, 3]), Ok(3));
+    assert_eq!(staged(&[0]).unwrap_err(), "stages count from 1");
+    assert_eq!(staged(&[1, 3]).unwrap_err(), "no load has stage 2, but one has stage 3");
+    assert_eq!(staged(&[2]).unwrap_err(), "no load has stage 1, but one has stage 2");
+    let last = usize::MAX.to_string();
+    assert_eq!(
+        staged(&[1, usize::MAX]).unwrap_err(),
+        format!("no load has stage 2, but one has stage {last}")
+    );
+}
+
+#[test]
+fn identifiers_count_from_0_and_numbers_from_1() {
+    let node = NodeId::from_number(4);
+    assert_eq!((node.index(), node.number(), node.to_string()), (3, 4, "4".to_owned()));
+    assert_eq!(node.dofs(), [Dof::new(6), Dof::new(7)]);
+    assert_eq!([node.x(), node.y()], node.dofs());
+    for (dof, direction, axis) in [(6, 0, 'x'), (7, 1, 'y')] {
+        let dof = Dof::new(dof);
+        assert_eq!((dof.node(), dof.direction(), dof.axis()), (node, direction, axis));
+    }
+    let field = DVector::from_fn(10, |k, _| k as f64);
+    assert_eq!(node.components(&field), [6.0, 7.0]);
+    assert_eq!(EdgeId::all(3).map(EdgeId::index).collect::<Vec<_>>(), [0, 1, 2]);
+    assert_eq!(serde_json::to_value(TriangleId::new(6)).expect("a number"), json!(7));
+    let read = |value: Value| serde_json::from_value::<NodeId>(value).ok().map(NodeId::index);
+    assert_eq!([json!(1), json!(1_u64 << 31)].map(read), [Some(0), Some((1 << 31) - 1)]);
+    for no_number in [json!(0), json!((1_u64 << 31) + 1), json!(1_u64 << 33), json!(-1), json!(1.5)]
+    {
+        assert_eq!(read(no_number.clone()), None, "{no_number}");
+    }
+}
+
+#[test]
+fn boxes() {
+    let bounds = Bounds::around(&[[1.0, 5.0], [4.0, 3.0], [2.0, 4.0]]);
+    assert_eq!(bounds, Bounds { low: [1.0, 3.0], high: [4.0, 5.0] });
+    assert_eq!((bounds.size(), bounds.larger_side()), ([3.0, 2.0], 3.0));
+    assert_eq!(bounds.centre(), [2.5, 4.0]);
+    assert_eq!(bounds.padded(0.5), Bounds { low: [0.5, 2.5], high: [4.5, 5.5] });
+    for inside in [[1.0, 3.0], [4.0, 5.0], [2.0, 4.0]] {
+        assert!(bounds.contains(inside), "{inside:?}");
+    }
+    for outside in [[0.9, 4.0], [4.1, 4.0], [2.0, 2.9], [2.0, 5.1]] {
+        assert!(!bounds.contains(outside), "{outside:?}");
+    }
+    let high = Bounds::around(&[[0.0, 0.0], [1.0, 7.0]]);
+    assert_eq!(high.larger_side(), 7.0);
+}
+
+/// The shape after displacements, and the box around all that triangles have.
+#[test]
+fn shapes_and_places() {
+    let mut mesh = MeshBuilder::default();
+    mesh.node([90.0, 80.0]);
+    let rows = [0.0, 2.0].map(|y| mesh.row([0.0, 4.0].map(|x| [x, y])));
+    mesh.join("body", &rows[0], &rows[1]);
+    mesh.edges("bottom", &rows[0]);
+    let scene = SceneBuilder::new("block", mesh.finish(), Plane::Stress)
+        .material("body", 1.0, 0.0)
+        .restrain("bottom", &[Axis::X, Axis::Y])
+        .drop_orphans()
+        .build()
+        .expect("a sound scene");
+    let model = &*scene.model;
+    assert_eq!(model.bounds(), Bounds { low: [0.0; 2], high: [4.0, 2.0] });
+    assert_eq!((model.dofs(), model.free_dofs()), (10, 4));
+    assert_eq!(
+        model.node_ids().filter(|n| model.is_dropped(*n)).collect::<Vec<_>>(),
+        model.dropped
+    );
+    assert_eq!(model.dropped, [NodeId::new(0)]);
+    let u = DVector::from_fn(10, |k, _| if k % 2 == 0 { 0.5 } else { 8.0 });
+    let moved: Vec<[f64; 2]> = model.nodes.iter().map(|[x, y]| [x + 0.5, y + 8.0]).collect();
+    assert_eq!(model.shape(&u), moved);
+    let finer = scene.refined().expect("sound").expect("it has a mesh");
+    assert_eq!(finer.scene.model.nodes.len(), 5 + 5, "one on each edge");
+    for (k, parents) in finer.parents.iter().enumerate() {
+        let [[ax, ay], [bx, by]] = parents.map(|n| model.coordinates(n));
+        assert_eq!(finer.scene.model.nodes[5 + k], [(ax + bx) / 2.0, (ay + by) / 2.0]);
+    }
+    let (_, mesh) = finer.scene.source().expect("it has a mesh");
+    assert!(mesh.nodes.iter().zip(1..).all(|(node, number)| node.number == number));
+    assert!(mesh.elements.iter().zip(1..).all(|(element, number)| element.number == number));
+}
+
+/// Reads the scene `fig1` after a change.
+fn changed(change: impl FnOnce(&mut Value)) -> Result<Scene, String> {
+    let mut scene = scene_json("fig1");
+    change(&mut scene);
+    build(&scene).map_err(|error| error.to_string())
+}
+
+fn push(list: &mut Value, value: Value) {
+    list.as_array_mut().expect("a list").push(value);
+}
+
+/// The first number that is refused, and the last that is not.
+#[test]
+fn meshes_at_the_edges_of_what_is_allowed() {
+    // 19 elements: 16 · 19 + 1024 is 1328.
+    let number =
+        |number: usize| changed(|s| push(&mut s["elem"], json!([number, 1, 2, 50, 1, 1, 2])));
+    assert!(number(1328).is_ok());
+    let error = number(1329).expect_err("too large");
+    assert!(error.contains("element number 1329 for 19 elements"), "{error}");
+    let error = number(0).expect_err("none");
+    assert!(error.contains("element number 0") || error.contains("0 is no element"), "{error}");
+    let node = |node: usize| changed(|s| push(&mut s["elem"], json!([19, 1, 2, 50, 1, 1, node])));
+    assert!(node(13).is_ok());
+    for none in [0, 14] {
+        let error = node(none).expect_err("no node");
+        assert!(error.contains(&format!("node number {none}")), "{error}");
+    }
+    let tag = |tag: i64| changed(|s| push(&mut s["elem"], json!([19, 1, 2, tag, 1, 1, 2])));
+    assert!(tag(i64::from(i32::MAX)).is_ok());
+    assert!(tag(i64::from(i32::MAX) + 1).is_err());
+    let flat =
+        changed(|s| s["node"][9] = json!([10, 0.5, 0.01, 0.0])).expect_err("a flat triangle");
+    assert!(flat.contains("has the area 0"), "{flat}");
+    let clockwise =
+        changed(|s| s["elem"][9] = json!([10, 2, 2, 1, 1, 1, 2, 10])).expect_err("turned");
+    assert!(clockwise.contains("runs clockwise: its area is -"), "{clockwise}");
+    let twice = changed(|s| s["node"][12][0] = json!(12.0)).expect_err("twice");
+    assert!(twice.contains("node 12 is given twice"), "{twice}");
+    let plane = changed(|s| s["node"][12][3] = json!(1.0)).expect_err("not plane");
+    assert!(plane.contains("node 13 has z = 1"), "{plane}");
+    let empty = changed(|s| s["contact"]["cnt"] = json!([])).expect_err("empty");
+    assert!(empty.contains("the list is empty"), "{empty}");
+    let empty = changed(|s| s["contact"]["trg"] = json!([])).expect_err("empty");
+    assert!(empty.contains("the list is empty"), "{empty}");
+}
+
+/// Up to ten nodes without a triangle are named, of more how many there are.
+#[test]
+fn nodes_of_no_triangle_are_listed() {
+    let apart = |count: usize| {
+        let result = changed(|s| {
+            (14..14 + count).for_each(|n| push(&mut s["node"], json!([n, 50.0, n, 0.0])));
+        });
+        result.expect_err("they belong to no triangle")
+    };
+    assert!(apart(1).contains("nodes 14 belong to no triangle"), "{}", apart(1));
+    let ten = "14, 15, 16, 17, 18, 19, 20, 21, 22, 23";
+    assert!(apart(10).contains(&format!("nodes {ten} belong")), "{}", apart(10));
+    assert!(apart(12).contains(&format!("nodes {ten} and 2 more belong")), "{}", apart(12));
+}
+
+/// A group that is not there: the groups that are.
+#[test]
+fn unknown_groups_name_the_known_ones() {
+    let scene = held(blocks(&["a", "b"]), 2).pressure("wall", 1.0);
+    let error = scene.build().expect_err("there is no wall");
+    let known = ["bottom 0", "bottom 1", "right 0", "right 1", "top 0", "top 1"];
+    assert!(known.iter().all(|name| error.fix.contains(name)), "{error}");
+    assert!(!error.fix.contains("\"a\""), "groups of edges alone: {error}");
+}
+
+/// What differs from its default is written, and nothing else.
+#[test]
+fn fields_with_another_value_are_written() {
+    let scene = held(blocks(&["a"]), 1);
+    let written = |scene: &SceneBuilder| file::write(&scene.description, "m.msh");
+    let plain = written(&scene);
+    for field in ["thickness", "iterations", "load_steps", "loads", "drop_orphans"] {
+        assert!(!plain.contains(field), "{plain}");
+    }
+    assert!(plain.contains("\n  \"restraints\": [{"), "one item on the line of its field: {plain}");
+    let two = written(&scene.clone().restrain_node(3, &[Axis::X]));
+    assert!(two.contains("\n  \"restraints\": [\n    {"), "two items on lines of their own: {two}");
+    assert!(written(&scene.clone().thickness(2.5)).contains("\n  \"thickness\": 2.5"));
+    assert!(written(&scene.clone().iterations(7)).contains("\n  \"iterations\": 7"));
+    assert!(!written(&scene.clone().iterations(20)).contains("iterations"));
+    let steps = |load_steps: usize| {
+        let contact = Contact { load_steps, ..Contact::new("top 0", "bottom 0", 0.5) };
+        written(&scene.clone().contact(contact))
+    };
+    assert!(steps(3).contains("\"load_steps\":3"), "{}", steps(3));
+    assert!(!steps(16).contains("load_steps"), "{}", steps(16));
+    assert!(!written(&scene.thickness(1.0)).contains("thickness"));
+}
