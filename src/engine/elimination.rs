@@ -125,7 +125,11 @@ impl<T: Scalar> Elimination<T> {
     ) -> Self {
         let size = restraints.len();
         let mut constrained = vec![false; size / 2];
-        bound.for_each(|constraint| constrained[constraint.node.index()] = true);
+        for Constraint { node, .. } in bound {
+            // Bound twice, it would leave an empty column: a false singular matrix.
+            let before = std::mem::replace(&mut constrained[node.index()], true);
+            assert!(!before, "node {node} is bound once");
+        }
         let mut t = Elimination {
             rows: std::iter::repeat_with(Row::new).take(size).collect(),
             shift: DVector::from_element(size, T::zero()),
@@ -218,8 +222,6 @@ impl<T: Scalar> Elimination<T> {
 
     fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
         let [x, y] = constraint.node.dofs();
-        // Bound twice, it would slide along an equation that nothing holds: a false singular matrix.
-        assert!(self.rows[x.index()].is_empty(), "node {} is bound once", constraint.node);
         let target = self.target_shift(constraint, [nx, ny]);
         for (dof, factor) in [(x, nx), (y, ny)] {
             self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);

@@ -117,10 +117,10 @@ impl fmt::Display for Cause {
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
-    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &match .scalar {
-        ScalarName::Exact => String::new(),
-        rounded => format!(
-            "; {rounded} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
+    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &match .scalar.is_exact() {
+        true => String::new(),
+        false => format!(
+            "; {scalar} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
         ),
     }
 )]

@@ -7,7 +7,7 @@ use plane_contact::engine::contact::{Pairing, Surfaces};
 use plane_contact::engine::linear::SparseCholesky;
 use plane_contact::engine::reduction::{ReducedState, Reduction};
 use plane_contact::engine::{Constraint, Elimination, Motion, Stiffness};
-use plane_contact::problem::model::Model;
+use plane_contact::problem::model::{Model, NodeId, Restraint};
 use plane_contact::problem::modelling::{ContactModel, Coupling};
 use plane_contact::problem::scene::Axis;
 
@@ -132,4 +132,13 @@ fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {
     assert!(is_reduced(&[], &[300, 301]));
     assert!(!is_reduced(&[], &[20, 301]), "node 20 is not kept");
     assert!(!is_reduced(&[300, 301], &[]), "it slides away");
+}
+
+/// A node that is bound twice would leave an empty column, which reads as a singular matrix.
+#[test]
+#[should_panic(expected = "node 1 is bound once")]
+fn a_node_is_bound_once() {
+    let node = NodeId::new(0);
+    let constraint = Constraint { node, masters: Vec::new(), motion: Motion::Both([0.0; 2]) };
+    Elimination::new(&[Restraint::Free; 2], &[constraint.clone(), constraint]);
 }

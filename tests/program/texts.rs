@@ -111,9 +111,9 @@ fn plan() {
 
 #[test]
 fn c_cnt() {
-    SCENES
-        .iter()
-        .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
+    for scene in SCENES {
+        assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]);
+    }
 }
 
 /// Returns the names of all commands, such as `listing run`, by the lists on the pages of help.

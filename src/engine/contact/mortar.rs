@@ -33,7 +33,8 @@ use numbers::scalar::{Scalar, Unsure, compared};
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
 
-/// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
+/// The overlap below which two edges do not overlap, over the contact edge's length: coordinates are rounded
+/// to f64, in whatever scalar a run computes.
 const ROUNDING: f64 = 1e-12;
 
 /// The share of what its edges could cover below which a contact node does not face the target.
