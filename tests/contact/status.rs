@@ -506,7 +506,7 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
             model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
         }
         let (edge, masters) = (EdgeId::new(0), Vec::new());
-        let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0 };
+        let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0, corner: 0.0 };
         reactions(&model, &[Some(pairing), None], &reaction, eliminated)
     };
     let (up, side, tilted) = ([0.0, 1.0], [1.0, 0.0], [0.6, 0.8]);

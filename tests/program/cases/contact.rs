@@ -27,6 +27,18 @@ const CASES: &[Case] = &[
         ],
         lacks: &["Found on springs"],
     },
+    // The node in the corner of the groove rests on both of its sides; mortar averages their normals.
+    Case {
+        input: "wedge",
+        command: "plane-contact solve scene.json",
+        status: 0,
+        contains: &[
+            "In contact at the end: nodes 22, 23, 24, 25, 26\n",
+            "24  1.41421          0        0.84622           1.19673              0                0  slip",
+            "energy norm of the difference: 1.98 %",
+        ],
+        lacks: &["no equilibrium"],
+    },
     // The load lifts the arm: every node open is the only equilibrium.
     Case {
         input: "open",
