@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::tangent;
+use super::forces::{contact_forces, tangent};
 use super::lemke::complementary;
 use super::problem::{Outcome, StateSearch};
 use crate::contact::{Pairing, Sense, Status};
@@ -71,7 +71,7 @@ impl<'a> Condensed<'a> {
             let Ok(Outcome::Solved(solution)) = search.solve(&held, constraints) else {
                 return None;
             };
-            let forces = problem.forces(config, &held, &solution.reaction);
+            let forces = contact_forces(problem.model, pairings, &held, &solution.reaction);
             let of_entry = |i: &usize| parts(held[*i], [forces[*i].normal, forces[*i].tangent]);
             let known = entries.iter().all(|i| !forces[*i].undetermined);
             let forces: Vec<f64> = entries.iter().flat_map(of_entry).collect();

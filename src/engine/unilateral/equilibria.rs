@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::condensed::Condensed;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSearch, StateSolution};
 use crate::contact::{Sense, Status};
-use crate::solution::{NearestDecision, OtherEquilibrium, Uniqueness};
+use crate::solution::{OtherEquilibrium, Uniqueness};
 use problem::model::NodeId;
 
 /// The force of a node in contact, over the largest of the loads and of those of contact, below which
@@ -90,17 +90,8 @@ pub(super) fn uniqueness(
     Uniqueness::Tried { states: number, steps: steps.len(), all, last_only, others }
 }
 
-/// Returns the decision of the contact state found that is nearest to another one.
-pub(super) fn nearest_decision(
-    problem: &Problem,
-    found: &Equilibrium,
-    taken: &[TakenStep],
-) -> Option<NearestDecision> {
-    let setting = setting(problem, taken.last()?);
-    problem.search(&found.config, &setting).nearest_decision(&found.last)
-}
-
-fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
+/// Returns the setting of a step that was taken.
+pub(super) fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
     problem.setting(problem.load(step.to), &step.before, None)
 }
 
@@ -118,19 +109,6 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
     }
     weak.into_iter().for_each(|i| statuses[i] = Status::Open);
     problem.search(&found.config, setting).unrestrained_node(&statuses)
-}
-
-fn other(problem: &Problem, statuses: &[Status], load: f64, change: f64) -> OtherEquilibrium {
-    let nodes = |wanted: fn(&Status) -> bool| {
-        let entries = statuses.iter().zip(problem.surfaces.nodes());
-        entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
-    };
-    OtherEquilibrium {
-        load,
-        stick: nodes(|status| *status == Status::Stick),
-        slip: nodes(|status| matches!(status, Status::Slip(_))),
-        change,
-    }
 }
 
 impl StateSearch<'_> {
@@ -167,7 +145,13 @@ impl Problem<'_> {
             let change = apart(&step.u);
             if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale)
             {
-                others.push((solution.u, other(self, statuses, step.to, change)));
+                let nodes = |wanted: fn(&Status) -> bool| {
+                    let entries = statuses.iter().zip(self.surfaces.nodes());
+                    entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()
+                };
+                let stick = nodes(|status| *status == Status::Stick);
+                let slip = nodes(|status| matches!(status, Status::Slip(_)));
+                others.push((solution.u, OtherEquilibrium { load: step.to, stick, slip, change }));
             }
         }
         others.into_iter().map(|(_, other)| other).collect()

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::contact::{Pairing, STEEP};
+use crate::contact::{Pairing, STEEP, Status};
 use problem::model::{Dof, Model, NodeId};
 
 /// A singular value, over that of a force on an equation of its own, below which a combination of
@@ -32,10 +32,10 @@ pub(super) struct ContactForce {
 
 /// A closed contact node and the forces that are not known of it.
 #[derive(Clone, Copy)]
-pub(super) struct Contact<'a> {
-    pub(super) pairing: &'a Pairing,
+struct Contact<'a> {
+    pairing: &'a Pairing,
     /// Whether the tangential force is a reaction; otherwise it is part of `friction`.
-    pub(super) sticks: bool,
+    sticks: bool,
 }
 
 /// Returns the tangent of a pairing: its normal turned left.
@@ -43,31 +43,33 @@ pub(super) fn tangent(pairing: &Pairing) -> [f64; 2] {
     [-pairing.normal[1], pairing.normal[0]]
 }
 
-/// Returns the forces on each contact from `reaction`, which is K u − F − friction by degree of
-/// freedom.
-pub(super) fn forces(
+/// Returns the forces of all entries from `reaction`, which is K u − F − friction by degree of freedom; 0 where an
+/// entry is open.
+pub(super) fn contact_forces(
     model: &Model,
-    contacts: &[Contact],
+    pairings: &[Option<Pairing>],
+    statuses: &[Status],
     reaction: &DVector<f64>,
 ) -> Vec<ContactForce> {
-    let mut rest = reaction.clone();
-    let direct: Vec<Option<ContactForce>> =
-        contacts.iter().map(|contact| direct(model, *contact, reaction)).collect();
-    let mut hard = Vec::new();
-    for (i, (contact, force)) in contacts.iter().zip(&direct).enumerate() {
-        match force {
-            Some(force) => add(contact.pairing, *force, -1.0, &mut rest),
-            None => hard.push(i),
+    let mut all = vec![ContactForce::default(); statuses.len()];
+    let (mut rest, mut hard) = (reaction.clone(), Vec::new());
+    for (i, status) in statuses.iter().enumerate().filter(|(_, status)| status.is_closed()) {
+        let Some(pairing) = &pairings[i] else { continue };
+        let contact = Contact { pairing, sticks: *status == Status::Stick };
+        match direct(model, contact, reaction) {
+            Some(force) => {
+                add(pairing, force, -1.0, &mut rest);
+                all[i] = force;
+            }
+            None => hard.push((i, contact)),
         }
     }
-    let mut found: Vec<ContactForce> = direct.into_iter().map(Option::unwrap_or_default).collect();
     if !hard.is_empty() {
-        let unknown: Vec<Contact> = hard.iter().map(|i| contacts[*i]).collect();
-        for (i, force) in hard.into_iter().zip(by_target(model, &unknown, &rest)) {
-            found[i] = force;
-        }
+        let (places, contacts): (Vec<usize>, Vec<Contact>) = hard.into_iter().unzip();
+        let forces = by_target(model, &contacts, &rest);
+        places.into_iter().zip(forces).for_each(|(i, force)| all[i] = force);
     }
-    found
+    all
 }
 
 /// Adds `factor` times the forces of a contact, on its node and reversed on its target, to `load`.

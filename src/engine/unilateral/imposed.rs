@@ -3,8 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{self, Contact, ContactForce, forces};
-use super::problem::{Configuration, Outcome, Problem, Setting, StateSearch, StateSolution};
+use super::forces::{ContactForce, add, contact_forces};
+use super::problem::{Configuration, Outcome, Setting, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
@@ -55,13 +55,15 @@ impl StateSearch<'_> {
         let none = DVector::zeros(self.setting.load.len());
         let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
         let mut reaction = bodies.reaction(&u);
-        let mut forces = self.problem.forces(self.config, statuses, &reaction);
+        let Configuration { pairings, .. } = self.config;
+        let mut forces = contact_forces(self.problem.model, pairings, statuses, &reaction);
         let mut friction = Vec::new();
         if let Some((slide, sizes)) = self.slide(statuses, &forces, bodies)? {
             let Some(solved) = bodies.displacements(&slide) else { return Ok(None) };
             (u, residual) = solved;
             reaction = bodies.reaction(&u);
-            forces = self.problem.forces(self.config, statuses, &(&reaction - &slide));
+            let rest = &reaction - &slide;
+            forces = contact_forces(self.problem.model, pairings, statuses, &rest);
             sizes.iter().for_each(|(i, size)| forces[*i].tangent = *size);
             let of_dof = Dof::all(slide.len()).zip(slide.iter().copied());
             friction = of_dof.filter(|(_, force)| *force != 0.0).collect();
@@ -95,14 +97,15 @@ impl StateSearch<'_> {
         let unit = ContactForce { tangent: 1.0, ..ContactForce::default() };
         let load = |(_, _, pairing): &(usize, f64, &Pairing)| {
             let mut load = DVector::zeros(dofs);
-            forces::add(pairing, unit, 1.0, &mut load);
+            add(pairing, unit, 1.0, &mut load);
             load
         };
         let loads: Vec<DVector<f64>> = sliding.iter().map(load).collect();
         let n = sliding.len();
         let mut matrix = DMatrix::identity(n, n);
         for (column, reaction) in bodies.responses(&loads).iter().enumerate() {
-            let response = self.problem.forces(self.config, statuses, reaction);
+            let response =
+                contact_forces(self.problem.model, &self.config.pairings, statuses, reaction);
             for (row, (i, sign, _)) in sliding.iter().enumerate() {
                 matrix[(row, column)] += sign * self.problem.friction * response[*i].normal;
             }
@@ -123,30 +126,6 @@ impl StateSearch<'_> {
         }
         let sizes = sliding.iter().zip(&sizes).map(|((i, _, _), size)| (*i, *size)).collect();
         Ok(Some((friction, sizes)))
-    }
-}
-
-impl Problem<'_> {
-    /// Returns the forces of all entries; 0 where an entry is open.
-    pub(super) fn forces(
-        &self,
-        config: &Configuration,
-        statuses: &[Status],
-        reaction: &DVector<f64>,
-    ) -> Vec<ContactForce> {
-        let closed: Vec<usize> = (0..statuses.len())
-            .filter(|&i| statuses[i].is_closed() && config.pairings[i].is_some())
-            .collect();
-        let contact = |i: &usize| Contact {
-            pairing: config.pairings[*i].as_ref().expect("closed entries face the target"),
-            sticks: statuses[*i] == Status::Stick,
-        };
-        let contacts: Vec<Contact> = closed.iter().map(contact).collect();
-        let mut all = vec![ContactForce::default(); statuses.len()];
-        for (i, force) in closed.into_iter().zip(forces(self.model, &contacts, reaction)) {
-            all[i] = force;
-        }
-        all
     }
 }
 

@@ -42,7 +42,11 @@
 //! | what is its force, and do its restraints leave it undetermined? | `forces.rs`, `direct` and `by_target` |
 //! | what is the friction of a node that slides? | `imposed.rs`, `slide` |
 //! | what does a status impose, and does friction act there at all? | `problem.rs`, `constraints` and `transmits_shear` |
+//! | up to which shear does a node stick, in a corner too? | `problem.rs`, `holding` |
 //! | which status comes next where statuses return? | `status.rs`, `History::next` |
+//!
+//! In the current geometry a node in a concave corner of the target, under node to segment, is held there while its
+//! force lies between the normals of both edges; its normal is then that of its force.
 //!
 //! A node sticks beyond μ p in the result by rounding alone (`CONE` in `problem.rs`), or under `stick`, where
 //! no node slides. In an iteration on the way it may wait until other nodes have changed.

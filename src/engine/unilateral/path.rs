@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::equilibria::{TakenStep, nearest_decision, uniqueness};
+use super::equilibria::{TakenStep, setting, uniqueness};
 use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
+use super::unrestrained::part_of_load;
 use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::solution::{
@@ -106,17 +107,6 @@ fn changes(steps: &[Step]) -> usize {
         statuses.any(|(before, after)| before.is_closed() && before != after)
     };
     ends.windows(2).filter(changed).count()
-}
-
-/// Names a part of the path, to three decimals: 1.5 of two stages is half of the second.
-pub(super) fn part_of_load(part: f64, stages: usize) -> String {
-    let stage = part.ceil().max(1.0);
-    let of_stage = (1000.0 * (part - (stage - 1.0))).floor() / 1000.0;
-    match stages {
-        1 => format!("{of_stage} of the load"),
-        _ if of_stage == 1.0 => format!("the end of stage {stage}"),
-        _ => format!("{of_stage} of stage {stage}"),
-    }
 }
 
 /// A search for the equilibrium of a setting.
@@ -366,7 +356,8 @@ impl<'a> Run<'a> {
     fn solution(self, end: Equilibrium, path: Option<Path>) -> Solution {
         let Run { problem, steps, factored, taken, .. } = self;
         let uniqueness = uniqueness(problem, &end, &taken);
-        let nearest = nearest_decision(problem, &end, &taken);
+        let setting = setting(problem, taken.last().expect("a path has a step"));
+        let nearest = problem.search(&end.config, &setting).nearest_decision(&end.last);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
         let facets = problem.coarse_facets();
         let [unseen, inside] = problem.deepest_nodes(&last.solution.u);

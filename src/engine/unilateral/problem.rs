@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::forces::{ContactForce, tangent};
+use super::forces::{ContactForce, contact_forces, tangent};
 use super::rigid;
 use super::status::History;
 use crate::contact::{Pairing, Sense, Status, Surfaces};
@@ -256,20 +256,31 @@ impl<'a> Problem<'a> {
         if self.friction > 0.0 { self.model.stages.len() } else { 1 }
     }
 
-    /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
-    fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
-        pairing.opening(|n| self.model.coordinates(n)) + pairing.opening(|n| n.components(u))
-    }
-
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
     pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
-        config.pairings.iter().map(|p| p.as_ref().map(|p| self.gap(p, u))).collect()
+        let gap =
+            |p: &Pairing| p.opening(|n| self.model.coordinates(n)) + p.opening(|n| n.components(u));
+        config.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
     }
 
     /// Returns the status with which an entry closes.
     pub(super) fn closing(&self, config: &Configuration, i: usize) -> Status {
         let holds = config.pairings[i].as_ref().is_some_and(|p| self.holding(p) > 0.0);
         if holds { Status::Stick } else { Status::Slip(Sense::Free) }
+    }
+
+    /// Returns the statuses that close each entry whose gap is at most `most`, length.
+    pub(super) fn closed_within(
+        &self,
+        config: &Configuration,
+        gaps: &[Option<f64>],
+        most: f64,
+    ) -> Vec<Status> {
+        let status = |(i, gap): (usize, &Option<f64>)| match gap {
+            Some(gap) if *gap <= most => self.closing(config, i),
+            Some(_) | None => Status::Open,
+        };
+        gaps.iter().enumerate().map(status).collect()
     }
 
     /// Returns the tangential over the normal force up to which a node does not slide: that of friction, whose cone
@@ -330,7 +341,8 @@ impl<'a> Problem<'a> {
         };
         let statuses: Vec<Status> = (0..last.statuses.len()).map(touching).collect();
         // Whether they are determined does not depend on how large they are.
-        let forces = self.forces(config, &statuses, &last.solution.reaction);
+        let forces =
+            contact_forces(self.model, &config.pairings, &statuses, &last.solution.reaction);
         forces.iter().map(|force| force.undetermined).collect()
     }
 
@@ -341,10 +353,7 @@ impl<'a> Problem<'a> {
 
     /// Returns whether restraints, and the nodes that touch the target before any load, hold the bodies.
     pub(super) fn is_held_initially(&self, config: &Configuration) -> bool {
-        let gaps = self.initial_gaps(config);
-        let touches = |i: usize| gaps[i].is_some_and(|gap| gap <= self.closed);
-        let status = |i: usize| if touches(i) { self.closing(config, i) } else { Status::Open };
-        let statuses: Vec<Status> = (0..gaps.len()).map(status).collect();
+        let statuses = self.closed_within(config, &self.initial_gaps(config), self.closed);
         let before = DVector::zeros(self.model.dofs());
         let setting = self.setting(before.clone(), &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
@@ -406,16 +415,6 @@ impl StateSearch<'_> {
         };
         config.pairings.iter().zip(statuses).filter_map(constraint).collect()
     }
-}
-
-/// Returns the largest gap of a closed node or penetration of another one, length.
-pub(super) fn violation(gaps: &[Option<f64>], statuses: &[Status]) -> f64 {
-    let of_entry = |(gap, status): (&Option<f64>, &Status)| match gap {
-        Some(gap) if status.is_closed() => gap.abs(),
-        Some(gap) => (-gap).max(0.0),
-        None => 0.0,
-    };
-    gaps.iter().zip(statuses).map(of_entry).fold(0.0, f64::max)
 }
 
 /// Returns the larger extent of the model, or what its coordinates can resolve of it, length.

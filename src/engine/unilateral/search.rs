@@ -8,9 +8,9 @@ use nalgebra::DVector;
 use super::forces::{ContactForce, tangent};
 use super::problem::{
     CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSearch,
-    StateSolution, Watch, violation,
+    StateSolution, Watch,
 };
-use super::status::{History, first_closed, nearest_open, next_closed};
+use super::status::{History, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium};
@@ -215,12 +215,11 @@ impl StateSearch<'_> {
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
+    /// Closes the nodes that touch or penetrate, else those with the least gap.
     fn first_statuses(&self) -> Vec<Status> {
         let gaps = self.problem.gaps(self.config, self.setting.before);
-        let closed = first_closed(&gaps, self.problem.closed);
-        let status =
-            |i: usize| if closed[i] { self.problem.closing(self.config, i) } else { Status::Open };
-        (0..closed.len()).map(status).collect()
+        let least = gaps.iter().flatten().copied().fold(f64::INFINITY, f64::min).max(0.0);
+        self.problem.closed_within(self.config, &gaps, least + self.problem.closed)
     }
 
     /// Returns the statuses that the forces, gaps and slips of an iteration ask for.
@@ -343,7 +342,12 @@ impl StateSearch<'_> {
         solution: StateSolution,
     ) -> Iteration {
         let gaps = self.problem.gaps(self.config, &solution.u);
-        let violation = violation(&gaps, &statuses);
+        let missed = gaps.iter().zip(&statuses).map(|(gap, status)| match gap {
+            Some(gap) if status.is_closed() => gap.abs(),
+            Some(gap) => (-gap).max(0.0),
+            None => 0.0,
+        });
+        let violation = missed.fold(0.0, f64::max);
         let springs = self.problem.springs;
         Iteration {
             statuses,

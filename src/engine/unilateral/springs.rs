@@ -13,7 +13,7 @@
 
 use nalgebra::DVector;
 
-use super::problem::{Equilibrium, Iteration, Problem, Setting, Watch};
+use super::problem::{Equilibrium, Problem, Setting, Watch};
 use super::search::{SETTLED, STALLED};
 use super::status::History;
 use crate::contact::Status;
@@ -68,7 +68,8 @@ impl Problem<'_> {
             // Without load the forces of contact vanish with those of the springs, to rounding.
             let whole = self.force_of(&springs, &last.solution.u) / springs.springs;
             let rounding = f64::EPSILON / SETTLED * largest(whole.as_slice());
-            most = most.max(last.most(setting)).max(rounding);
+            let forces = last.solution.forces.iter().map(|f| f.normal.hypot(f.tangent));
+            most = forces.fold(most, f64::max).max(largest(setting.load.as_slice())).max(rounding);
             let pushing = largest(self.force_of(&springs, &moved).as_slice());
             let carried = if pushing == 0.0 { 0.0 } else { pushing / most };
             least = least.min(carried);
@@ -94,13 +95,5 @@ impl Problem<'_> {
     /// Returns the forces with which springs hold bodies after displacements `u`, force.
     fn force_of(&self, springs: &Problem, u: &DVector<f64>) -> DVector<f64> {
         springs.stiffness.times(u) - self.stiffness.times(u)
-    }
-}
-
-impl Iteration {
-    /// Returns the largest force of a load or of contact, force.
-    fn most(&self, setting: &Setting) -> f64 {
-        let forces = self.solution.forces.iter().map(|f| f.normal.hypot(f.tangent));
-        forces.fold(largest(setting.load.as_slice()), f64::max)
     }
 }

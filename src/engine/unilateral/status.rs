@@ -44,7 +44,12 @@ impl History {
     /// back; from then on one node changes at a time.
     pub(super) fn next(&mut self, tried: &[Status], wanted: Vec<Status>) -> Vec<Status> {
         self.one_at_a_time |= self.tried_here.contains(&wanted);
-        if self.one_at_a_time { last_change(tried, &wanted) } else { wanted }
+        let changes = |i: &usize| tried[*i] != wanted[*i];
+        let last = (0..tried.len()).rfind(changes).filter(|_| self.one_at_a_time);
+        let Some(i) = last else { return wanted };
+        let mut next = tried.to_vec();
+        next[i] = wanted[i];
+        next
     }
 
     /// Says which iterations' statuses returned last; no text where none did.
@@ -63,22 +68,6 @@ impl History {
         self.tried_here.clear();
         self.one_at_a_time = false;
     }
-}
-
-/// Returns `before` with the last of the changes that lead to `wanted`.
-fn last_change(before: &[Status], wanted: &[Status]) -> Vec<Status> {
-    let mut statuses = before.to_vec();
-    if let Some(i) = (0..statuses.len()).rev().find(|&i| before[i] != wanted[i]) {
-        statuses[i] = wanted[i];
-    }
-    statuses
-}
-
-/// Returns which entries are closed at the start: those that touch or penetrate, else those with the
-/// least gap; gaps are lengths, None where a node faces nothing.
-pub(super) fn first_closed(gaps: &[Option<f64>], closed: f64) -> Vec<bool> {
-    let least = gaps.iter().flatten().copied().fold(f64::INFINITY, f64::min).max(0.0);
-    gaps.iter().map(|gap| gap.is_some_and(|gap| gap <= least + closed)).collect()
 }
 
 /// Returns the open entry whose gap the motion `u` closes first.

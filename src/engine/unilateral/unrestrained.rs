@@ -2,11 +2,11 @@
 
 use nalgebra::DVector;
 
-use super::path::part_of_load;
 use super::problem::{Configuration, Problem, StateSearch};
+use super::reduced::{HeldBodies, Unheld};
 use super::rigid::{self, Release};
 use crate::contact::{BEND, Pairing, Status};
-use crate::elimination::{Constraint, Elimination};
+use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
 use crate::linear::SparseCholesky;
 use crate::range::{beyond_range, inside_out};
@@ -119,7 +119,9 @@ impl Problem<'_> {
         let more = larger.take_while(|more| more.is_finite()).find(|more| holds(*more));
         let needed = more.map_or(String::new(), |more| {
             let [_, least] = bisected([more, more / 2.0], holds);
-            format!("; it needs a coefficient of {}", rounded_up(least))
+            // Rounded up, but for what bisection leaves open.
+            let least = (1000.0 * least * (1.0 - 2e-6)).ceil() / 1000.0;
+            format!("; it needs a coefficient of {least}")
         });
         let body = self.model.body_of(dof.node());
         let body = body.map_or("a body".into(), |body| format!("body {:?}", body.name));
@@ -309,10 +311,27 @@ impl Problem<'_> {
 impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
+<<<<<<< HEAD
         let Problem { model, stiffness, .. } = self.problem;
         let t = Elimination::closing(model.restraints(), &self.constraints(statuses));
         let singular = SparseCholesky::new(stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())
+=======
+        let constraints = self.constraints(statuses);
+        let held = HeldBodies::whole(self.problem, &self.setting.load, &constraints);
+        held.err().map(|Unheld { t, singular }| t.dof(singular.column).node())
+    }
+}
+
+/// Names a part of the path, to three decimals: 1.5 of two stages is half of the second.
+pub(super) fn part_of_load(part: f64, stages: usize) -> String {
+    let stage = part.ceil().max(1.0);
+    let of_stage = (1000.0 * (part - (stage - 1.0))).floor() / 1000.0;
+    match stages {
+        1 => format!("{of_stage} of the load"),
+        _ if of_stage == 1.0 => format!("the end of stage {stage}"),
+        _ => format!("{of_stage} of stage {stage}"),
+>>>>>>> wt-a
     }
 }
 
@@ -324,9 +343,4 @@ fn bisected([mut held, mut free]: [f64; 2], holds: impl Fn(f64) -> bool) -> [f64
         if holds(middle) { held = middle } else { free = middle }
     }
     [held, free]
-}
-
-/// Rounds up to three decimals, but for what bisection leaves open.
-fn rounded_up(x: f64) -> f64 {
-    (1000.0 * x * (1.0 - 2e-6)).ceil() / 1000.0
 }
