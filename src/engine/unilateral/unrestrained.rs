@@ -8,7 +8,6 @@ use super::rigid::{self, Release};
 use crate::contact::{BEND, Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
-use crate::linear::SparseCholesky;
 use crate::range::{beyond_range, inside_out};
 use crate::solution::Start;
 use base::error::InputError;
@@ -311,12 +310,6 @@ impl Problem<'_> {
 impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
-<<<<<<< HEAD
-        let Problem { model, stiffness, .. } = self.problem;
-        let t = Elimination::closing(model.restraints(), &self.constraints(statuses));
-        let singular = SparseCholesky::new(stiffness.reduced(&t)).err()?;
-        Some(t.dof(singular.column).node())
-=======
         let constraints = self.constraints(statuses);
         let held = HeldBodies::whole(self.problem, &self.setting.load, &constraints);
         held.err().map(|Unheld { t, singular }| t.dof(singular.column).node())
@@ -331,7 +324,6 @@ pub(super) fn part_of_load(part: f64, stages: usize) -> String {
         1 => format!("{of_stage} of the load"),
         _ if of_stage == 1.0 => format!("the end of stage {stage}"),
         _ => format!("{of_stage} of stage {stage}"),
->>>>>>> wt-a
     }
 }
 
