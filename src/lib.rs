@@ -35,11 +35,11 @@
 //! | part | what it has |
 //! |---|---|
 //! | [`error`], [`exit`], [`files`], [`child`], [`mod@choices`] | errors of the input, files, other programs, closed sets |
-//! | [`numbers`] | kinds of numbers and solvers |
+//! | [`numbers`] | kinds of numbers |
 //! | [`mathcad`] | Mathcad's notation, interpreter and worksheets |
 //! | [`problem`] | the finite element model, the element, scenes and their files |
 //! | [`paper`] | the listings, their mirror, readings, and how the model reaches them |
-//! | [`engine`] | requests, solutions, the published iterations, unilateral contact, error estimates |
+//! | [`engine`] | solvers, requests, solutions, the published iterations, unilateral contact, error estimates |
 //! | [`studies`] | audit, snapshots, trade, extremes, lesson, plan, benchmarks, CalculiX |
 //! | [`report`] | tables, pictures, pages, documents |
 #![forbid(unsafe_code)]

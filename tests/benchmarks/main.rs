@@ -6,6 +6,7 @@ mod common {
 
     pub mod conforming;
     pub mod fitted_hertz;
+    pub mod outcome;
     pub mod program;
     pub mod recovery;
 }
@@ -13,6 +14,7 @@ mod common {
 mod conforming;
 mod cook;
 mod delaunay;
+mod discretisation;
 mod grid;
 mod hertz;
 mod kirsch;

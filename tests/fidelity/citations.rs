@@ -58,7 +58,10 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder of the repository") {
         let path = entry.expect("an entry").path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if path.is_dir() && !SKIPPED.contains(&name.as_str()) {
+        // What a package links to stands elsewhere too.
+        if path.is_symlink() || SKIPPED.contains(&name.as_str()) {
+            continue;
+        } else if path.is_dir() {
             walk(&path, found);
         } else if name.ends_with(".rs") || name.ends_with(".md") {
             found.push(path);

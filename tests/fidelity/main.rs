@@ -2,10 +2,8 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{draws, embedded, golden_file, json, random, tolerances};
+    pub use testing::{draws, embedded, golden_file, golden_floats, json, random, tolerances};
 
-    pub mod golden;
-    pub mod golden_floats;
     pub mod outcome;
     pub mod program;
     pub mod tools;

@@ -2,14 +2,14 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden_file, json, tolerances};
+    pub use testing::{annulus, embedded, golden, golden_file, json, random, tolerances};
 
     pub mod conforming;
-    pub mod golden;
     pub mod program;
     pub mod tools;
 }
 
+mod accuracy;
 mod cases;
 mod claims;
 mod cli;
@@ -18,6 +18,7 @@ mod document;
 mod drawing;
 mod edited;
 mod examples;
+mod extremes;
 mod faults;
 mod first_difference;
 mod fuzz;

@@ -1,12 +1,12 @@
 //! The contact surface as it is listed: in any order, with a node twice, with one missing; and bodies
 //! that lie in each other before they are loaded.
 
-use crate::common::tolerances::{INVARIANCE, assert_near};
 use crate::corners::Solved;
-use plane_contact::engine::contact::ContactNode;
-use plane_contact::engine::{Request, solve};
-use plane_contact::problem::modelling::{Coupling, Geometry, Variant};
+use engine::contact::ContactNode;
+use engine::{Request, solve};
+use problem::modelling::{Coupling, Geometry, Variant};
 use testing::bodies::{Bodies, Writing, blocks, roof};
+use testing::tolerances::{INVARIANCE, assert_near};
 
 fn contact(bodies: &Bodies) -> Result<Vec<ContactNode>, String> {
     let solution = bodies.solved(&Writing::default(), Coupling::Nts, Geometry::Initial);

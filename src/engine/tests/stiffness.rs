@@ -1,10 +1,10 @@
 //! The stiffness of a mesh.
 
+use engine::Stiffness;
 use nalgebra::{DVector, SVector};
-use plane_contact::engine::Stiffness;
-use plane_contact::numbers::scalar::{Bounded, Scalar};
-use plane_contact::problem::element::{B, D, area, stiffness};
-use plane_contact::problem::model::Dof;
+use numbers::scalar::{Bounded, Scalar};
+use problem::element::{B, D, area, stiffness};
+use problem::model::Dof;
 use testing::annulus::annulus;
 
 /// Computed each time they are needed, as of a mesh of more than 100,000 triangles, or kept: the

@@ -6,18 +6,18 @@
 //!   r = −Σ w (p n + q t) at a target node                  r = 0 at any other that is free
 //! ```
 
+use engine::contact::{Pairing, Surfaces};
+use engine::error::{Cause, Error};
+use engine::{Request, Solution, solve};
 use fastrand::Rng;
 use nalgebra::DVector;
-use plane_contact::engine::contact::{Pairing, Surfaces};
-use plane_contact::engine::error::{Cause, Error};
-use plane_contact::engine::{Request, Solution, solve};
-use plane_contact::problem::element::{B, D, area};
-use plane_contact::problem::model::{Model, NodeId};
-use plane_contact::problem::modelling::{Coupling, Geometry};
+use problem::element::{B, D, area};
+use problem::model::{Model, NodeId};
+use problem::modelling::{Coupling, Geometry};
 
-use crate::common::tolerances::{HARD, RENUMBERED, assert_near};
 use testing::bodies::Writing;
 use testing::hard::{Draw, Hard, arc, arm, disc, ring, rough, thin};
+use testing::tolerances::{HARD, RENUMBERED, assert_near};
 
 /// The number of scenes of each kind. `PLANE_CONTACT_HARD` gives another.
 const SCENES: usize = 40;

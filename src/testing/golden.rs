@@ -10,7 +10,8 @@ use insta::{Comparator, Settings, Snapshot};
 #[track_caller]
 pub fn assert_golden_by(folder: &str, name: &str, text: &str, same: fn(&str, &str) -> bool) {
     let mut settings = Settings::clone_current();
-    settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(folder));
+    settings
+        .set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden").join(folder));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.set_comparator(Box::new(Toleranced(same)));

@@ -1,14 +1,14 @@
 //! Corners of the target: no answer depends on the place, the direction or the order in which a
 //! scene is written, and no apex passes through the other body.
 
-use crate::common::tolerances::{APEX, INVARIANCE, assert_near};
-use plane_contact::engine::contact::Surfaces;
-use plane_contact::engine::error::Error;
-use plane_contact::engine::{Request, Solution, solve};
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::{Coupling, Geometry};
-use plane_contact::problem::scene::Scene;
+use engine::contact::Surfaces;
+use engine::error::Error;
+use engine::{Request, Solution, solve};
+use problem::model::NodeId;
+use problem::modelling::{Coupling, Geometry};
+use problem::scene::Scene;
 use testing::bodies::{Bodies, Writing, blocks, roof, writings};
+use testing::tolerances::{APEX, INVARIANCE, assert_near};
 
 /// Bodies that are solved as they are written.
 pub trait Solved {

@@ -1,13 +1,13 @@
 //! Solvers of sparse and dense matrices, and the limit of exact numbers.
 
-use fastrand::Rng;
-use nalgebra::{DMatrix, DVector};
-use plane_contact::engine::linear::cost;
-use plane_contact::engine::linear::{
+use engine::linear::cost;
+use engine::linear::{
     DenseLu, Factors, Lu, Precision, Singular, Solver, SparseCholesky, SparseSymmetric,
 };
-use plane_contact::mathcad::SparseSquare;
-use plane_contact::numbers::scalar::{F64x2, Scalar};
+use fastrand::Rng;
+use mathcad::SparseSquare;
+use nalgebra::{DMatrix, DVector};
+use numbers::scalar::{F64x2, Scalar};
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
 /// spring of stiffness `ground`.

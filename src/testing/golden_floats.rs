@@ -1,7 +1,7 @@
 //! Golden files, `golden/<scene>/<name>.snap`, exact for integers and words, toleranced for floats.
 
-use super::golden::assert_golden_by;
-use super::tolerances::{GOLDEN, GOLDEN_FLOOR};
+use crate::golden::assert_golden_by;
+use crate::tolerances::{GOLDEN, GOLDEN_FLOOR};
 
 /// Compares `text` with `golden/<folder>/<name>.snap`; `cargo insta review` (or
 /// INSTA_UPDATE=always) changes it.

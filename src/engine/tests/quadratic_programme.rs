@@ -16,16 +16,16 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::tolerances::{PROGRAMME, assert_near};
+use engine::contact::{ContactNode, Pairing, Surfaces};
+use engine::error::Error;
+use engine::{Request, Solution, solve};
 use nalgebra::{Cholesky, DMatrix, DVector};
-use plane_contact::engine::contact::{ContactNode, Pairing, Surfaces};
-use plane_contact::engine::error::Error;
-use plane_contact::engine::{Request, Solution, solve};
-use plane_contact::problem::element::{B, D, area};
-use plane_contact::problem::model::{Dof, Model};
-use plane_contact::problem::modelling::{Coupling, Geometry};
+use problem::element::{B, D, area};
+use problem::model::{Dof, Model};
+use problem::modelling::{Coupling, Geometry};
 use testing::bodies::Writing;
 use testing::drawn::{Drawn, Kind, Support, scenes};
+use testing::tolerances::{PROGRAMME, assert_near};
 
 /// The number of scenes, each under both couplings.
 const SCENES: usize = 1000;

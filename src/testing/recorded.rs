@@ -1,6 +1,6 @@
 //! Golden files of what many random cases come to, `golden/recorded/<name>.snap`.
 
-use super::golden::assert_golden_by;
+use crate::golden::assert_golden_by;
 
 /// Compares `text` with `golden/recorded/<name>.snap`, word by word; `cargo insta review` (or
 /// INSTA_UPDATE=always) changes it.

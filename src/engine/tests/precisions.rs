@@ -1,28 +1,28 @@
 //! One solve on several settings: each against exact numbers, and the bound on the error against
 //! the error.
 
-use crate::common::embedded::scene_json;
-use crate::common::json::build;
-use crate::common::random::fixed;
-use crate::common::shipped::shipped_scenes;
-use crate::common::tolerances::{
-    BOUND_WIDTH, LADDER_DOUBLE, LADDER_DOUBLE_DOUBLE, LADDER_SINGLE, NORM_ESTIMATE, Tolerance,
-};
 use dashu_ratio::RBig;
-use nalgebra::{DMatrix, DVector};
-use plane_contact::engine::error::Error;
-use plane_contact::engine::linear::{
+use engine::error::Error;
+use engine::linear::{
     Arithmetic, DenseLu, Inputs, Ldlt, Precision, ScalarName, Solver, SparseSymmetric,
     inverse_norm, solve_dense,
 };
-use plane_contact::engine::{self, Request, Solution, Step};
-use plane_contact::mathcad::SparseSquare;
-use plane_contact::numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
-use plane_contact::paper::door;
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use engine::{self, Request, Solution, Step};
+use mathcad::SparseSquare;
+use nalgebra::{DMatrix, DVector};
+use numbers::scalar::{Bounded, Exact, F64x2, Scalar, scope};
+use paper::door;
+use problem::model::NodeId;
+use problem::modelling::Variant;
+use problem::scene::Scene;
 use proptest::prelude::*;
+use testing::embedded::scene_json;
+use testing::json::build;
+use testing::random::fixed;
+use testing::shipped::shipped_scenes;
+use testing::tolerances::{
+    BOUND_WIDTH, LADDER_DOUBLE, LADDER_DOUBLE_DOUBLE, LADDER_SINGLE, NORM_ESTIMATE, Tolerance,
+};
 
 const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];
 

@@ -1,10 +1,10 @@
 //! Which nodes pull, and where rounding decides which edge is faced.
 
-use plane_contact::engine::contact::{ContactNode, Surfaces, pulling};
-use plane_contact::numbers::scalar::{Bounded, Scalar};
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::ContactModel;
-use plane_contact::problem::scene::Axis;
+use engine::contact::{ContactNode, Surfaces, pulling};
+use numbers::scalar::{Bounded, Scalar};
+use problem::model::NodeId;
+use problem::modelling::ContactModel;
+use problem::scene::Axis;
 
 use testing::bodies::{Bodies, Writing};
 

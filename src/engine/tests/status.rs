@@ -1,20 +1,20 @@
 //! The status rules on scenes worked out by hand, and on the paper's example with a wider duct.
 
-use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use crate::faced;
+use engine::contact::search::Closest;
+use engine::contact::status::{Target, TargetEdge, statuses};
+use engine::contact::{Pairing, Surfaces, Traction, reactions};
+use engine::linear::{Arithmetic, Solver};
+use engine::{self, Constraint, Detail, Request, Solution, summaries};
 use nalgebra::DVector;
-use plane_contact::engine::contact::search::Closest;
-use plane_contact::engine::contact::status::{Target, TargetEdge, statuses};
-use plane_contact::engine::contact::{Pairing, Surfaces, Traction, reactions};
-use plane_contact::engine::linear::{Arithmetic, Solver};
-use plane_contact::engine::{self, Constraint, Detail, Request, Solution, summaries};
-use plane_contact::paper::door::{self, Call};
-use plane_contact::paper::mirror::{Cause, Failure, Pairs, Reading};
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::{EdgeId, Model, NodeId, Restraint};
-use plane_contact::problem::modelling::StatusRule::{Intersection, Signs};
-use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
-use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use paper::door::{self, Call};
+use paper::mirror::{Cause, Failure, Pairs, Reading};
+use problem::element::Plane;
+use problem::model::{EdgeId, Model, NodeId, Restraint};
+use problem::modelling::StatusRule::{Intersection, Signs};
+use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use testing::tolerances::{CLOSEST_POINT, assert_near};
 
 const C: f64 = 0.001;
 
@@ -412,7 +412,7 @@ fn a_run_binds_by_the_weights_of_its_shapes() {
 /// outwards along their radius, less and less to the block's sides, and the stamp is let down so
 /// that it touches the duct's lowest point.
 fn wider_duct(duct: f64) -> Scene {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/strand");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/strand");
     let mesh = std::fs::read_to_string(format!("{folder}/strand.msh")).unwrap();
     let scene = std::fs::read(format!("{folder}/scene.json")).unwrap();
     let original = Scene::open("strand").unwrap();

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use plane_contact::problem::scene::Scene;
+use problem::scene::Scene;
 
 /// Every scene under `golden/`: those embedded by name, and those of the findings.
 pub fn shipped_scenes() -> Vec<Scene> {
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");
+    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
     let mut folders: Vec<PathBuf> = [golden.to_string(), format!("{golden}/findings")]
         .iter()
         .filter_map(|folder| std::fs::read_dir(folder).ok())

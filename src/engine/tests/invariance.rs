@@ -5,14 +5,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::tolerances::{INVARIANCE, OTHER_PATH};
-use plane_contact::engine::error::Error;
-use plane_contact::engine::estimates::perturbed;
-use plane_contact::engine::{Request, Solution, solve};
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use engine::error::Error;
+use engine::estimates::perturbed;
+use engine::{Request, Solution, solve};
+use problem::model::NodeId;
+use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use testing::bodies::{Bodies, Writing};
 use testing::drawn::{KINDS, scenes};
+use testing::tolerances::{INVARIANCE, OTHER_PATH};
 
 /// The number of scenes without friction, each in [`IMAGES`] of the writings.
 const SCENES: usize = 1000;

@@ -3,20 +3,20 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use crate::common::embedded::scene_json;
-use crate::common::json::build;
-use crate::common::random::fixed;
-use plane_contact::engine::Decision;
-use plane_contact::engine::estimates::arithmetic::{self, Rounding};
-use plane_contact::engine::estimates::{Certainty, certain};
-use plane_contact::engine::linear::{Arithmetic, ScalarName, Solver};
-use plane_contact::engine::{Detail, Request, Solution, solve};
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
-use plane_contact::problem::scene::Scene;
+use engine::Decision;
+use engine::estimates::arithmetic::{self, Rounding};
+use engine::estimates::{Certainty, certain};
+use engine::linear::{Arithmetic, ScalarName, Solver};
+use engine::{Detail, Request, Solution, solve};
+use problem::model::NodeId;
+use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
+use problem::scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::{Value, json};
+use testing::embedded::scene_json;
+use testing::json::build;
+use testing::random::fixed;
 
 fn rounding(solution: &Solution) -> Rounding {
     arithmetic::rounding(solution).expect("a variant of the paper")

@@ -1,16 +1,16 @@
 //! In which contact state `unilateral` ends, or that it fails, recorded: of bodies that little holds, and
 //! under strong friction and several stages.
 
+use engine::contact::{Sense, Status};
+use engine::{Detail, Request, Solution, solve};
 use fastrand::Rng;
-use plane_contact::engine::contact::{Sense, Status};
-use plane_contact::engine::{Detail, Request, Solution, solve};
-use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry};
-use plane_contact::problem::scene::{Axis, SceneBuilder};
+use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
+use problem::scene::{Axis, SceneBuilder};
 
-use crate::common::draws::one_of;
-use crate::common::recorded::assert_recorded_exactly;
 use testing::bodies::{Bodies, Writing, grid, regular};
 use testing::drawn::{KINDS, draw};
+use testing::draws::one_of;
+use testing::recorded::assert_recorded_exactly;
 
 /// Returns the statuses at the end of a run, or the exit status of one that fails.
 fn outcome(scene: &SceneBuilder) -> String {

@@ -1,11 +1,11 @@
 //! What rounding does under `unilateral`, measured by runs whose inputs differ in their last digits.
 
 use crate::decisions::block_and_stamp;
-use plane_contact::engine::estimates::{Perturbed, perturbed};
-use plane_contact::engine::{Margin, NearestDecision, Request, last_under_each_load, solve};
-use plane_contact::problem::model::NodeId;
-use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use engine::estimates::{Perturbed, perturbed};
+use engine::{Margin, NearestDecision, Request, last_under_each_load, solve};
+use problem::model::NodeId;
+use problem::modelling::Variant;
+use problem::scene::Scene;
 use serde_json::json;
 
 fn measured(request: &Request) -> Perturbed {

@@ -1,17 +1,17 @@
 //! The bounds on rounding: true bounds, and not absurdly wide ones, on every setting.
 
-use crate::common::embedded::scene_json;
-use crate::common::json::build;
-use crate::common::shipped::shipped_scenes;
 use dashu_ratio::RBig;
-use plane_contact::engine::estimates::Estimates;
-use plane_contact::engine::estimates::arithmetic::{self, Rounding, bounded, stress_bounds};
-use plane_contact::engine::linear::{Arithmetic, ScalarName, Solver};
-use plane_contact::engine::{Detail, Request, Solution, Step, solve};
-use plane_contact::problem::element::{B, D, State};
-use plane_contact::problem::model::Triangle;
-use plane_contact::problem::modelling::Variant;
-use plane_contact::problem::scene::Scene;
+use engine::estimates::Estimates;
+use engine::estimates::arithmetic::{self, Rounding, bounded, stress_bounds};
+use engine::linear::{Arithmetic, ScalarName, Solver};
+use engine::{Detail, Request, Solution, Step, solve};
+use problem::element::{B, D, State};
+use problem::model::Triangle;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use testing::embedded::scene_json;
+use testing::json::build;
+use testing::shipped::shipped_scenes;
 
 /// Exact numbers are for scenes of this many equations at most, in a test.
 const EQUATIONS: usize = 80;

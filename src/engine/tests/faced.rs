@@ -1,13 +1,13 @@
 //! What contact nodes face at the limits of the rules, worked out by hand: which edges count, how
 //! little of an edge, the nearest of two, a surface's end, its bends and its tips.
 
-use plane_contact::engine::contact::{Pairing, Surfaces};
-use plane_contact::problem::model::{Model, NodeId};
-use plane_contact::problem::modelling::{ContactModel, Coupling};
-use plane_contact::problem::scene::Axis;
+use engine::contact::{Pairing, Surfaces};
+use problem::model::{Model, NodeId};
+use problem::modelling::{ContactModel, Coupling};
+use problem::scene::Axis;
 
-use crate::common::tolerances::{CLOSEST_POINT, assert_near};
 use testing::bodies::{Bodies, Writing};
+use testing::tolerances::{CLOSEST_POINT, assert_near};
 
 type Chain<'a> = &'a [[f64; 2]];
 

@@ -1,14 +1,14 @@
 //! Coulomb friction along the path of the load, beside closed forms.
 
-use crate::common::tolerances::{
+use engine::contact::Status;
+use engine::error::Error;
+use engine::{self, Assessment, Request, Solution};
+use problem::element::Plane;
+use problem::modelling::{ContactModel, Friction, Geometry, Variant};
+use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use testing::tolerances::{
     BALANCE, CATTANEO, DISSIPATION, LARGE_FRICTION, LOAD_STEP, SHEAR_LAG, assert_near,
 };
-use plane_contact::engine::contact::Status;
-use plane_contact::engine::error::Error;
-use plane_contact::engine::{self, Assessment, Request, Solution};
-use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::{ContactModel, Friction, Geometry, Variant};
-use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 fn rubbing(mu: f64) -> Contact {
     Contact {

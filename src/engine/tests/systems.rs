@@ -4,13 +4,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use nalgebra::{DMatrix, DVector};
-use plane_contact::engine::linear::{
+use engine::linear::{
     Arithmetic, Factors, Precision, ScalarName, Schur, Singular, Solver, SparseCholesky, SparseLu,
     SparseSymmetric, error_bound, error_of_rest, inverse_norm, solve_dense,
 };
-use plane_contact::mathcad::SparseSquare;
-use plane_contact::numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
+use mathcad::SparseSquare;
+use nalgebra::{DMatrix, DVector};
+use numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
 
 /// Makes a vector of its entries.
 macro_rules! dvector {

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
+use engine::contact::{Pairing, Surfaces};
+use engine::linear::SparseCholesky;
+use engine::reduction::{ReducedState, Reduction};
+use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
-use plane_contact::engine::contact::{Pairing, Surfaces};
-use plane_contact::engine::linear::SparseCholesky;
-use plane_contact::engine::reduction::{ReducedState, Reduction};
-use plane_contact::engine::{Constraint, Elimination, Motion, Stiffness};
-use plane_contact::problem::model::{Model, NodeId, Restraint};
-use plane_contact::problem::modelling::{ContactModel, Coupling};
-use plane_contact::problem::scene::Axis;
+use problem::model::{Model, NodeId, Restraint};
+use problem::modelling::{ContactModel, Coupling};
+use problem::scene::Axis;
 
-use crate::common::tolerances::{REDUCED, assert_near};
 use testing::bodies::{Bodies, Writing, grid};
+use testing::tolerances::{REDUCED, assert_near};
 
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];
 

@@ -1,0 +1,22 @@
+//! Solvers, error estimates, and contact: the reference solution and the status rules.
+
+extern crate plane_contact_engine as engine;
+
+mod corners;
+mod decisions;
+mod error_estimates;
+mod faced;
+mod facing;
+mod friction;
+mod hard;
+mod invariance;
+mod orders;
+mod perturbed;
+mod precisions;
+mod quadratic_programme;
+mod reduced;
+mod searched;
+mod solvers;
+mod status;
+mod stiffness;
+mod systems;
