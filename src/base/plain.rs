@@ -69,6 +69,15 @@ fn of_json(words: &str) -> String {
     KINDS.iter().find_map(known).unwrap_or_else(|| words.into())
 }
 
+/// Writes a word as a shell takes it: in quotes where it has more than letters, digits and `_./-`.
+pub fn shell_word(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_./-".contains(c);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => word.into(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
 /// Writes a number with six digits at most, and a very large or a very small one as 2.5e-7.
 pub fn six_digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);

@@ -281,7 +281,8 @@ fn claims() {
     );
     assert_table(
         "range",
-        "Claims whose verdict changes with what the paper does not give.",
+        "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
+         figures on the scene strand, whose mesh is of Gmsh, differ a little.",
         "audit --range",
         &studies::audit::claims::table::range(&JUDGED).markdown(),
     );

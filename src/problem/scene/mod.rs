@@ -49,12 +49,16 @@ use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, Tria
 use super::modelling::{ContactModel, Variant};
 use base::error::Result;
 use base::limits::check_steps;
+use base::plain::shell_word;
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// The name for folders and reports.
     pub name: String,
+    /// The word by which a command opens it: the name of an embedded scene, else its path as a shell takes it.
+    #[serde(skip)]
+    pub word: String,
     /// The title of the scene for people.
     pub title: String,
     /// The unit names that are shown beside numbers.
@@ -96,10 +100,12 @@ impl Scene {
     /// The scene file, the mesh file, or the two together are at fault.
     pub fn of_file(file: &SceneFile) -> Result<Self> {
         let built = Scene::build(&file.name, &file.text, |beside| file.beside(beside));
-        built.map_err(|error| match file.path() {
-            Some(place) => error.within(place),
-            None => error,
-        })
+        match file.path() {
+            Some(place) => built
+                .map(|scene| Scene { word: shell_word(place), ..scene })
+                .map_err(|error| error.within(place)),
+            None => built,
+        }
     }
 
     /// Builds a scene from the text of its file; `beside` reads a file in the scene file's folder.
@@ -176,6 +182,7 @@ impl Scene {
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         Ok(Scene {
             name: name.into(),
+            word: name.into(),
             title: description.title.clone(),
             units: description.units.clone(),
             model: Arc::new(model),

@@ -49,6 +49,7 @@ impl Scene {
         let file = halves.renumbered(file, &children);
         let mut scene = Scene::assemble(&self.name, file, finer, self.model.dropped.clone())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);
+        scene.word.clone_from(&self.word);
         scene.iterations = self.iterations;
         let parents = halves.parents.into_iter().map(|ends| ends.map(NodeId::from_number));
         Ok(Some(Refined { scene, parents: parents.collect() }))

@@ -53,6 +53,7 @@ pub fn half(scene: &Scene) -> Option<Half> {
     let model = Restriction::new(&mirror, &nodes, &triangles).model();
     let scene = Scene {
         name: scene.name.clone(),
+        word: scene.word.clone(),
         title: scene.title.clone(),
         units: scene.units.clone(),
         model: Arc::new(model),

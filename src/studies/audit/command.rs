@@ -67,8 +67,8 @@ pub struct Args {
     /// Explain and judge one claim of the paper.
     #[arg(long, value_name = "ID", conflicts_with = "finding")]
     claim: Option<String>,
-    /// Judge the claims over the range of what the paper leaves open too (trade --only geometry
-    /// says which); takes several times as long.
+    /// Judge the claims over the range of what the paper leaves open too: clearance, radius, mesh,
+    /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
     /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put

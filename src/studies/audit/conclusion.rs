@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict, nearest as least};
-use super::evidence::NoFigures;
+use super::evidence::{NoFigures, beyond_noise};
 use super::findings::{Evidence, Finding, Verdict};
 use super::range::{Parameter, distinct};
 use super::variants::{End, VariantRow};
@@ -32,7 +32,7 @@ pub struct Conclusion {
     /// The fields of figure 5; nothing where there is no equilibrium.
     pub fields: Option<Fields>,
     /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
-    /// they have no price.
+    /// they have no price: listings/corrected/README.md says what repairs each.
     pub unpriced: Vec<&'static str>,
     /// What the paper leaves open.
     pub open: Vec<&'static str>,
@@ -213,7 +213,10 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     });
     Some(Fields {
         variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
-        difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
+        difference: differences
+            .map(|x| beyond_noise(x.abs()))
+            .filter(|x| x.is_finite())
+            .reduce(f64::max),
         by_rounding: of_the_paper(rows)
             .any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
         errors: Estimates::new(equilibrium).errors,

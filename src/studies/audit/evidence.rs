@@ -15,6 +15,14 @@ use report::model::Cell;
 /// What is said in place of a figure that inputs of the same meaning change.
 pub const BY_ROUNDING: &str = "decided by rounding";
 
+/// What of a share is rounding: a millionth of a thousandth, by which [`moves`] tells no two shares apart.
+const NOISE: f64 = 1e-9;
+
+/// Returns a share; 0 where it is rounding.
+pub fn beyond_noise(share: f64) -> f64 {
+    if share.abs() <= NOISE { 0.0 } else { share }
+}
+
 /// What is measured on a case and on the inputs that mean the same.
 pub trait Measured: Sized {
     /// Returns whether another such input leads to another verdict, or moves a figure.

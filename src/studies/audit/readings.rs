@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::case::Case;
 use super::evidence::{Measured, NoFigures};
 use super::findings::ROUNDING;
+use super::variants::apart;
 use engine::error::Error;
 use engine::estimates::moves;
 use engine::{Detail, Request, Solution, distance, max_displacement, solve};
@@ -261,10 +262,10 @@ impl Measured for Effect {
 fn equilibrium_error(case: &Case, request: &Request, run: &Solution) -> Option<f64> {
     let own = case.equilibrium()?;
     if run.model.plane == own.model.plane {
-        return Some(distance(run, own).energy_relative);
+        return Some(apart(run, own).energy_relative);
     }
     let other = solve(&request.equilibrium(), &mut |_| ()).ok()?;
-    Some(distance(run, &other).energy_relative)
+    Some(apart(run, &other).energy_relative)
 }
 
 /// Largest |u| between two displacement fields, length.

@@ -226,7 +226,7 @@ fn assumed(assumptions: &[Assumption]) -> String {
 }
 
 fn more(scene: &Scene) -> String {
-    let name = &scene.name;
+    let name = &scene.word;
     format!(
         "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
     )

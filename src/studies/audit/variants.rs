@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::evidence::{Measured, NoFigures, repeated};
+use super::evidence::{Measured, NoFigures, beyond_noise, repeated};
 use engine::contact::pulling;
 use engine::estimates::moves;
 use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
@@ -153,6 +153,16 @@ fn sizes(body: &BodySummary) -> [f64; 3] {
     [body.max_displacement, body.max_von_mises_stress, body.max_von_mises_strain]
 }
 
+/// Returns how far a run is from the equilibrium; what is rounding alone is 0.
+pub(super) fn apart(solution: &Solution, equilibrium: &Solution) -> Distance {
+    let distance = distance(solution, equilibrium);
+    Distance {
+        displacement_relative: beyond_noise(distance.displacement_relative),
+        energy_relative: beyond_noise(distance.energy_relative),
+        ..distance
+    }
+}
+
 /// Returns the force that contact passes on at the end over the size of the whole load; 0 without a load.
 pub(super) fn target_share(solution: &Solution) -> f64 {
     let [fx, fy] = solution.model.total_load();
@@ -175,7 +185,7 @@ fn end(case: &Case, variant: Variant) -> End {
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
-        distance: case.equilibrium().map(|other| distance(solution, other)),
+        distance: case.equilibrium().map(|other| apart(solution, other)),
         friction_needed: needed.reduce(f64::max),
         pulling: pulling(&solution.contact, solution.model.load.amax()),
         penetration: Penetration::of(solution),

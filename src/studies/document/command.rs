@@ -13,7 +13,7 @@ use crate::document::page;
 use crate::document::{Contents, Run, document};
 use base::error::InputError;
 use base::files;
-use base::plain::shown;
+use base::plain::{shell_word, shown};
 use engine::error::Result;
 use engine::estimates::Certainty;
 use engine::{Assessment, Solution};
@@ -56,7 +56,7 @@ Examples:
   plane-contact report fig1 --out fig1.html
   plane-contact report --format markdown                   with its figures beside it
   plane-contact report --ccx                               CalculiX beside it
-  plane-contact report --charts out/strand-geometry        with the charts that trade wrote there
+  plane-contact report --charts out/trade-strand           with the charts that trade strand --out out/trade-strand wrote
   plane-contact report my/scene.json --variant unilateral --no-audit")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
@@ -183,8 +183,11 @@ fn runs<'a>(args: &Args, case: &'a Case, audit: Option<&Audit>) -> Vec<Run<'a>> 
 
 /// Returns the command that makes the report again, but for the place of its file.
 fn command(args: &Args) -> String {
-    let mut command =
-        format!("plane-contact report {} --format {}", shown(&args.scene), args.format);
+    let mut command = format!(
+        "plane-contact report {} --format {}",
+        shell_word(&shown(&args.scene)),
+        args.format
+    );
     if !args.variant.is_empty() {
         command += &format!(" --variant {}", variants(args));
     }
@@ -195,10 +198,10 @@ fn command(args: &Args) -> String {
         command += " --repairs";
     }
     if let Some(program) = &args.ccx {
-        command += &format!(" --ccx {program}");
+        command += &format!(" --ccx {}", shell_word(program));
     }
     if let Some(folder) = &args.charts {
-        command += &format!(" --charts {}", shown(folder));
+        command += &format!(" --charts {}", shell_word(&shown(folder)));
     }
     command
 }

@@ -155,7 +155,7 @@ fn other_codes(contents: &Contents) -> Report {
         None => report.line(format!(
             "No other code was run here. `plane-contact report {} --ccx` runs CalculiX by its own contact \
              beside the variant unilateral.",
-            contents.scene.name
+            contents.scene.word
         )),
     }
 }

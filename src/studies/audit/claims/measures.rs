@@ -4,8 +4,9 @@ use std::num::ParseFloatError;
 
 use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
+use crate::audit::evidence::beyond_noise;
 use crate::audit::findings::FINDINGS;
-use crate::audit::variants::Penetration;
+use crate::audit::variants::{Penetration, apart};
 use engine::contact::pulling;
 use engine::estimates::moves;
 use engine::{Solution, distance, max_displacement, over};
@@ -63,7 +64,7 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
         Penetration::of(solution).ok_or("no contact node faces the target")?;
     let pulling = pulling(&solution.contact, solution.model.load.amax());
     let is_true = relative < NOTICEABLE && pulling.is_empty();
-    let verdict = if is_true { Verdict::TrueOnlyIf } else { Verdict::False };
+    let verdict = true_if(is_true);
     let pulls = match pulling.len() {
         0 => "no node in contact pulls".to_string(),
         1 => "1 node in contact pulls".into(),
@@ -73,9 +74,8 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
     let tolerance = solution.model.contact.tolerance;
     let beside = if depth < tolerance { "below" } else { "not below" };
     let detail = match verdict {
-        Verdict::TrueOnlyIf => pulls,
-        Verdict::False if depth == 0.0 => format!("{variant}: nothing penetrates; {pulls}"),
-        Verdict::True | Verdict::False | Verdict::NotCheckable => format!(
+        _ if depth == 0.0 => format!("{variant}: nothing penetrates; {pulls}"),
+        Verdict::True | Verdict::TrueOnlyIf | Verdict::False | Verdict::NotCheckable => format!(
             "{variant}: node {node}, {status}, ends {depth:.1e} inside the target, {beside} c_tol \
              ({tolerance:.1e}); {pulls}"
         ),
@@ -90,7 +90,7 @@ pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
     let sticking = case.sticking()?;
     let needed = case.friction_needed().ok_or("no node is in contact")?;
     let detail = "the coefficient of friction is at least the value";
-    let measured = Evidence::new(Verdict::TrueOnlyIf, needed, detail);
+    let measured = Evidence::new(Verdict::TrueOnlyIf, beyond_noise(needed), detail);
     Ok(measured.on([("unilateral, sticking", sticking)]))
 }
 
@@ -156,12 +156,11 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     case.model().target().ok_or("the scene has no contact")?;
     let variant = case.published_variant();
     let (own, least) = (case.run(variant)?, case.finer()?);
-    let tolerance = own.request.scene.model.contact.tolerance;
+    let [tolerance, finer] = [own, least].map(|run| run.model.contact.tolerance);
     let change = distance(least, own).displacement_relative;
     let [own_largest, least_largest] = [own, least].map(|run| max_displacement(&run.u));
     let detail = format!(
-        "{variant}, from {tolerance:e} to {:e}; the largest displacement itself changes by {:.1} %",
-        tolerance / 1000.0,
+        "{variant}, from {tolerance:e} to {finer:e}; the largest displacement itself changes by {:.1} %",
         100.0 * over(least_largest - own_largest, own_largest).abs()
     );
     let measured = Evidence::new(true_if(change < NOTICEABLE), change, detail);
@@ -187,7 +186,7 @@ pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
     let equilibrium = case.equilibrium().ok_or("there is no equilibrium to compare with")?;
     let runs = Variant::OF_THE_PAPER.iter().filter_map(|variant| case.run(*variant).ok());
     let distances: Vec<(f64, &Solution)> =
-        runs.map(|run| (distance(run, equilibrium).energy_relative, run)).collect();
+        runs.map(|run| (apart(run, equilibrium).energy_relative, run)).collect();
     let nearest = nearest(&distances).ok_or("no variant of the paper runs")?;
     let least = distances[nearest[0]].0;
     let variants: Vec<Variant> = nearest.iter().map(|k| distances[*k].1.request.variant).collect();

@@ -293,7 +293,7 @@ impl Claim {
 
     /// The arguments of a command that prints the number of the claim on a case.
     fn command(&self, case: &Case) -> Vec<String> {
-        let words = self.command.iter().map(|word| word.replace("SCENE", &case.scene.name));
+        let words = self.command.iter().map(|word| word.replace("SCENE", &case.scene.word));
         let reading = case.reading().to_string();
         let reading = (!reading.is_empty() && self.basis.is_of_reading()).then_some(reading);
         let option = reading.into_iter().flat_map(|reading| ["--reading".to_string(), reading]);

@@ -117,7 +117,7 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
         answer: coupling(coupled),
         value: joins.map(|joins| joins as f64),
         of: "entries of MJS that join the two bodies",
-        command: format!("audit {} --finding K1 --json", scene.name),
+        command: format!("audit {} --finding K1 --json", scene.word),
         at: joins.map(|_| "/number".into()),
     }
 }
@@ -163,7 +163,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
         answer,
         value: nearest.map(|nearest| nearest.runs[0].energy),
         of: "distance from the equilibrium under the scene's own friction, in the energy norm, relative",
-        command: format!("audit {} --json", scene.name),
+        command: format!("audit {} --json", scene.word),
         at: nearest.map(|nearest| nearest.runs[0].at.clone()),
     }
 }
@@ -205,7 +205,7 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
         value: difference,
         of: "largest relative difference of a body's largest von Mises stress or strain between the \
              nearest variant and the equilibrium",
-        command: format!("audit {} --json", scene.name),
+        command: format!("audit {} --json", scene.word),
         at: difference.map(|_| "/conclusion/fields/difference".into()),
     }
 }
@@ -243,7 +243,7 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     format!(
         "In the equilibrium (solve {} --variant unilateral --coupling mortar) the largest von Mises stress is {}. \
          The largest von Mises strain is {}.{limit}",
-        scene.name,
+        scene.word,
         listed(stresses),
         listed(fields.own.iter().map(strain))
     )
@@ -287,12 +287,13 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
                 format!(" No fault here, as no node slides in the equilibrium: {}.", listed(none))
             };
             format!(
-                "Each printed fault was put back alone into the corrected algorithm (listings/corrected/), which \
+                "{} printed faults were put back, each alone, into the corrected algorithm (listings/corrected/), which \
                  has no friction and is {} from the equilibrium. Fatal (the run stops, or no load passes): {}. \
                  Farther or nearer, each with its distance from the equilibrium: {}. Decided by rounding: {}. Without \
-                 effect: {}.{no_fault} Present, but not a fault of the algorithm: {}. A finding that the print's \
+                 effect: {}.{no_fault} Present, but not put back: {}. A finding that the print's \
                  own run does not trigger can cost something here, as the corrected algorithm comes to other \
                  shapes.",
+                prices.len() - 1,
                 or_dash(own, |own| percent(own, 1)),
                 or_none(prices::of_weight(prices, Weight::Fatal)),
                 or_none(shifts(prices).into_iter().map(|k| shift(&prices[k]))),
@@ -312,7 +313,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
         value: largest.map(|(_, error)| error),
         of: "largest distance from the equilibrium under the scene's own friction, in the energy norm, \
              relative, that a fault leaves which is put back alone",
-        command: format!("audit {} --prices --json", scene.name),
+        command: format!("audit {} --prices --json", scene.word),
         at: largest.map(|(k, _)| format!("/prices/{k}/equilibrium_relative")),
     }
 }
@@ -376,7 +377,7 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
     let wider = if is_example(scene) && is_default { WIDER } else { "" };
     let most = range.as_ref().map(|range| range.error[1]);
     let command = match range {
-        None => format!("audit {} --json", scene.name),
+        None => format!("audit {} --json", scene.word),
         Some(_) => "audit --range --json".into(),
     };
     Answer {

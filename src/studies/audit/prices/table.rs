@@ -111,7 +111,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     if repairs.is_empty() {
         return report.line(format!(
             "audit {} --prices --repairs repairs the print one finding at a time.",
-            scene.name
+            scene.word
         ));
     }
     report
