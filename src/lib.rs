@@ -34,7 +34,7 @@
 //!
 //! | part | what it has |
 //! |---|---|
-//! | [`error`], [`files`], [`child`], [`mod@choices`] | errors of the input, files, other programs, closed sets |
+//! | [`error`], [`exit`], [`files`], [`child`], [`mod@choices`] | errors of the input, files, other programs, closed sets |
 //! | [`numbers`] | kinds of numbers |
 //! | [`mathcad`] | Mathcad's notation, interpreter and worksheets |
 //! | [`problem`] | the finite element model, the element, scenes and their files |
@@ -84,7 +84,7 @@ pub mod guide {
     pub mod glossary {}
 }
 
-pub use base::{child, choices, error, files, limits, plain, suggestion, xml};
+pub use base::{child, choices, error, exit, files, limits, plain, suggestion, xml};
 pub use {commands, engine, mathcad, numbers, paper, problem, report, studies};
 
 #[doc(inline)]

@@ -6,6 +6,7 @@ use std::thread::Builder;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
 use plane_contact::error::InputError;
+use plane_contact::exit::ExitStatus;
 use plane_contact::files;
 use plane_contact::report::failure::failure;
 use plane_contact::studies::command::{self, Command};
@@ -25,11 +26,9 @@ use plane_contact::{Error, commands};
 
 {before-help}Options:
 {options}{after-help}",
-    after_help = "\
-Exit status: 0 done, also where a run ends with nothing transmitted (an audit result that the
-output names); 1 what was compared differs; 2 the input is at fault; 3 the published algorithm
-fails as printed (an audit result); 4 no equilibrium was found, or more than one.
-
+    after_help = format!("\
+Exit status:
+{}
 Examples:
   plane-contact solve                        the paper's example
   plane-contact solve fig1 --variant printed
@@ -37,7 +36,7 @@ Examples:
   plane-contact listing run c_cnt fig1
   plane-contact snapshot record fig1
   plane-contact scene copy fig1 --out my     a scene to edit
-  plane-contact --completions bash > /etc/bash_completion.d/plane-contact"
+  plane-contact --completions bash > /etc/bash_completion.d/plane-contact", exit_statuses())
 )]
 struct Cli {
     /// Print the completions of a shell.
@@ -70,15 +69,24 @@ fn main() -> ExitCode {
                 let _ = commands::print(&failure(&usage(&why)));
             }
             commands::print_stderr(&why.render().to_string());
-            return ExitCode::from(2);
+            return ExitStatus::Input.into();
         }
         // What was asked for is help, or the version.
-        Err(why) => return exit_code(commands::help(&why).map(|()| 0), json),
+        Err(why) => return exit_code(commands::help(&why).map(|()| ExitStatus::Done), json),
     };
     let Some(command) = cli.command else {
-        return exit_code(commands::print(&shell_files(&cli, grammar)).map(|()| 0), json);
+        return exit_code(
+            commands::print(&shell_files(&cli, grammar)).map(|()| ExitStatus::Done),
+            json,
+        );
     };
     exit_code(command.run().map_err(named_by_option), json)
+}
+
+/// Returns a line for each exit status.
+fn exit_statuses() -> String {
+    let line = |status: &ExitStatus| format!("{:>5}  {}\n", status.number(), status.explained());
+    ExitStatus::ALL.iter().map(line).collect()
 }
 
 /// Returns the completions of a shell, or the man page: what is asked for in place of a command.
@@ -104,14 +112,14 @@ fn named_by_option(error: Error) -> Error {
 }
 
 /// Returns the exit status of a command, once its error is reported.
-fn exit_code(result: Result<u8, Error>, json: bool) -> ExitCode {
+fn exit_code(result: Result<ExitStatus, Error>, json: bool) -> ExitCode {
     match result {
-        Ok(status) => ExitCode::from(status),
+        Ok(status) => status.into(),
         Err(error) => {
             if json {
                 let _ = commands::print(&failure(&error));
             }
-            ExitCode::from(commands::report_error(&error))
+            commands::report_error(&error).into()
         }
     }
 }

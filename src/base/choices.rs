@@ -1,15 +1,11 @@
 //! Closed sets of choices, such as readings and variants.
 
-/// Returns `name: meaning` of each choice; a meaning is a sentence that becomes a part of one.
-pub fn help(choices: &[(&str, &str)]) -> String {
-    let phrase = |meaning: &str| {
-        let meaning = meaning.trim().trim_end_matches('.');
-        let is_word = meaning.chars().nth(1).is_some_and(|c| !c.is_uppercase());
-        let (first, rest) = meaning.split_at(usize::from(is_word));
-        (first.to_lowercase() + rest).replace('`', "")
-    };
-    let choices = choices.iter().map(|(name, meaning)| format!("{name}: {}", phrase(meaning)));
-    choices.collect::<Vec<_>>().join("; ")
+/// Returns a sentence as a part of one.
+pub fn phrase(sentence: &str) -> String {
+    let sentence = sentence.trim().trim_end_matches('.');
+    let is_word = sentence.chars().nth(1).is_some_and(|c| !c.is_uppercase());
+    let (first, rest) = sentence.split_at(usize::from(is_word));
+    (first.to_lowercase() + rest).replace('`', "")
 }
 
 /// Declares a closed set of choices with their names on the command line and in files. Doc comments say
@@ -32,9 +28,15 @@ macro_rules! choices {
                 match self { $($name::$variant => $text),+ }
             }
 
-            /// Returns each name with what it means, its doc comment, for help.
+            /// Returns what it means, its doc comment, as a part of a sentence.
+            pub fn explained(self) -> String {
+                $crate::choices::phrase(match self { $($name::$variant => concat!($($vdoc),*)),+ })
+            }
+
+            /// Returns each name with what it means, for help.
             pub fn help() -> String {
-                $crate::choices::help(&[$(($text, concat!($($vdoc),*))),+])
+                let choices = Self::ALL.iter().map(|choice| format!("{choice}: {}", choice.explained()));
+                choices.collect::<Vec<_>>().join("; ")
             }
         }
 

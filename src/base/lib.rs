@@ -5,6 +5,7 @@
 pub mod child;
 pub mod choices;
 pub mod error;
+pub mod exit;
 #[cfg(feature = "files")]
 pub mod files;
 pub mod limits;

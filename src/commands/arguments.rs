@@ -208,7 +208,17 @@ pub fn read_listing(path: &Path) -> Result<String, InputError> {
 /// Returns the name of the default folder of a run: `start`, and every option that differs from what
 /// the scene and the program do by themselves, so that no two results share one.
 pub fn folder_name(start: String, request: &Request, more: &[String]) -> String {
-    let Request { scene, contact, arithmetic, reading, .. } = request;
+    // What changes the scene, or is executed in place of a listing, is among `more`.
+    let Request {
+        scene,
+        contact: ContactModel { coupling, friction, geometry, load_steps, status },
+        variant: _,
+        iterations: _,
+        reading,
+        arithmetic: Arithmetic { scalar, solver, inputs },
+        tolerance: _,
+        edited: _,
+    } = request;
     let (own, plain) = (scene.contact, Arithmetic::default());
     let mut name = start;
     let mut add = |differs: bool, option: String| {
@@ -216,14 +226,14 @@ pub fn folder_name(start: String, request: &Request, more: &[String]) -> String 
             name += &format!("-{option}");
         }
     };
-    add(contact.coupling != own.coupling, contact.coupling.to_string());
-    add(contact.friction != own.friction, format!("friction-{}", contact.friction));
-    add(contact.geometry != own.geometry, contact.geometry.to_string());
-    add(contact.load_steps != own.load_steps, format!("load-steps-{}", contact.load_steps));
-    add(contact.status != own.status, contact.status.to_string());
-    add(arithmetic.scalar != plain.scalar, arithmetic.scalar.to_string());
-    add(arithmetic.solver != plain.solver, request.solver().to_string());
-    add(arithmetic.inputs != plain.inputs, arithmetic.inputs.to_string());
+    add(*coupling != own.coupling, coupling.to_string());
+    add(*friction != own.friction, format!("friction-{friction}"));
+    add(*geometry != own.geometry, geometry.to_string());
+    add(*load_steps != own.load_steps, format!("load-steps-{load_steps}"));
+    add(*status != own.status, status.to_string());
+    add(*scalar != plain.scalar, scalar.to_string());
+    add(*solver != plain.solver, request.solver().to_string());
+    add(*inputs != plain.inputs, inputs.to_string());
     add(*reading != Reading::default(), reading.to_string());
     more.iter().for_each(|option| add(true, option.clone()));
     name
@@ -257,19 +267,27 @@ impl TablesArgs {
         Ok(self.csv.iter().try_for_each(|folder| files::check_folder(folder, &[TABLES]))?)
     }
 
-    /// Prints a report, and writes its tables; `tables.json`, which names them, marks their folder.
+    /// Writes the tables of a report where that was asked for; `tables.json`, which names them, marks their
+    /// folder.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, report: &Report) -> Result<()> {
+        let Some(folder) = &self.csv else { return Ok(()) };
+        let tables = report.csv().into_iter();
+        let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
+        let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
+        let mark = json::line(None, &BTreeMap::from([("tables", names)]));
+        tables.push((TABLES.into(), mark));
+        Ok(files::write_all(folder, &tables)?)
+    }
+
+    /// Prints a report, and writes its tables.
     ///
     /// # Errors
     /// Standard output or a file cannot be written.
     pub fn print(&self, report: Report) -> Result<()> {
-        if let Some(folder) = &self.csv {
-            let tables = report.csv().into_iter();
-            let mut tables: Vec<_> = tables.map(|(name, csv)| (name + ".csv", csv)).collect();
-            let names: Vec<_> = tables.iter().map(|(name, _)| name).collect();
-            let mark = json::line(None, &BTreeMap::from([("tables", names)]));
-            tables.push((TABLES.into(), mark));
-            files::write_all(folder, &tables)?;
-        }
+        self.write(&report)?;
         print_report(report)
     }
 }

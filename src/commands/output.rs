@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
@@ -65,7 +66,7 @@ pub fn help(asked: &clap::Error) -> Result<()> {
 }
 
 /// Prints an error to standard error; returns its exit status.
-pub fn report_error(error: &Error) -> u8 {
+pub fn report_error(error: &Error) -> ExitStatus {
     print_stderr(&format!("error: {error}\n"));
     error.exit_status()
 }

@@ -61,8 +61,10 @@ fn truth<T: Scalar>(order: Conjunction, condition: &[Operand<T>]) -> Truth<T> {
             Some(Ok(true)) => (),
             Some(Ok(false)) => return Truth::False,
             Some(Err(by)) => unsure.push((operand.clone(), by)),
-            None if order == Conjunction::LeftToRight => return Truth::Unsure(unsure),
-            None => (),
+            None => match order {
+                Conjunction::LeftToRight => return Truth::Unsure(unsure),
+                Conjunction::Guarded | Conjunction::Eager => (),
+            },
         }
     }
     if unsure.is_empty() { Truth::True } else { Truth::Unsure(unsure) }

@@ -19,7 +19,7 @@ use smallvec::{SmallVec, smallvec};
 
 use numbers::scalar::Scalar;
 use paper::door::NodeToSegment;
-use problem::model::{Dof, NodeId};
+use problem::model::{Dof, NodeId, Restraint};
 
 /// The constraint that binds the displacements of a contact node to the target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -95,42 +95,52 @@ const NEGLIGIBLE: f64 = 1e-10;
 
 impl<T: Scalar> Elimination<T> {
     /// Builds T and s under `constraints`, among them eq. (1). A component of a contact node that is
-    /// `restrained`, by degree of freedom, stays so and is not constrained.
-    pub fn new(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
-        let mut t = Elimination::unbound(restrained, constraints.iter());
-        constraints.iter().for_each(|constraint| t.bind(constraint, restrained));
+    /// restrained stays so and is not constrained; `restraints` are by degree of freedom.
+    pub fn new(restraints: &[Restraint], constraints: &[Constraint<T>]) -> Self {
+        let mut t = Elimination::unbound(restraints, constraints.iter());
+        constraints.iter().for_each(|constraint| t.bind(constraint, restraints));
         t
     }
 
     /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be
     /// by the motion of target nodes. Where nothing can move, the constraint is left out.
-    pub fn closing(restrained: &[bool], constraints: &[Constraint<T>]) -> Self {
+    pub fn closing(restraints: &[Restraint], constraints: &[Constraint<T>]) -> Self {
         let is_restrained =
-            |c: &&Constraint<T>| c.node.dofs().iter().any(|d| restrained[d.index()]);
+            |c: &&Constraint<T>| c.node.dofs().iter().any(|d| !restraints[d.index()].is_free());
         let (fixed, free): (Vec<_>, Vec<_>) = constraints.iter().partition(is_restrained);
-        let mut t = Elimination::unbound(restrained, free.iter().copied());
+        let mut t = Elimination::unbound(restraints, free.iter().copied());
         let mut eliminated = Vec::new();
         for (direction, shift, constraint) in fixed.iter().flat_map(|c| c.equations()) {
             eliminated.extend(t.eliminate(constraint, direction, shift));
         }
         t.remove(&eliminated);
-        free.iter().for_each(|constraint| t.bind(constraint, restrained));
+        free.iter().for_each(|constraint| t.bind(constraint, restraints));
         t
     }
 
     /// Builds T without constraints; the equations of the nodes of `bound` are left out.
-    fn unbound<'a>(restrained: &[bool], bound: impl Iterator<Item = &'a Constraint<T>>) -> Self {
-        let size = restrained.len();
+    fn unbound<'a>(
+        restraints: &[Restraint],
+        bound: impl Iterator<Item = &'a Constraint<T>>,
+    ) -> Self {
+        let size = restraints.len();
         let mut constrained = vec![false; size / 2];
-        bound.for_each(|constraint| constrained[constraint.node.index()] = true);
+        for Constraint { node, .. } in bound {
+            // Bound twice, it would leave an empty column: a false singular matrix.
+            let before = std::mem::replace(&mut constrained[node.index()], true);
+            assert!(!before, "node {node} is bound once");
+        }
         let mut t = Elimination {
             rows: std::iter::repeat_with(Row::new).take(size).collect(),
             shift: DVector::from_element(size, T::zero()),
             free: Vec::new(),
         };
-        let free = |dof: &Dof| !restrained[dof.index()] && !constrained[dof.node().index()];
-        for dof in Dof::all(size).filter(free) {
-            t.rows[dof.index()] = smallvec![(t.add(dof), T::one())];
+        for dof in Dof::all(size).filter(|dof| !constrained[dof.node().index()]) {
+            match restraints[dof.index()] {
+                Restraint::Free => t.rows[dof.index()] = smallvec![(t.add(dof), T::one())],
+                // Neither an entry nor a shift: the displacement is 0.
+                Restraint::Fixed => (),
+            }
         }
         t
     }
@@ -183,10 +193,9 @@ impl<T: Scalar> Elimination<T> {
     }
 
     /// Binds a node whose own equations are left out.
-    fn bind(&mut self, constraint: &Constraint<T>, restrained: &[bool]) {
-        let restrained = constraint.node.dofs().map(|dof| restrained[dof.index()]);
+    fn bind(&mut self, constraint: &Constraint<T>, restraints: &[Restraint]) {
         match constraint.motion {
-            Motion::Both(shift) => self.bind_both(constraint, restrained, shift),
+            Motion::Both(shift) => self.bind_both(constraint, restraints, shift),
             Motion::Along(normal, shift) => self.bind_along(constraint, normal, shift),
         }
     }
@@ -197,11 +206,12 @@ impl<T: Scalar> Elimination<T> {
         self.free.len() - 1
     }
 
-    fn bind_both(&mut self, constraint: &Constraint<T>, restrained: [bool; 2], shift: [T; 2]) {
+    fn bind_both(&mut self, constraint: &Constraint<T>, restraints: &[Restraint], shift: [T; 2]) {
         for dof in constraint.node.dofs() {
             let direction = dof.direction();
-            if restrained[direction] {
-                continue;
+            match restraints[dof.index()] {
+                Restraint::Free => (),
+                Restraint::Fixed => continue,
             }
             let mut normal = [T::zero(), T::zero()];
             normal[direction] = T::one();
@@ -212,8 +222,6 @@ impl<T: Scalar> Elimination<T> {
 
     fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
         let [x, y] = constraint.node.dofs();
-        // Bound twice, it would slide along an equation that nothing holds: a false singular matrix.
-        assert!(self.rows[x.index()].is_empty(), "node {} is bound once", constraint.node);
         let target = self.target_shift(constraint, [nx, ny]);
         for (dof, factor) in [(x, nx), (y, ny)] {
             self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);

@@ -18,7 +18,7 @@ use numbers::scalar::Scalar;
 use paper::door;
 use paper::edited::Interpreter;
 use paper::mirror::{self, Pairs, Schedule, Worksheet};
-use problem::model::{Dof, Model};
+use problem::model::{Dof, Model, Restraint};
 use problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
@@ -42,7 +42,7 @@ pub(super) struct Equations<'a, T> {
     /// The stiffness, triangle by triangle.
     pub stiffness: Stiffness<T>,
     /// Whether the run takes each degree of freedom as restrained.
-    restrained: Vec<bool>,
+    restraints: Vec<Restraint>,
     /// Whether each of them is one of the body to which contact passes its force.
     supports: Vec<bool>,
     /// The whole load by degree of freedom, force.
@@ -80,14 +80,10 @@ impl<'a, T: Precision> Equations<'a, T> {
             Schedule::Total => T::one(),
             Schedule::Stepped => T::from_number(request.iterations),
         };
-        let (load, restrained) = (model.load_in(number), restrained(model, request));
-        let f =
-            DVector::from_fn(
-                load.len(),
-                |e, _| {
-                    if restrained[e] { T::zero() } else { load[e] / share }
-                },
-            );
+        let (load, restraints) = (model.load_in(number), restraints(model, request));
+        let f = DVector::from_fn(load.len(), |e, _| {
+            if restraints[e].is_free() { load[e] / share } else { T::zero() }
+        });
         let assembly = if request.variant == Variant::Printed {
             Assembly::Printed
         } else if takes_sparse(request.solver()) {
@@ -106,8 +102,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             assembly,
             interpreter,
             stiffness,
-            supports: supports(model, &restrained),
-            restrained,
+            supports: supports(model, &restraints),
+            restraints,
             load,
             f,
             share,
@@ -163,7 +159,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         k: usize,
         solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Singular>, Error>,
     ) -> Result<Increment<T>, Error> {
-        let t = Elimination::new(&self.model.restrained, constraints);
+        let t = Elimination::new(self.model.restraints(), constraints);
         let solved = T::sweep(|| {
             let solved = solve(&t, &t.load(&self.f))?;
             solved.map_err(|why| self.singular(why, pairs, k, |column| t.dof(column)))
@@ -182,7 +178,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
-        let support = support(self.model, &self.restrained, constraints, &force, &load);
+        let support = support(self.model, &self.restraints, constraints, &force, &load);
         Increment { residual, support, u }
     }
 
@@ -232,10 +228,10 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 }
 
-/// Returns whether each degree of freedom is restrained: the model's restraints, or under reading
+/// Returns what holds each degree of freedom: the model's restraints, or under reading
 /// R2 = printed, where `Km` reads the restraint of y in place of that of x, those of `Km`.
-fn restrained(model: &Model, request: &Request) -> Vec<bool> {
+fn restraints(model: &Model, request: &Request) -> Vec<Restraint> {
     let by_km = request.variant == Variant::Printed && request.reading.r2.takes_y_for_x();
     let read = |dof: Dof| if by_km { dof.node().y() } else { dof };
-    model.all_dofs().map(|dof| model.is_restrained(read(dof))).collect()
+    model.all_dofs().map(|dof| model.restraints()[read(dof).index()]).collect()
 }

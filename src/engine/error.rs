@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::linear::ScalarName;
 use base::error::InputError;
+use base::exit::ExitStatus;
 use paper::mirror::Failure;
 
 /// A value, or the reason why there is none.
@@ -14,19 +15,19 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 /// The reason why a command ended without a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The input breaks a condition: exit status 2.
+    /// The input breaks a condition.
     #[error("{0}")]
     Input(#[from] InputError),
-    /// A listing fails as printed: exit status 3, an audit result.
+    /// A listing fails as printed, which is an audit result.
     #[error("the published algorithm fails as printed: {0}")]
     Listing(#[from] Failure),
-    /// A listing fails as it is executed: exit status 3, an audit result.
+    /// A listing fails as it is executed, which is an audit result.
     #[error("the published algorithm fails as printed: {0}")]
     Execution(Box<mathcad::Failure>),
-    /// The matrix of an iteration cannot be solved: exit status 3, an audit result.
+    /// The matrix of an iteration cannot be solved, which is an audit result.
     #[error("{0}")]
     Singular(#[from] SingularMatrix),
-    /// No equilibrium, or several: exit status 4.
+    /// No equilibrium, or several.
     #[error("{0}")]
     Equilibrium(#[from] NoEquilibrium),
 }
@@ -54,11 +55,11 @@ impl Error {
     }
 
     /// Returns the exit status of the process, which reports the cause.
-    pub fn exit_status(&self) -> u8 {
+    pub fn exit_status(&self) -> ExitStatus {
         match self {
-            Error::Input(_) => 2,
-            Error::Equilibrium(_) => 4,
-            Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => 3,
+            Error::Input(_) => ExitStatus::Input,
+            Error::Equilibrium(_) => ExitStatus::Equilibrium,
+            Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => ExitStatus::Algorithm,
         }
     }
 }
@@ -116,10 +117,10 @@ impl fmt::Display for Cause {
     match .in_contact {
         0 => "the restraints alone do not hold the body",
         _ => "that does not hold the body (finding K6), or to the last digit it does not",
-    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &match .scalar {
-        ScalarName::Exact => String::new(),
-        rounded => format!(
-            "; {rounded} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
+    }.to_string() + &.no_contact.as_ref().map_or(String::new(), |why| format!(": {why}")) + &match .scalar.is_exact() {
+        true => String::new(),
+        false => format!(
+            "; {scalar} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
         ),
     }
 )]

@@ -98,22 +98,41 @@ impl Options {
 
     /// Returns the request for these options of a scene.
     pub fn request(&self, scene: &Scene) -> Request {
-        let mut request = Request::new(scene);
-        let own = request.contact;
-        request.variant = self.variant.unwrap_or(request.variant);
-        request.iterations = self.iterations.unwrap_or(request.iterations);
-        request.tolerance = self.c_tll;
-        request.reading = self.reading;
-        request.contact = ContactModel {
-            coupling: self.coupling.unwrap_or(own.coupling),
-            friction: self.friction.unwrap_or(own.friction),
-            geometry: self.geometry.unwrap_or(own.geometry),
-            load_steps: self.load_steps.unwrap_or(own.load_steps),
-            status: self.status.unwrap_or(own.status),
-        };
-        let solver = self.solver;
-        let (scalar, inputs) = (self.scalar.unwrap_or_default(), self.inputs.unwrap_or_default());
-        request.arithmetic(Arithmetic { scalar, solver, inputs })
+        let &Options {
+            variant,
+            iterations,
+            c_tll,
+            reading,
+            coupling,
+            friction,
+            geometry,
+            load_steps,
+            status,
+            scalar,
+            solver,
+            inputs,
+        } = self;
+        let own = Request::new(scene);
+        Request {
+            variant: variant.unwrap_or(own.variant),
+            iterations: iterations.unwrap_or(own.iterations),
+            tolerance: c_tll,
+            reading,
+            contact: ContactModel {
+                coupling: coupling.unwrap_or(own.contact.coupling),
+                friction: friction.unwrap_or(own.contact.friction),
+                geometry: geometry.unwrap_or(own.contact.geometry),
+                load_steps: load_steps.unwrap_or(own.contact.load_steps),
+                status: status.unwrap_or(own.contact.status),
+            },
+            arithmetic: Arithmetic {
+                scalar: scalar.unwrap_or_default(),
+                solver,
+                inputs: inputs.unwrap_or_default(),
+            },
+            scene: own.scene,
+            edited: own.edited,
+        }
     }
 
     /// Returns a name for a run with these options: its variant, then every other option.

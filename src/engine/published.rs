@@ -144,7 +144,7 @@ fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
         limits::DENSE.check(model.dofs(), "the mesh")?;
     }
     limits::check_steps(request.iterations, model.nodes.len(), "iterations")?;
-    if request.arithmetic.scalar != ScalarName::Exact {
+    if !request.arithmetic.scalar.is_exact() {
         return Ok(());
     }
     cost::check(model.free_dofs(), request.reading.r5.follows_the_shape(), request.iterations)

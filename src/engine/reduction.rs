@@ -15,7 +15,7 @@ use super::elimination::{Constraint, Elimination};
 use super::refinement::{CONTRACTION, REFINED, refine};
 use super::stiffness::Stiffness;
 use crate::linear::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
-use problem::model::{Dof, Model, NodeId};
+use problem::model::{Dof, Model, NodeId, Restraint};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,
 /// which is what a line across the mesh has.
@@ -35,7 +35,7 @@ pub struct Reduction {
     kept: Vec<Dof>,
     /// S by the degrees of freedom of the kept nodes, x and y of each in turn, 0 at restrained ones.
     stiffness: DMatrix<f64>,
-    restrained: Vec<bool>,
+    restraints: Vec<Restraint>,
     /// The largest row sum of |S|, force/length.
     norm: f64,
     /// That of K.
@@ -63,7 +63,12 @@ impl Reduction {
         let nodes = nodes(model, pairings);
         let mut place = vec![None; model.nodes.len()];
         nodes.iter().enumerate().for_each(|(k, node)| place[node.index()] = Some(k));
-        let is_free: Vec<bool> = model.all_dofs().map(|dof| !model.is_restrained(dof)).collect();
+        // What is restrained inside adds nothing to the load: its displacement is 0.
+        let is_free = model.restraints().iter().map(|restraint| match restraint {
+            Restraint::Free => true,
+            Restraint::Fixed => false,
+        });
+        let is_free: Vec<bool> = is_free.collect();
         let free: Vec<Dof> = model.all_dofs().filter(|dof| is_free[dof.index()]).collect();
         let is_kept = |e: &usize| place[free[*e].node().index()].is_some();
         let last: Vec<usize> = (0..free.len()).filter(is_kept).collect();
@@ -71,7 +76,7 @@ impl Reduction {
             return None;
         }
         let kept: Vec<Dof> = last.iter().map(|e| free[*e]).collect();
-        let t = Elimination::new(&model.restrained, &[]);
+        let t = Elimination::new(model.restraints(), &[]);
         let matrix = stiffness.reduced(&t);
         let whole_norm = matrix.norm();
         let schur = Schur::new(matrix, last)?;
@@ -85,8 +90,8 @@ impl Reduction {
         for (j, column) in own.iter().zip(schur.complement().column_iter()) {
             own.iter().zip(&column).for_each(|(i, s)| reduced[(*i, *j)] = *s);
         }
-        let mut restrained = vec![true; size];
-        own.iter().for_each(|k| restrained[*k] = false);
+        let mut restraints = vec![Restraint::Fixed; size];
+        own.iter().for_each(|k| restraints[*k] = Restraint::Free);
         let norm = reduced.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
         Some(Reduction {
             free,
@@ -95,7 +100,7 @@ impl Reduction {
             nodes,
             kept,
             stiffness: reduced,
-            restrained,
+            restraints,
             norm,
             whole_norm,
         })
@@ -132,7 +137,7 @@ impl Reduction {
     }
 
     fn own(&self, values: impl Iterator<Item = (Dof, f64)>) -> DVector<f64> {
-        let mut own = DVector::zeros(self.restrained.len());
+        let mut own = DVector::zeros(self.restraints.len());
         values.for_each(|(dof, value)| own[self.place(dof)] = value);
         own
     }
@@ -160,7 +165,7 @@ impl<'a> ReducedState<'a> {
     /// constraint binds a node that is not kept.
     pub fn new(reduction: &'a Reduction, constraints: &[Constraint]) -> Option<Self> {
         let own = constraints.iter().map(|constraint| reduction.renumbered(constraint));
-        let t = Elimination::closing(&reduction.restrained, &own.collect::<Option<Vec<_>>>()?);
+        let t = Elimination::closing(&reduction.restraints, &own.collect::<Option<Vec<_>>>()?);
         let factors = DenseCholesky::new(&t.matrix(&reduction.stiffness))?;
         Some(ReducedState { reduction, t, factors })
     }

@@ -11,6 +11,7 @@ use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::request::Request;
 use base::choices;
+use base::exit::ExitStatus;
 use mathcad::array::{Column, Table, rows};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
@@ -189,6 +190,9 @@ pub enum Start {
     /// They overlapped, and neither contact nor the load holds them without friction: they were moved apart as rigid
     /// ones, so that all nodes that overlapped touch and none slipped.
     Unslipped,
+    /// They overlapped, and the load holds them by friction alone: a first small part of it is a step of its own, in
+    /// which no other contact state is in equilibrium.
+    Pressed,
     /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
     /// changes the result.
     Loose,
@@ -275,6 +279,15 @@ impl Uniqueness {
             Uniqueness::Unique | Uniqueness::Unknown { .. } => false,
             Uniqueness::Indifferent { .. } => true,
             Uniqueness::Tried { others, .. } => !others.is_empty(),
+        }
+    }
+
+    /// Returns whether it is known that there is no other equilibrium in the steps that were looked at.
+    pub fn is_proven(&self) -> bool {
+        match self {
+            Uniqueness::Unique => true,
+            Uniqueness::Indifferent { .. } | Uniqueness::Unknown { .. } => false,
+            Uniqueness::Tried { all, others, .. } => *all && others.is_empty(),
         }
     }
 }
@@ -412,6 +425,16 @@ pub struct Equilibrium {
 }
 
 impl Solution {
+    /// Returns whether other equilibria than the one that was found are known.
+    pub fn has_others(&self) -> bool {
+        self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
+    }
+
+    /// Returns the exit status of the process, which is one of its own where other equilibria are known.
+    pub fn exit_status(&self) -> ExitStatus {
+        if self.has_others() { ExitStatus::Equilibrium } else { ExitStatus::Done }
+    }
+
     /// Returns the last step.
     pub fn last(&self) -> &Step {
         self.steps.last().expect("a run has a step")

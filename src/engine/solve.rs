@@ -52,9 +52,7 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
 fn in_words_of(scalar: ScalarName, why: Error) -> Error {
     let is_coarser = scalar.properties().digits < ScalarName::F64.properties().digits;
     match why {
-        Error::Singular(_) | Error::Listing(_)
-            if is_coarser && scalar.properties().digits.is_some() =>
-        {
+        Error::Singular(_) | Error::Listing(_) if is_coarser && !scalar.is_exact() => {
             let what = format!("in {scalar} {why}; {scalar} cannot represent what f64 does");
             InputError::new("scalar", what, "use f64, as the paper's worksheets do").into()
         }

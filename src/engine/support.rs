@@ -5,7 +5,7 @@ use nalgebra::DVector;
 
 use super::elimination::{Constraint, Motion, sum};
 use numbers::scalar::Scalar;
-use problem::model::{Body, Dof, Model};
+use problem::model::{Body, Dof, Model, Restraint};
 
 /// Returns the body to which contact passes its force: the target, or the contact body where the
 /// load acts on the target alone; None without contact.
@@ -22,22 +22,22 @@ fn is_loaded(model: &Model, body: &Body) -> bool {
 }
 
 /// Returns the sum of the receiver's reactions and of its own load, force: what contact passes to it,
-/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom; `restrained` marks
-/// the degrees of freedom that the run restrains.
+/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom; `restraints` are those
+/// of the run.
 pub fn support<T: Scalar>(
     model: &Model,
-    restrained: &[bool],
+    restraints: &[Restraint],
     constraints: &[Constraint<T>],
     force: &DVector<T>,
     load: &DVector<T>,
 ) -> [T; 2] {
-    let mut total = support_force(model, restrained, force, load);
+    let mut total = support_force(model, restraints, force, load);
     let Some(receiver) = receiver(model) else { return total };
     for constraint in constraints {
-        let passed = constraint_force(constraint, restrained, force);
+        let passed = constraint_force(constraint, restraints, force);
         for direction in [0, 1] {
             let to_restrained = constraint.masters.iter().filter(|(master, _)| {
-                receiver.has(*master) && restrained[master.dofs()[direction].index()]
+                receiver.has(*master) && !restraints[master.dofs()[direction].index()].is_free()
             });
             total[direction] += sum(to_restrained.map(|(_, w)| *w)) * passed[direction];
         }
@@ -48,10 +48,10 @@ pub fn support<T: Scalar>(
 /// Returns the contact force on a constrained node, force.
 fn constraint_force<T: Scalar>(
     constraint: &Constraint<T>,
-    restrained: &[bool],
+    restraints: &[Restraint],
     force: &DVector<T>,
 ) -> [T; 2] {
-    let free = constraint.node.dofs().map(|dof| !restrained[dof.index()]);
+    let free = constraint.node.dofs().map(|dof| restraints[dof.index()].is_free());
     let force = constraint.node.components(force);
     match constraint.motion {
         Motion::Both(_) => [0, 1].map(|d| if free[d] { force[d] } else { T::zero() }),
@@ -65,13 +65,13 @@ fn constraint_force<T: Scalar>(
 /// Returns the sum of `force` over the restraints of the receiver, and of `load` over all of it, force.
 pub(super) fn support_force<T: Scalar>(
     model: &Model,
-    restrained: &[bool],
+    restraints: &[Restraint],
     force: &DVector<T>,
     load: &DVector<T>,
 ) -> [T; 2] {
     let mut total = [T::zero(), T::zero()];
     for dof in receiver(model).into_iter().flat_map(dofs) {
-        if restrained[dof.index()] {
+        if !restraints[dof.index()].is_free() {
             total[dof.direction()] += force[dof.index()];
         }
         if !load[dof.index()].is_zero() {
@@ -82,10 +82,10 @@ pub(super) fn support_force<T: Scalar>(
 }
 
 /// Returns whether each degree of freedom is one of the receiver that the run restrains.
-pub(super) fn supports(model: &Model, restrained: &[bool]) -> Vec<bool> {
+pub(super) fn supports(model: &Model, restraints: &[Restraint]) -> Vec<bool> {
     let mut supports = vec![false; model.dofs()];
     let of_receiver = receiver(model).into_iter().flat_map(dofs);
-    of_receiver.for_each(|dof| supports[dof.index()] = restrained[dof.index()]);
+    of_receiver.for_each(|dof| supports[dof.index()] = !restraints[dof.index()].is_free());
     supports
 }
 

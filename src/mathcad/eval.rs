@@ -698,19 +698,21 @@ impl<O: Observer> Run<'_, '_, O> {
         let method = self.settings.conjunction;
         let (mut decided, mut failure, mut seen) = (false, None, vec![]);
         for operand in operands {
-            if method == Conjunction::LeftToRight && decided {
-                break;
+            match method {
+                Conjunction::LeftToRight if decided => break,
+                Conjunction::LeftToRight | Conjunction::Guarded | Conjunction::Eager => (),
             }
-            let truth = match self.truth(operand) {
-                Ok(truth) => Some(truth),
-                Err(error) if method != Conjunction::Guarded || error.is_limit() => {
-                    return Err(error);
-                }
-                Err(error) => {
+            let truth = match (self.truth(operand), method) {
+                (Ok(truth), _) => Some(truth),
+                (Err(error), Conjunction::Guarded) if !error.is_limit() => {
                     self.spend_on(&error)?;
                     failure.get_or_insert(error);
                     None
                 }
+                (
+                    Err(error),
+                    Conjunction::LeftToRight | Conjunction::Guarded | Conjunction::Eager,
+                ) => return Err(error),
             };
             decided |= truth == Some(decisive);
             if O::ACTIVE {

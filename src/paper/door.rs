@@ -18,7 +18,7 @@ use base::error::InputError;
 use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use problem::element;
-use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
+use problem::model::{EdgeId, Element, Model, NodeId, Restraint, Row, TriangleId};
 
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
@@ -73,6 +73,10 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
     let of = |f: &dyn Fn(TriangleId) -> f64| {
         Column::from_vec(model.triangle_ids().map(|id| number(f(id))).collect())
     };
+    let s = |restraint: &Restraint| match restraint {
+        Restraint::Free => 0,
+        Restraint::Fixed => 1,
+    };
     Worksheet {
         node: node_n(model, &model.nodes).map(&number),
         EL: Table::from_fn(triangles.len(), 8, |n, j| elem[(triangles[n - 1], j)]),
@@ -81,7 +85,7 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
         cnt: Column::from_vec(contact.collect()),
         c_tll: number(model.contact.tolerance),
         ind_1: IND_1,
-        S: Column::from_vec(model.restrained.iter().map(|s| usize::from(*s)).collect()),
+        S: Column::from_vec(model.restraints().iter().map(s).collect()),
         Ae: Column::from_vec(corners.iter().map(|p| element::area(p) * thickness).collect()),
         B: Column::from_vec(corners.iter().map(element::B).collect()),
         E: of(&|id| model.triangle(id).material.e),

@@ -8,8 +8,7 @@ use engine::error::{self, Error};
 /// Why a command ended without a result.
 #[derive(Serialize)]
 pub struct Failure {
-    /// The exit status: 2 the input is at fault, 3 the published algorithm fails as printed, 4 no
-    /// equilibrium, or several.
+    /// The number of the exit status.
     exit_status: u8,
     #[serde(flatten)]
     cause: Cause,
@@ -53,7 +52,7 @@ pub struct Failed {
 impl From<&Error> for Failure {
     fn from(error: &Error) -> Self {
         Failure {
-            exit_status: error.exit_status(),
+            exit_status: error.exit_status().number(),
             cause: cause(error),
             message: error.to_string(),
         }

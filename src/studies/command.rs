@@ -7,6 +7,7 @@ use crate::{
     audit, calculix, document, extremes, lesson, listing, scene, snapshot, solve, sweep, trade,
     worksheet,
 };
+use base::exit::ExitStatus;
 use engine::error::Result;
 
 /// A command, with what it is asked for; help has the words of what each asks for.
@@ -37,8 +38,8 @@ impl Command {
     ///
     /// # Errors
     /// Those of the command.
-    pub fn run(self) -> Result<u8> {
-        let done = |()| 0;
+    pub fn run(self) -> Result<ExitStatus> {
+        let done = |()| ExitStatus::Done;
         match self {
             Command::Solve(args) => solve::run(&args),
             Command::Extremes(args) => extremes::command::run(&args).map(done),

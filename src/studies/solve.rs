@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::trade::{check_accuracy, solve_to};
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::{Cause, NoEquilibrium, Result};
@@ -88,7 +89,7 @@ pub struct Args {
 }
 
 /// Solves a scene and writes its files; returns the exit status.
-pub fn run(args: &Args) -> Result<u8> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     args.tables.check()?;
     let request = request(args)?;
     let out = folder(&args.out, own_folder(args, &request));
@@ -194,15 +195,13 @@ fn beside_the_print(solution: &Solution) -> Report {
     }
 }
 
-/// Returns the exit status, which is one of its own where other equilibria are known; the result says
-/// so too.
-fn status(solution: &Solution) -> u8 {
-    let found = solution.equilibrium.as_ref();
-    if !found.is_some_and(|found| found.uniqueness.is_refuted()) {
-        return 0;
+/// Returns the exit status, and says where other equilibria are known; the result says so too.
+fn status(solution: &Solution) -> ExitStatus {
+    if solution.has_others() {
+        let what = "the one that was found is not the only one: see the line Equilibrium".into();
+        report_error(&NoEquilibrium { cause: Cause::Several, what }.into());
     }
-    let what = "the one that was found is not the only one: see the line Equilibrium".into();
-    report_error(&NoEquilibrium { cause: Cause::Several, what }.into())
+    solution.exit_status()
 }
 
 /// Returns the solution, and under `--accuracy` how its precision was found.

@@ -179,7 +179,8 @@ impl Jobs {
         Ok(match solved {
             Ok(solution) => row(&solution),
             Err(why) => {
-                let row = json!({"exit_status": why.exit_status(), "error": why.to_string()});
+                let row =
+                    json!({"exit_status": why.exit_status().number(), "error": why.to_string()});
                 row.as_object().expect("it is an object").clone()
             }
         })
@@ -241,14 +242,13 @@ fn set(document: &mut Value, pointer: &str, value: &Value) -> Option<()> {
 fn row(solution: &Solution) -> Row {
     let mut row = Row::new();
     let last = solution.last();
-    let several = solution.equilibrium.as_ref().is_some_and(|e| e.uniqueness.is_refuted());
     let mut set = |name: &str, value: Value| {
         if !value.is_null() {
             row.insert(name.into(), value);
         }
     };
-    set("exit_status", json!(if several { 4 } else { 0 }));
-    set("error", json!(several.then_some("the equilibrium is not the only one")));
+    set("exit_status", json!(solution.exit_status().number()));
+    set("error", json!(solution.has_others().then_some("the equilibrium is not the only one")));
     set("iterations", json!(solution.steps.len()));
     set("in_contact", json!(last.in_contact));
     set("cycle", json!(last.cycle.as_ref().map(|cycle| cycle.length)));

@@ -55,7 +55,7 @@ fn finding(finding: &Finding) -> String {
     let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
     let lines = format!("{} {}", finding.listing, lines.join(", "));
     let measured = finding.measure(&Case::new(finding.scene()));
-    let value = format!("{:.3}", measured.number);
+    let value = format!("{:.3}", measured.number.expect("a number"));
     let value = value.trim_end_matches('0').trim_end_matches('.');
     let shown = format!("{value} = {}", finding.number);
     line(&[&id, lines.trim_end(), finding.title, &shown, finding.repair])

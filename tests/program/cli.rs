@@ -518,7 +518,7 @@ fn edited_listings_that_are_wrong_are_refused() {
 #[test]
 fn audit_shows_readings_findings_and_variants() {
     let folder = TempDir::new().unwrap();
-    let tables = succeeds(folder.path(), &["audit", "fig1", "--out", "audit"]);
+    let tables = succeeds(folder.path(), &["audit", "fig1", "--full", "--out", "audit"]);
     for words in [
         "1. Readings",
         "R4 = left-to-right",

@@ -11,7 +11,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use plane_contact::exit::ExitStatus;
+
+use crate::common::golden_file::assert_file;
 use crate::common::program::run;
+use crate::tables::markdown;
 
 /// Phrases with numbers that no table has, each with the reason.
 const GIVEN: &[(&str, &str)] = &[
@@ -35,13 +39,6 @@ const GIVEN: &[(&str, &str)] = &[
     ("IEEE 754", "a standard"),
     ("fewer than 300 nodes", "a limit, tested by tests/program/mathcad.rs"),
     ("Mathcad 14 or 15", "versions"),
-    ("The exit status is 1 where", "exit statuses are tested by tests/program/cli.rs"),
-    ("the exit status is 4", "as above"),
-    ("| 0 | done;", "as above"),
-    ("| 1 | what was compared differs |", "as above"),
-    ("| 2 | the input is at fault", "as above"),
-    ("| 3 | the published algorithm fails", "as above"),
-    ("| 4 | no equilibrium", "as above"),
     ("Apache-2.0", "the name of a licence"),
     ("10 to 20 lines", "a rule of style"),
     ("lines 22 and 23", "lines of a listing"),
@@ -129,8 +126,15 @@ fn generated(page: &str) -> BTreeSet<String> {
 /// them.
 fn unheld(page: &str, known: &BTreeSet<String>) -> Vec<String> {
     let text = in_one_line(page);
-    let places = GIVEN.iter().flat_map(|(phrase, _)| text.match_indices(phrase));
-    let phrases: Vec<_> = places.map(|(at, phrase)| at..at + phrase.len()).collect();
+    let given = GIVEN.iter().map(|(phrase, _)| (*phrase).into());
+    let statuses =
+        ExitStatus::ALL.iter().map(|status| format!("exit status is {}", status.number()));
+    let phrases = given.chain(statuses).chain(exit_statuses());
+    let ranges = |phrase: String| {
+        let places = text.match_indices(&phrase).map(|(at, _)| at..at + phrase.len());
+        places.collect::<Vec<_>>()
+    };
+    let phrases: Vec<_> = phrases.flat_map(ranges).collect();
     let is_held = |(at, number): &(usize, String)| {
         known.contains(number) || phrases.iter().any(|phrase| phrase.contains(at))
     };
@@ -160,6 +164,21 @@ fn the_front_page_has_the_table_of_variants() {
     for row in table.lines().filter(|line| line.starts_with('|')) {
         assert!(readme.contains(row), "README.md does not have {row}");
     }
+}
+
+/// The rows of the table of exit statuses.
+fn exit_statuses() -> impl Iterator<Item = String> {
+    ExitStatus::ALL.iter().map(|status| format!("{} | {}", status.number(), status.explained()))
+}
+
+#[test]
+fn the_front_page_has_the_exit_statuses() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = fs::read_to_string(&file).expect("README.md");
+    let (before, rest) = readme.split_once("## Exit status\n").expect("a heading");
+    let (_, after) = rest.split_once("\n## ").expect("another heading");
+    let table = markdown("status | meaning", exit_statuses());
+    assert_file(&file, &format!("{before}## Exit status\n\n{table}\n## {after}"));
 }
 
 /// The commands of a page, in blocks of shell and in `code`, as words.

@@ -5,14 +5,17 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
+use nalgebra::DVector;
+use plane_contact::engine::estimates::Estimates;
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
-use plane_contact::engine::{Assessment, Solution, SolutionDistance, solve, summaries};
+use plane_contact::engine::{Assessment, Solution, SolutionDistance, Stiffness, solve, summaries};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
+use plane_contact::problem::scene::Refined;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price, Weight};
-use plane_contact::studies::benchmark::{Kind, Strand};
+use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
 use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
 use plane_contact::studies::trade::{self, Varied};
 use plane_contact::{Request, Scene};
@@ -201,6 +204,63 @@ fn contact(solution: &Solution) -> String {
             format!("{count}, still changing")
         }
     }
+}
+
+/// The estimate of the error of the mesh in runs beside the error itself, from a mesh 64 times finer, whose
+/// outline is the same polygon. The claims of the audit cite it.
+#[test]
+fn mesh_errors() {
+    let strand = |size| Strand { size, ..Strand::default() }.generate();
+    let made =
+        [strand(1.2), strand(0.9), Benchmark::default().generate(), Punch::default().generate()];
+    let made = made.map(|scene| scene.and_then(|scene| scene.build()).expect("a sound scene"));
+    let fig1 = Scene::open("fig1").expect("an embedded scene");
+    let names = ["strand, edges of 1.2 mm", "strand, edges of 0.9 mm", "hertz", "punch", "fig1"];
+    let runs = names.into_iter().zip(made.into_iter().chain([fig1])).flat_map(|(name, scene)| {
+        let mut meshes: Vec<Refined> = Vec::new();
+        for _ in 0..3 {
+            let last = meshes.last().map_or(&scene, |finer| &finer.scene);
+            meshes.push(last.refined().expect("a sound scene").expect("a whole scene"));
+        }
+        Coupling::ALL
+            .iter()
+            .map(|coupling| {
+                let run = |scene: &Scene| {
+                    let reference = Request::new(scene).reference();
+                    let contact = ContactModel { coupling: *coupling, ..reference.contact };
+                    solve(&reference.contact(contact), &mut |_| ()).expect("a solution")
+                };
+                let (coarse, fine) = (run(&scene), run(&meshes[2].scene));
+                let mut u = coarse.u.as_slice().to_vec();
+                for ends in meshes.iter().flat_map(|finer| &finer.parents) {
+                    let halves = [0, 1].map(|d| {
+                        (u[ends[0].dofs()[d].index()] + u[ends[1].dofs()[d].index()]) / 2.0
+                    });
+                    u.extend(halves);
+                }
+                let stiffness = Stiffness::new(&fine.model, |x| x);
+                let error = stiffness.energy_norm(&(DVector::from_vec(u) - &fine.u))
+                    / stiffness.energy_norm(&fine.u);
+                let estimate =
+                    Estimates::new(&coarse).errors.mesh_energy_relative.expect("an estimate");
+                format!(
+                    "{name} | {coupling} | {} | {} | {:.2}",
+                    percent(estimate, 1),
+                    percent(error, 1),
+                    estimate / error
+                )
+            })
+            .collect::<Vec<_>>()
+    });
+    let table = markdown(
+        "scene, frictionless, small displacements | coupling | estimate | error beside the finer mesh | estimate over error",
+        runs,
+    );
+    let text = format!(
+        "**The estimate of the error of the mesh, in the energy norm, beside the error from a mesh 64 times finer.** Made by \
+         the test `mesh_errors`.\n\n{table}"
+    );
+    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/mesh_errors.md"), &text);
 }
 
 #[test]

@@ -25,8 +25,10 @@ fn printed(args: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-fn assert_text(folder: &str, name: &str, args: &[&str]) {
-    assert_golden_by(folder, name, &printed(args), same_text);
+fn assert_text(folder: &str, name: &str, args: &[&str]) -> String {
+    let text = printed(args);
+    assert_golden_by(folder, name, &text, same_text);
+    text
 }
 
 pub fn same_text(expected: &str, value: &str) -> bool {
@@ -90,21 +92,28 @@ fn solve() {
 
 #[test]
 fn audit() {
-    SCENES.iter().for_each(|scene| assert_text(scene, "audit", &["audit", scene]));
+    for scene in SCENES {
+        let screen = assert_text(scene, "audit", &["audit", scene]);
+        assert!(screen.lines().count() <= 60, "{screen}");
+        assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
+    }
+    assert_text("fig1", "audit-full", &["audit", "fig1", "--full"]);
     assert_text("findings/C4", "audit", &["audit", "--finding", "C4"]);
     assert_text("fig1", "claim", &["audit", "fig1", "--claim", "P12"]);
 }
 
 #[test]
 fn plan() {
-    SCENES.iter().for_each(|scene| assert_text(scene, "plan", &["scene", "plan", scene]));
+    for scene in SCENES {
+        assert_text(scene, "plan", &["scene", "plan", scene]);
+    }
 }
 
 #[test]
 fn c_cnt() {
-    SCENES
-        .iter()
-        .for_each(|scene| assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]));
+    for scene in SCENES {
+        assert_text(scene, "c_cnt", &["listing", "run", "c_cnt", scene]);
+    }
 }
 
 /// Returns the names of all commands, such as `listing run`, by the lists on the pages of help.

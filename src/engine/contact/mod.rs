@@ -22,12 +22,11 @@ mod surface;
 pub use crate::quantities::ContactNode;
 pub use mortar::Mortar;
 pub use order::{along, hidden, oddity, turned};
-pub use outline::BEND;
 pub use pairing::{Pairing, STEEP, Sense, Status};
 pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
 pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
-pub use surface::Surfaces;
+pub use surface::{BEND, Surfaces};
 
 use numbers::scalar::Scalar;
 use problem::modelling::Coupling;

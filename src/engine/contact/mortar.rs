@@ -33,7 +33,8 @@ use numbers::scalar::{Scalar, Unsure, compared};
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
 
-/// The overlap below which two edges do not overlap, over the contact edge's length: rounding.
+/// The overlap below which two edges do not overlap, over the contact edge's length: coordinates are rounded
+/// to f64, in whatever scalar a run computes.
 const ROUNDING: f64 = 1e-12;
 
 /// The share of what its edges could cover below which a contact node does not face the target.
@@ -291,8 +292,8 @@ impl<T: Scalar> NodeIntegrals<T> {
             self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
         let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
         let edge = *most.expect("a node that covers something covers an edge").0;
-        let mut pairing =
-            Pairing { node, edge, masters, normal, gap: T::zero(), length: self.length };
+        let (gap, length, corner) = (T::zero(), self.length, 0.0);
+        let mut pairing = Pairing { node, edge, masters, normal, gap, length, corner };
         pairing.gap = pairing.opening(|n| shape[n.index()]);
         pairing
     }

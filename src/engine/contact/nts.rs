@@ -35,9 +35,9 @@ pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pair
 impl FacedPoint {
     /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
     fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
-        let FacedPoint { edge, masters, normal, gap, .. } = self;
+        let FacedPoint { edge, masters, normal, gap, corner, .. } = self;
         let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
-        Pairing { node, edge, masters, normal, gap, length }
+        Pairing { node, edge, masters, normal, gap, length, corner }
     }
 }
 

@@ -15,6 +15,8 @@
 //! 3. Where the node lies within [`TIE`] of the vertex, or two edges that meet there are equally
 //!    near within [`TIE`], it is paired with the vertex, and the normal is the bisector of the
 //!    edges' normals. So a node inside a convex corner or over a concave one, on the bisector.
+//!    There, and inside a concave corner past the ends of both edges, contact may press along any normal
+//!    between those of the edges.
 //! 4. Where edges meet in a bend of a smooth surface, within [`BEND`], the normal turns along each
 //!    edge from the mean normal at its first node to that at its second. Otherwise a node that comes
 //!    to rest at a bend of a curved target would alternate between the two edges without end.
@@ -35,7 +37,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{Edge, FACING, PlacedEdge, Surface};
+use super::surface::{BEND, Edge, FACING, PlacedEdge, Surface};
 use problem::model::NodeId;
 use problem::tree::{Bounds, Tree};
 
@@ -46,10 +48,6 @@ const TIE: f64 = 1e-9;
 /// How far past an edge's end a closest point still counts as on it, over its length, and by how
 /// much a cosine may miss its limit: rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
-/// smooth surface: 30 degrees.
-pub const BEND: f64 = 0.866;
 
 /// How far past the end of the surface a node still rests on it, over the last edge's length: the
 /// same tolerance as mortar's. Edges that lie flush slide by their strain.
@@ -78,6 +76,8 @@ pub(super) struct FacedPoint {
     pub(super) gap: f64,
     /// Whether the node lies over the surface, not past its end.
     pub(super) over: bool,
+    /// The tangent of the angle from the normal to those of the edges of a concave corner; 0 elsewhere.
+    pub(super) corner: f64,
 }
 
 /// The part of a surface that is nearest to a node.
@@ -301,8 +301,26 @@ impl FacingNode<'_> {
     }
 
     fn on_vertex(&self, v: NodeId, normal: Vector) -> FacedPoint {
+        let corner = self.corner_at(v);
+        let normal = if corner > 0.0 { unit(self.outline.pseudo_normal(v)) } else { normal };
         let gap = dot(normal, minus(self.p, self.outline.vertex(v)));
-        FacedPoint { edge: self.farther(v), masters: vec![(v, 1.0)], normal, gap, over: true }
+        let (edge, masters) = (self.farther(v), vec![(v, 1.0)]);
+        FacedPoint { edge, masters, normal, gap, over: true, corner }
+    }
+
+    /// Returns the tangent of half the angle between the normals of two edges that face the node and meet in a
+    /// concave corner at a vertex; 0 at any other vertex.
+    fn corner_at(&self, v: NodeId) -> f64 {
+        let outline = self.outline;
+        let [k, l] = outline.surface.at[&v][..] else { return 0.0 };
+        let [n, m] = [k, l].map(|edge| outline.placed[edge].normal);
+        let ends = outline.surface.edges[l].nodes;
+        let far = outline.vertex(if ends[0] == v { ends[1] } else { ends[0] });
+        let is_concave = outline.placed[k].outside(far) > outline.tie && !outline.bends(v);
+        let faced = [k, l].into_iter().all(|edge| self.faces_edge(edge));
+        // tan (a / 2) = sin a / (1 + cos a).
+        let tangent = (n[0] * m[1] - n[1] * m[0]).abs() / (1.0 + dot(n, m));
+        if is_concave && faced { tangent } else { 0.0 }
     }
 
     fn on_edge(&self, k: usize) -> FacedPoint {
@@ -314,7 +332,7 @@ impl FacingNode<'_> {
         let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
         let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];
         let gap = placed.outside(self.p) * dot(normal, placed.normal);
-        FacedPoint { edge: k, masters, normal, gap, over }
+        FacedPoint { edge: k, masters, normal, gap, over, corner: 0.0 }
     }
 }
 

@@ -38,6 +38,10 @@ pub struct Pairing<T = f64> {
     pub gap: T,
     /// The length of the contact surface that the node represents, length.
     pub length: T,
+    /// At a concave corner, on both of whose edges the node rests, the tangent of the angle from the normal to either
+    /// edge's; 0 elsewhere.
+    #[serde(skip)]
+    pub corner: f64,
 }
 
 impl<T: Scalar> Pairing<T> {
@@ -55,6 +59,7 @@ impl<T: Scalar> Pairing<T> {
             normal: self.normal.map(&to),
             gap: to(self.gap),
             length: to(self.length),
+            corner: self.corner,
         }
     }
 

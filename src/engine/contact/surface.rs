@@ -4,12 +4,15 @@ use std::collections::HashSet;
 
 use rustc_hash::FxHashMap;
 
-use super::outline::BEND;
 use super::pairing::Vector;
 use super::search::{dot, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
 use problem::model::{EdgeId, Model, NodeId, unordered};
+
+/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
+/// smooth surface: 30 degrees.
+pub const BEND: f64 = 0.866;
 
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
 /// the two do not face each other.

@@ -82,7 +82,7 @@ pub fn rounding(solution: &Solution) -> Option<Rounding> {
     if request.variant == Variant::Unilateral {
         return None;
     }
-    if request.arithmetic.scalar != ScalarName::Exact {
+    if !request.arithmetic.scalar.is_exact() {
         return Some(repeated_run_rounding(solution));
     }
     // What is rounded is the displacements themselves, to be written as f64.

@@ -56,6 +56,11 @@ pub struct Properties {
 }
 
 impl ScalarName {
+    /// Returns whether it keeps all digits.
+    pub fn is_exact(self) -> bool {
+        self.properties().digits.is_none()
+    }
+
     /// Returns what is known of it.
     pub fn properties(self) -> Properties {
         use Solver::{DenseLu, SparseCholesky};

@@ -83,7 +83,7 @@ fn a_pulled_strip_slips_over_the_length_that_carries_the_pull() {
 #[test]
 fn beyond_the_friction_of_its_whole_length_a_strip_finds_no_equilibrium() {
     let error = solve(&strip(10, 0.5, 1.01, 0.5).build().unwrap()).unwrap_err();
-    assert_eq!(error.exit_status(), 4, "{error}");
+    assert_eq!(error.exit_status().number(), 4, "{error}");
     let words =
         "body \"strip\" slides as a whole from 0.99 of stage 2 on; it needs a coefficient of 0.505";
     assert!(error.to_string().contains(words), "{error}");

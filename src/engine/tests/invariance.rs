@@ -123,7 +123,7 @@ fn verdict(
             return (Verdict::NoAnswer, 0.0);
         }
         (Ok(found), Err(why)) | (Err(why), Ok(found)) => {
-            assert!(rubs(found) && why.exit_status() == 4, "{what}: {why}");
+            assert!(rubs(found) && why.exit_status().number() == 4, "{what}: {why}");
             return (Verdict::FoundOnce, 0.0);
         }
     };

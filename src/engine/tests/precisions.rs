@@ -323,7 +323,7 @@ fn what_fails_as_printed_fails_in_exact_numbers() {
 fn what_no_precision_has_is_refused() {
     let refused = |scene: &str, variant, arithmetic, words: &str| {
         let error = solve(&Scene::open(scene).unwrap(), variant, arithmetic).unwrap_err();
-        assert_eq!(error.exit_status(), 2);
+        assert_eq!(error.exit_status().number(), 2);
         assert!(error.to_string().contains(words), "{error}");
     };
     let of = arithmetic;

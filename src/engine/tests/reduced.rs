@@ -7,7 +7,7 @@ use engine::linear::SparseCholesky;
 use engine::reduction::{ReducedState, Reduction};
 use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
-use problem::model::Model;
+use problem::model::{Model, NodeId, Restraint};
 use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Axis;
 
@@ -60,7 +60,7 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
     let state = ReducedState::new(&reduction, constraints).expect("the bodies are held");
-    let t = Elimination::closing(&model.restrained, constraints);
+    let t = Elimination::closing(model.restraints(), constraints);
     let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
         assert!(whole.amax() > 1e-3, "{what}");
@@ -132,4 +132,13 @@ fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {
     assert!(is_reduced(&[], &[300, 301]));
     assert!(!is_reduced(&[], &[20, 301]), "node 20 is not kept");
     assert!(!is_reduced(&[300, 301], &[]), "it slides away");
+}
+
+/// A node that is bound twice would leave an empty column, which reads as a singular matrix.
+#[test]
+#[should_panic(expected = "node 1 is bound once")]
+fn a_node_is_bound_once() {
+    let node = NodeId::new(0);
+    let constraint = Constraint { node, masters: Vec::new(), motion: Motion::Both([0.0; 2]) };
+    Elimination::new(&[Restraint::Free; 2], &[constraint.clone(), constraint]);
 }

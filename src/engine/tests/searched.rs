@@ -20,7 +20,7 @@ fn outcome(scene: &SceneBuilder) -> String {
             Detail::Unilateral(own) => own.statuses.iter().map(letter).collect(),
             Detail::Published(_) => unreachable!("unilateral was asked for"),
         },
-        Err(why) => format!("exit status {}", why.exit_status()),
+        Err(why) => format!("exit status {}", why.exit_status().number()),
     }
 }
 

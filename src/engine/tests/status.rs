@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use paper::door::{self, Call};
 use paper::mirror::{Cause, Failure, Pairs, Reading};
 use problem::element::Plane;
-use problem::model::{EdgeId, Model, NodeId};
+use problem::model::{EdgeId, Model, NodeId, Restraint};
 use problem::modelling::StatusRule::{Intersection, Signs};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -502,11 +502,11 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
     let node = model.contact.nodes[1];
     let reaction = DVector::from_element(model.dofs(), 3.0);
     let mut of = |restrained: [bool; 2], normal: [f64; 2], eliminated: bool| {
-        for (dof, is_restrained) in node.dofs().into_iter().zip(restrained) {
-            model.restrained[dof.index()] = is_restrained;
+        for (dof, is_fixed) in node.dofs().into_iter().zip(restrained) {
+            model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
         }
         let (edge, masters) = (EdgeId::new(0), Vec::new());
-        let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0 };
+        let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0, corner: 0.0 };
         reactions(&model, &[Some(pairing), None], &reaction, eliminated)
     };
     let (up, side, tilted) = ([0.0, 1.0], [1.0, 0.0], [0.6, 0.8]);

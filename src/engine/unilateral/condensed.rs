@@ -58,7 +58,8 @@ impl<'a> Condensed<'a> {
         let StateSearch { problem, config, setting } = search;
         let pairings = &config.pairings;
         let entries: Vec<usize> = (0..pairings.len()).filter(|i| pairings[*i].is_some()).collect();
-        if entries.len() > MOST {
+        let in_corner = pairings.iter().flatten().any(|p| p.corner > 0.0);
+        if entries.len() > MOST || in_corner {
             return None;
         }
         let held: Vec<Status> = (0..pairings.len())

@@ -1,7 +1,7 @@
 //! The linear complementarity problem w = M z + r, w ≥ 0, z ≥ 0, w z = 0, by complementary pivots.
 //!
 //! ```text
-//!   w = M z + d z0 + r      d > 0; z0 enters first, then the complement of what left, until z0 leaves
+//!   w = M z + d z0 + r      d > 0; z0 enters first, then the complement of what left, until z0 is 0
 //! ```
 //!
 //! Source: C. E. Lemke, Management Sci. 11 (1965) 681-689; ties by the lexicographic rule, R. W. Cottle, J.-S.
@@ -17,8 +17,9 @@ const FLAT: f64 = 1e-11;
 /// The number of pivots for each unknown after which the search ends: three are usual.
 const PATIENCE: usize = 20;
 
-/// What of a ratio is rounding: z0 leaves with others that come to 0 as it does.
-const TIE: f64 = 1e-9;
+/// What of z0, over its first value, is rounding: z0 leaves although another unknown came to 0 as it did. Measured
+/// where one node carries a body that turns: 1e-6 before that pivot, 1e-14 after it.
+const GONE: f64 = 1e-11;
 
 /// Returns which z are not 0 in a solution, by the way that d makes; None where the pivots end without one.
 pub(super) fn complementary(
@@ -37,15 +38,16 @@ pub(super) fn complementary(
     if r[row] >= 0.0 {
         return Some(vec![false; n]);
     }
-    let mut entering = z0;
+    let (first, mut entering) = (-r[row] / d[row], z0);
     for _ in 0..PATIENCE * n {
         pivot(&mut tableau, row, entering);
         let leaving = std::mem::replace(&mut basis[row], entering);
-        if leaving == z0 {
+        let is_left = |at: usize| basis[at] == z0 && tableau[(at, z0 + 1)] > GONE * first;
+        if !(0..n).any(is_left) {
             return Some((n..2 * n).map(|z| basis.contains(&z)).collect());
         }
         entering = (leaving + n) % z0;
-        row = first_at_zero(&tableau, &basis, entering, FLAT * m.amax())?;
+        row = first_at_zero(&tableau, entering, FLAT * m.amax())?;
     }
     None
 }
@@ -62,9 +64,9 @@ fn pivot(tableau: &mut DMatrix<f64>, row: usize, column: usize) {
     }
 }
 
-/// Returns the row whose unknown comes to 0 first as that of a column grows, that of z0 before others.
-fn first_at_zero(t: &DMatrix<f64>, basis: &[usize], column: usize, flat: f64) -> Option<usize> {
-    let n = basis.len();
+/// Returns the row whose unknown comes to 0 first as that of a column grows.
+fn first_at_zero(t: &DMatrix<f64>, column: usize, flat: f64) -> Option<usize> {
+    let n = t.nrows();
     let ratio = |row: usize, c: usize| t[(row, c)] / t[(row, column)];
     let last = 2 * n + 1;
     let in_order = |a: &usize, b: &usize| {
@@ -74,9 +76,5 @@ fn first_at_zero(t: &DMatrix<f64>, basis: &[usize], column: usize, flat: f64) ->
             .find_map(|c| Some(orders(c)).filter(|order| order.is_ne()))
             .unwrap_or(Ordering::Equal)
     };
-    let falls = |row: &usize| t[(*row, column)] > flat;
-    let first = (0..n).filter(falls).min_by(in_order)?;
-    let z0 = (0..n).find(|row| basis[*row] == 2 * n).filter(falls);
-    let ties = |row: &usize| ratio(*row, last) <= ratio(first, last) * (1.0 + TIE);
-    z0.filter(ties).or(Some(first))
+    (0..n).filter(|row| t[(*row, column)] > flat).min_by(in_order)
 }

@@ -24,7 +24,12 @@ const CLOSINGS: usize = 16;
 /// ones do not then either.
 const AT_THE_END: f64 = 1e-3;
 
+/// The part of the first stage that is a step of its own where friction alone holds bodies that overlap: so small
+/// that hardly anything slips in it, and its forces are far above rounding.
+const FIRST: f64 = 1e-3;
+
 /// A point of the path: what the next step starts from.
+#[derive(Clone)]
 struct Point {
     /// The part of the path that was applied; whole numbers end stages.
     load: f64,
@@ -40,71 +45,56 @@ impl Point {
     }
 }
 
+/// A load to which the path goes.
+struct Target {
+    to: f64,
+    /// Whether a step of the path ends there, or a part of one.
+    ends_step: bool,
+    /// How often the way there may still be halved.
+    halvings: usize,
+    /// The whole way there, until the first of its parts is taken.
+    whole: Option<Undivided>,
+}
+
+/// A step of the load before it was divided.
+struct Undivided {
+    from: Point,
+    found: Option<Equilibrium>,
+    iterations: Vec<Step>,
+    /// The numbers of iterations and of steps taken before it.
+    before: [usize; 2],
+}
+
 /// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one.
-/// Under friction nodes that overlap at the start come to touch before any load, the bodies as rigid ones where
-/// nothing presses them together, else in a step of its own: they would slip with its first part otherwise.
 ///
 /// # Errors
 /// No equilibrium was found, or nothing restrains the bodies.
 pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     problem.turns_nowhere()?;
     let with_friction = problem.friction > 0.0;
-    // Without friction only the whole load counts.
-    let stages = if with_friction { problem.model.stages.len() } else { 1 };
-    let per_stage = if with_friction { problem.request.contact.load_steps } else { 1 };
-    let total = stages * per_stage;
-    let mut point = Point { load: 0.0, u: DVector::zeros(problem.model.dofs()), statuses: None };
-    let mut run = Run {
-        problem,
-        watch,
-        steps: Vec::new(),
-        factored: 0,
-        halved: 0,
-        closings: 0,
-        start: Start::Held,
-        keeps_all: false,
-        taken: Vec::new(),
+    let stages = problem.stages();
+    let (steps, halvings) =
+        if with_friction { (problem.request.contact.load_steps, HALVINGS) } else { (1, 0) };
+    let keeps_all =
+        with_friction && problem.number_of_states(&problem.at_rest(), stages * steps).is_some();
+    let (factored, halved) = (0, 0);
+    let mut run =
+        Run { problem, watch, steps: Vec::new(), factored, halved, keeps_all, taken: Vec::new() };
+    let (start, from) = run.start()?;
+    let target = |step: usize| {
+        let to = step as f64 / steps as f64;
+        Target { to, ends_step: true, halvings, whole: None }
     };
-    if with_friction {
-        let config = problem.configuration(&point.u);
-        run.keeps_all = problem.number_of_states(&config, total).is_some();
-        if problem.overlaps(&config) {
-            run.start = Start::Closed;
-            if let Some(released) = problem.released()? {
-                (run.start, point.u) = released;
-            } else if let Ok(closed) = run.advance(&point, 0.0, 0) {
-                point = Point::after(0.0, closed);
-            } else {
-                run.steps.clear();
-                run.start = Start::Overlapping;
-            }
-        } else if !problem.is_held_initially(&config) {
-            run.start = Start::Loose;
-        }
-    }
-    for step in 1..=total {
-        let to = step as f64 / per_stage as f64;
-        let equilibrium = run.step_of_path(&point, to).map_err(|why| {
-            let may_slide = with_friction && matches!(why, Error::Equilibrium(_));
-            let slides = may_slide.then(|| problem.slides(&point.u, [point.load, to])).flatten();
-            slides.map_or_else(|| with_load(why, to, stages, step == total), Error::from)
-        })?;
-        problem.in_range([&point.u, &equilibrium.last.solution.u], [point.load, to])?;
-        if step == total {
-            let confirmed = run.confirmed(to, equilibrium);
-            let end = confirmed.map_err(|why| with_load(why, to, stages, true))?;
-            let path = with_friction.then(|| Path {
-                steps: per_stage,
-                stages,
-                halved: run.halved,
-                start: run.start,
-                changes: changes(&run.steps),
-            });
-            return Ok(run.solution(end, path));
-        }
-        point = Point::after(to, equilibrium);
-    }
-    unreachable!("a path has a last step")
+    let end = run.follow(from, (1..=stages * steps).rev().map(target).collect())?;
+    let end = run.confirmed(stages as f64, end)?;
+    let path = with_friction.then(|| Path {
+        steps,
+        stages,
+        halved: run.halved,
+        start,
+        changes: changes(&run.steps),
+    });
+    Ok(run.solution(end, path))
 }
 
 /// Returns the number of steps in which a node that was closed has another status at the end.
@@ -116,17 +106,6 @@ fn changes(steps: &[Step]) -> usize {
         statuses.any(|(before, after)| before.is_closed() && before != after)
     };
     ends.windows(2).filter(changed).count()
-}
-
-/// Adds to an error on the way to which load no equilibrium was found.
-fn with_load(why: Error, to: f64, stages: usize, at_the_end: bool) -> Error {
-    match why {
-        Error::Equilibrium(NoEquilibrium { cause, what }) if !at_the_end || stages > 1 => {
-            let what = format!("{what} (on the way to {})", part_of_load(to, stages));
-            NoEquilibrium { cause, what }.into()
-        }
-        other => other,
-    }
 }
 
 /// Names a part of the path, to three decimals: 1.5 of two stages is half of the second.
@@ -153,59 +132,173 @@ struct Run<'a> {
     factored: usize,
     /// The number of steps that were halved.
     halved: usize,
-    /// How often this step of the path may still be divided where nodes close.
-    closings: usize,
-    start: Start,
     /// Whether all steps are kept, or the last one alone.
     keeps_all: bool,
     taken: Vec<TakenStep>,
 }
 
 impl<'a> Run<'a> {
-    /// Takes a step of the path from a point to the load `to`: on springs where no equilibrium is found
-    /// without.
-    fn step_of_path(&mut self, from: &Point, to: f64) -> Result<Equilibrium, Error> {
-        let with_friction = self.problem.friction > 0.0;
-        self.closings = if with_friction { CLOSINGS } else { 0 };
-        match self.advance(from, to, if with_friction { HALVINGS } else { 0 }) {
-            Err(Error::Equilibrium(why)) if why.cause == Cause::NotFound => {
-                let found = self
-                    .step(from, to, Problem::on_springs)
-                    .map_err(|more| more.prefixed(&format!("{}; ", why.what)))?;
-                self.take(from, to, &found);
-                Ok(found)
-            }
-            found => found,
+    /// Returns where the path starts. Under friction nodes that overlap come to touch before any load, as they would
+    /// slip with its first part otherwise: the bodies as rigid ones where nothing presses them together, else in a
+    /// step of its own.
+    ///
+    /// # Errors
+    /// They come to touch in several ways.
+    fn start(&mut self) -> Result<(Start, Point), Error> {
+        let problem = self.problem;
+        let config = problem.at_rest();
+        let rest = Point { load: 0.0, u: DVector::zeros(problem.model.dofs()), statuses: None };
+        if problem.friction == 0.0 {
+            return Ok((Start::Held, rest));
+        }
+        if !problem.overlaps(&config) {
+            let held = problem.is_held_initially(&config);
+            return Ok((if held { Start::Held } else { Start::Loose }, rest));
+        }
+        match problem.released() {
+            Ok(Some((start, u))) => Ok((start, Point { u, ..rest })),
+            Ok(None) => match self.step(&rest, 0.0, Problem::equilibrium) {
+                Ok(closed) => {
+                    self.take(&rest, 0.0, &closed);
+                    Ok((Start::Closed, Point::after(0.0, closed)))
+                }
+                Err(_) => {
+                    self.steps.clear();
+                    Ok((Start::Overlapping, rest))
+                }
+            },
+            // In the initial geometry all contact states of a first small step say whether there is one way alone.
+            Err(several) => match self.step(&rest, FIRST, Problem::equilibrium) {
+                Ok(held) if !problem.is_current() => {
+                    self.take(&rest, FIRST, &held);
+                    let is_only = uniqueness(problem, &held, &self.taken).is_proven();
+                    let pressed = (Start::Pressed, Point::after(FIRST, held));
+                    is_only.then_some(pressed).ok_or(several.into())
+                }
+                Ok(_) | Err(_) => Err(several.into()),
+            },
         }
     }
 
-    /// Goes from a point to the load `to`: in two parts where a node closes in between, as friction
-    /// counts its slip from there, and in two halves where one step finds no equilibrium.
-    fn advance(&mut self, from: &Point, to: f64, halvings: usize) -> Result<Equilibrium, Error> {
-        let (done, taken) = (self.steps.len(), self.taken.len());
-        let found = self.step(from, to, Problem::equilibrium);
-        let (middle, halvings) = match &found {
-            Ok(Equilibrium { closing: Some(part), .. })
-                if self.closings > 0 && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
-            {
-                self.closings -= 1;
-                (from.load + part * (to - from.load), halvings)
+    /// Follows the path from a point through the targets `ahead`, the next one last; returns the equilibrium at
+    /// its end.
+    ///
+    /// Source: backward Euler with steps at events, as of E. Hairer, G. Wanner, *Solving Ordinary Differential
+    /// Equations II* (1996).
+    fn follow(&mut self, from: Point, mut ahead: Vec<Target>) -> Result<Equilibrium, Error> {
+        // Where the step of the path begins, what it has come to, and how often nodes that close may still divide it.
+        let (mut begin, mut at, mut closings) = (from.clone(), from, CLOSINGS);
+        loop {
+            // The whole way to the next target.
+            let target = ahead.last_mut().expect("the end of the path ends the loop");
+            let before = [self.steps.len(), self.taken.len()];
+            let found = self.step(&at, target.to, Problem::equilibrium);
+
+            // In two parts where a node closes in between, as friction counts its slip from there, and in two
+            // halves where no equilibrium is found.
+            let middle = match &found {
+                Ok(Equilibrium { closing: Some(part), .. })
+                    if self.problem.friction > 0.0
+                        && closings > 0
+                        && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
+                {
+                    closings -= 1;
+                    Some(at.load + part * (target.to - at.load))
+                }
+                Err(Error::Equilibrium(why))
+                    if target.halvings > 0 && why.cause == Cause::NotFound =>
+                {
+                    self.halved += 1;
+                    target.halvings -= 1;
+                    Some((at.load + target.to) / 2.0)
+                }
+                Ok(_) | Err(_) => None,
+            };
+            if let Some(to) = middle {
+                let first = Target { to, ends_step: false, whole: None, ..*target };
+                let (from, iterations) = (at.clone(), self.steps.split_off(before[0]));
+                target.whole = Some(Undivided { from, found: found.ok(), iterations, before });
+                ahead.push(first);
+                continue;
             }
-            Err(Error::Equilibrium(why)) if halvings > 0 && why.cause == Cause::NotFound => {
-                self.halved += 1;
-                ((from.load + to) / 2.0, halvings - 1)
+
+            // Where the first part of a step is not found, the whole step counts; where one of the path is not,
+            // that on springs.
+            let (from, found) = match found {
+                Ok(found) => (at, found),
+                Err(why) => match self.undivided(&mut ahead) {
+                    Some(whole) => whole,
+                    None => {
+                        let to = ahead.last().map_or(begin.load, |target| target.to);
+                        (begin.clone(), self.on_springs(&begin, to, why)?)
+                    }
+                },
+            };
+            let Target { to, ends_step, .. } = ahead.pop().expect("a target was reached");
+            self.take(&from, to, &found);
+
+            // The next target starts from there; the rest of a divided step cannot go back behind its first part.
+            if ends_step {
+                self.problem.in_range([&begin.u, &found.last.solution.u], [begin.load, to])?;
             }
-            _ => return found.inspect(|found| self.take(from, to, found)),
+            let Some(next) = ahead.last_mut() else { return Ok(found) };
+            next.whole = None;
+            at = Point::after(to, found);
+            if ends_step {
+                (begin, closings) = (at.clone(), CLOSINGS);
+            }
+        }
+    }
+
+    /// Goes back to the last step that was found before it was divided and whose first part is not taken; None
+    /// where there is none in this step of the path. Its target is the next one then.
+    fn undivided(&mut self, ahead: &mut Vec<Target>) -> Option<(Point, Equilibrium)> {
+        while let Some(target) = ahead.last_mut() {
+            if let Some(whole) = target.whole.take() {
+                self.steps.truncate(whole.before[0]);
+                self.steps.extend(whole.iterations);
+                self.taken.truncate(whole.before[1]);
+                if let Some(found) = whole.found {
+                    return Some((whole.from, found));
+                }
+            }
+            if target.ends_step {
+                return None;
+            }
+            ahead.pop();
+        }
+        None
+    }
+
+    /// Takes a step of the path on springs, as no equilibrium was found without.
+    ///
+    /// # Errors
+    /// None was found either, or it is known that there is none: under friction, whether the bodies slide.
+    fn on_springs(&mut self, from: &Point, to: f64, why: Error) -> Result<Equilibrium, Error> {
+        self.taken.retain(|part| part.to <= from.load);
+        let why = match why {
+            Error::Equilibrium(why) if why.cause == Cause::NotFound => {
+                match self.step(from, to, Problem::on_springs) {
+                    Ok(found) => return Ok(found),
+                    Err(more) => more.prefixed(&format!("{}; ", why.what)),
+                }
+            }
+            why => why,
         };
-        let whole = self.steps.split_off(done);
-        match self.advance(from, middle, halvings) {
-            Ok(equilibrium) => self.advance(&Point::after(middle, equilibrium), to, halvings),
-            Err(why) => {
-                self.steps.truncate(done);
-                self.steps.extend(whole);
-                self.taken.truncate(taken);
-                found.or(Err(why)).inspect(|found| self.take(from, to, found))
+        let may_slide = self.problem.friction > 0.0 && matches!(why, Error::Equilibrium(_));
+        let slides = may_slide.then(|| self.problem.slides(&from.u, [from.load, to])).flatten();
+        Err(slides.map_or_else(|| self.with_load(why, to), Error::from))
+    }
+
+    /// Adds to an error on the way to which load no equilibrium was found.
+    fn with_load(&self, why: Error, to: f64) -> Error {
+        let stages = self.problem.stages();
+        match why {
+            Error::Equilibrium(NoEquilibrium { cause, what }) if stages > 1 || to < 1.0 => {
+                let what = format!("{what} (on the way to {})", part_of_load(to, stages));
+                NoEquilibrium { cause, what }.into()
             }
+            why => why,
         }
     }
 
@@ -242,7 +335,8 @@ impl<'a> Run<'a> {
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
-        })?;
+        });
+        let end = end.map_err(|why| self.with_load(why, to))?;
         let k = self.steps.len();
         if let Some(last) = self.steps.last_mut() {
             *last = step(self.problem, (k, to), &load, &end.config, &end.last);
@@ -312,7 +406,7 @@ fn step(
     let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
     let at_supports = problem.supports.iter().copied();
     let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-    let support = support_force(problem.model, &problem.model.restrained, &reaction, load);
+    let support = support_force(problem.model, problem.model.restraints(), &reaction, load);
     let target_force = transmitted_force(problem.model, support);
     Step {
         k,

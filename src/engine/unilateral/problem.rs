@@ -163,7 +163,10 @@ impl<'a> Problem<'a> {
     pub(super) fn new(request: &'a Request, model: &'a Arc<Model>) -> Result<Self, InputError> {
         let surfaces = Arc::new(Surfaces::new(model)?);
         surfaces.check_initial_penetration(model)?;
-        let initial = Arc::new(surfaces.pairings(request.contact.coupling, &model.nodes));
+        let mut initial = surfaces.pairings(request.contact.coupling, &model.nodes);
+        // Where normals stay as they are, a node in a corner has one.
+        initial.iter_mut().flatten().for_each(|pairing| pairing.corner = 0.0);
+        let initial = Arc::new(initial);
         let stiffness = Stiffness::new(model, |x| x);
         let mut is_on_surface = vec![false; model.dofs()];
         let nodes = model.contact.nodes.iter().copied();
@@ -176,7 +179,7 @@ impl<'a> Problem<'a> {
             model,
             surfaces,
             closed: CLOSED * size(model),
-            supports: stiffness.about(&supports(model, &model.restrained)),
+            supports: stiffness.about(&supports(model, model.restraints())),
             surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
@@ -243,6 +246,16 @@ impl<'a> Problem<'a> {
         Configuration { shape: Arc::new(shape), pairings }
     }
 
+    /// Returns the target that each contact node faces before any load.
+    pub(super) fn at_rest(&self) -> Configuration {
+        self.configuration(&DVector::zeros(self.model.dofs()))
+    }
+
+    /// Returns the number of stages of the path: without friction only the whole load counts.
+    pub(super) fn stages(&self) -> usize {
+        if self.friction > 0.0 { self.model.stages.len() } else { 1 }
+    }
+
     /// Returns the gap of an entry after displacements `u`, along the normal of its place, length.
     fn gap(&self, pairing: &Pairing, u: &DVector<f64>) -> f64 {
         pairing.opening(|n| self.model.coordinates(n)) + pairing.opening(|n| n.components(u))
@@ -255,8 +268,44 @@ impl<'a> Problem<'a> {
 
     /// Returns the status with which an entry closes.
     pub(super) fn closing(&self, config: &Configuration, i: usize) -> Status {
-        let transmits = config.pairings[i].as_ref().is_some_and(|p| self.transmits_shear(p));
-        if transmits { Status::Stick } else { Status::Slip(Sense::Free) }
+        let holds = config.pairings[i].as_ref().is_some_and(|p| self.holding(p) > 0.0);
+        if holds { Status::Stick } else { Status::Slip(Sense::Free) }
+    }
+
+    /// Returns the tangential over the normal force up to which a node does not slide: that of friction, whose cone
+    /// in a concave corner is widened by the angle to the normals of both edges.
+    pub(super) fn holding(&self, pairing: &Pairing) -> f64 {
+        let friction = if self.transmits_shear(pairing) { self.friction } else { 0.0 };
+        // tan (a + b), without end from a right angle on.
+        let less = 1.0 - friction * pairing.corner;
+        if pairing.corner == 0.0 {
+            friction
+        } else if less > 0.0 {
+            (friction + pairing.corner) / less
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Turns the normal of each node that rests in a corner to its force, as far as the normals of the edges: without
+    /// friction it has no other one.
+    pub(super) fn along_forces(&self, config: &mut Configuration, last: &mut Iteration) {
+        for i in 0..last.statuses.len() {
+            let force = &mut last.solution.forces[i];
+            let rests = |p: &&Pairing| p.corner > 0.0 && last.statuses[i] == Status::Stick;
+            let Some(pairing) = config.pairings[i].as_ref().filter(rests) else { continue };
+            let (n, t, ends) = (pairing.normal, tangent(pairing), pairing.corner);
+            let slope = (force.tangent / force.normal).clamp(-ends, ends);
+            let [cos, sin] = [1.0, slope].map(|x| x / slope.hypot(1.0));
+            let normal = [0, 1].map(|d| cos * n[d] + sin * t[d]);
+            let [p, q] = [force.normal, force.tangent];
+            (force.normal, force.tangent) = (cos * p + sin * q, cos * q - sin * p);
+            if !self.transmits_shear(pairing) {
+                (last.statuses[i], force.tangent) = (Status::Slip(Sense::Free), 0.0);
+            }
+            let pairings = Arc::make_mut(&mut config.pairings);
+            pairings[i].iter_mut().for_each(|pairing| pairing.normal = normal);
+        }
     }
 
     /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node
@@ -311,8 +360,7 @@ impl<'a> Problem<'a> {
     /// touch.
     pub(super) fn coarse_facets(&self) -> Option<[f64; 2]> {
         let height = self.surfaces.facet_height(&self.model.nodes);
-        let start = self.configuration(&DVector::zeros(self.model.dofs()));
-        let gaps = self.initial_gaps(&start).into_iter().flatten();
+        let gaps = self.initial_gaps(&self.at_rest()).into_iter().flatten();
         let least = gaps.reduce(f64::min)?.abs();
         (self.closed < least && height > COARSE * least).then_some([height, least])
     }
@@ -343,6 +391,11 @@ impl StateSearch<'_> {
                 Status::Stick => {
                     let ([tx, ty], [bx, by]) =
                         (tangent(pairing), pairing.motion(|n| n.components(setting.before)));
+                    let [bx, by] = if pairing.corner > 0.0 {
+                        pairing.motion(|n| problem.model.coordinates(n)).map(|x| -x)
+                    } else {
+                        [bx, by]
+                    };
                     let kept = tx * bx + ty * by;
                     let [nx, ny] = pairing.normal;
                     Motion::Both([closing * nx + kept * tx, closing * ny + kept * ty])

@@ -55,7 +55,7 @@ impl<'a> HeldBodies<'a> {
         load: &'a DVector<f64>,
         constraints: &[Constraint],
     ) -> Result<Self, Unheld> {
-        let t = Elimination::closing(&problem.model.restrained, constraints);
+        let t = Elimination::closing(problem.model.restraints(), constraints);
         match SparseCholesky::new(problem.stiffness.reduced(&t)) {
             Ok(factors) => Ok(HeldBodies::Whole { problem, t, load, factors: Box::new(factors) }),
             Err(singular) => Err(Unheld { t, singular }),

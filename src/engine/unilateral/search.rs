@@ -57,12 +57,12 @@ impl Problem<'_> {
         let mut last_place = None;
         for _ in 0..SHAPES {
             history.move_on();
-            let config = self
+            let mut config = self
                 .configuration(before.as_ref().map_or(setting.before, |(solution, _)| &solution.u));
             if before.is_none() {
                 gaps = self.gaps(&config, setting.before);
             }
-            let last =
+            let mut last =
                 self.search(&config, setting).settle(start, &mut history, &mut keep_first)?;
             let shape_change = match &before {
                 _ if !self.is_current() => 0.0,
@@ -73,6 +73,7 @@ impl Problem<'_> {
             let scale = largest(last.solution.u.as_slice());
             if shape_change <= SETTLED * scale || (stalled && shape_change <= STALLED * scale) {
                 let closing = first.and_then(|first| self.first_closing(&gaps, &first, &last));
+                self.along_forces(&mut config, &mut last);
                 return Ok(Equilibrium { config, last, closing, shape_change, springs: None });
             }
             start = Some(last.statuses);
@@ -245,9 +246,14 @@ impl StateSearch<'_> {
                 }
                 // A normal force may be less than nothing by rounding.
                 Status::Stick
-                    if tangent.abs() > self.problem.friction * normal.abs() * (1.0 + CONE) =>
+                    if tangent.abs()
+                        > self.problem.holding(pairing) * normal.abs() * (1.0 + CONE) =>
                 {
-                    Status::Slip(if tangent > 0.0 { Sense::Backward } else { Sense::Forward })
+                    Status::Slip(match self.problem.transmits_shear(pairing) {
+                        false => Sense::Free,
+                        true if tangent > 0.0 => Sense::Backward,
+                        true => Sense::Forward,
+                    })
                 }
                 Status::Slip(sense) if sense.sign() * self.slip(pairing, iteration) < -rounding => {
                     Status::Stick
@@ -276,6 +282,7 @@ impl StateSearch<'_> {
                     .into_iter()
                     .collect(),
                 (Status::Stick | Status::Slip(_), Some(_)) if undetermined => Vec::new(),
+                (Status::Stick, Some(pairing)) if pairing.corner > 0.0 => vec![pressed],
                 (Status::Stick, Some(_)) => vec![pressed, (Margin::Friction, left.abs() / force)],
                 (Status::Slip(sense), Some(pairing)) if sense.sign() != 0.0 => {
                     vec![pressed, (Margin::Slip, self.slip(pairing, iteration).abs() / moved)]

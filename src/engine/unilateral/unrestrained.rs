@@ -31,8 +31,7 @@ impl Problem<'_> {
     /// Says that nothing opposes a motion of a body as a rigid one.
     pub(super) fn escapes(&self, dof: Dof) -> NoEquilibrium {
         let (node, direction) = (self.named(dof.node()), dof.axis());
-        let start = self.configuration(&DVector::zeros(self.model.dofs()));
-        let gaps = self.initial_gaps(&start).into_iter().flatten();
+        let gaps = self.initial_gaps(&self.at_rest()).into_iter().flatten();
         let least = gaps.reduce(f64::min).filter(|least| *least > self.closed);
         let apart = least.map_or(String::new(), |least| {
             format!(", whose surfaces are at least {} apart,", six_digits(least))
@@ -71,7 +70,7 @@ impl Problem<'_> {
         }
         let [_, part] = bisected([0.0, 1.0], |part| first(part).is_none());
         let triangle = first(part).expect("it was at the end of the range");
-        let stages = if self.friction > 0.0 { self.model.stages.len() } else { 1 };
+        let stages = self.stages();
         let what = format!(
             "triangle {triangle} is turned inside out under about {}, where its displacements between \
              two steps are taken to grow with the load{}",
@@ -159,7 +158,8 @@ impl Problem<'_> {
         let what = format!(
             "the start is not determined: before any load bodies overlap that contact alone holds, as at {}; \
              they come apart in many ways, in none the load holds them without friction or all that overlap touch \
-             without slip, and friction counts from there; restrain the body until one motion at most is free, or move it until it touches",
+             without slip, nor is one known to be the only one in which friction holds them, and friction counts from \
+             there; restrain the body until one motion at most is free, or move it until it touches",
             self.model
                 .all_dofs()
                 .nth(motion.iamax())
@@ -310,7 +310,7 @@ impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
         let Problem { model, stiffness, .. } = self.problem;
-        let t = Elimination::closing(&model.restrained, &self.constraints(statuses));
+        let t = Elimination::closing(model.restraints(), &self.constraints(statuses));
         let singular = SparseCholesky::new(stiffness.reduced(&t)).err()?;
         Some(t.dof(singular.column).node())
     }

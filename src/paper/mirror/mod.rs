@@ -15,6 +15,7 @@
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 mod ambiguity;
+mod by_name;
 mod c_cnt;
 mod conditions;
 mod failure;
@@ -22,7 +23,7 @@ mod km;
 mod reading;
 mod worksheet;
 
-pub use ambiguity::{Ambiguity, Change, DefaultFrom, Trial, Value};
+pub use ambiguity::{Change, DefaultFrom, Trial, Value};
 pub use c_cnt::{Pairs, c_cnt, distances, edge_box, own_weights, status, weights, weights_from};
 pub use conditions::{
     Comparison, Operand, and, is_in_box, is_jumped_after, is_jumped_before, is_near,
@@ -30,6 +31,7 @@ pub use conditions::{
 pub use failure::{Cause, Failure};
 pub use km::Km;
 pub use reading::{
-    LoopPlace, NodeTable, READINGS, Reading, RestraintIndex, Schedule, ToleranceUnit, Wedge,
+    Ambiguity, LoopPlace, NodeTable, READINGS, Reading, RestraintIndex, Schedule, ToleranceUnit,
+    Wedge,
 };
 pub use worksheet::Worksheet;

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ambiguity::{Ambiguity, Change, DefaultFrom, Trial, Value, field, values};
+use super::ambiguity::{self, Change, DefaultFrom, Trial, Value, field, values};
 use base::choices;
 use mathcad::Conjunction;
 use problem::element::Plane;
@@ -164,6 +164,9 @@ const STRAIN_FORMULAS: [Value; 2] = [
         Change::None,
     ),
 ];
+
+/// Something that the print leaves open: a row of [`READINGS`].
+pub type Ambiguity = ambiguity::Ambiguity<Reading>;
 
 /// All ambiguities of the print, in the order of their ids.
 pub const READINGS: [Ambiguity; 10] = [

@@ -85,6 +85,25 @@ pub enum Element {
     Triangle(TriangleId),
 }
 
+/// What holds a degree of freedom. What a member means for equations is said where it is matched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Restraint {
+    /// Nothing: it has an equation.
+    Free,
+    /// Its displacement is 0.
+    Fixed,
+}
+
+impl Restraint {
+    /// Returns whether it leaves the degree of freedom an equation.
+    pub const fn is_free(self) -> bool {
+        match self {
+            Restraint::Free => true,
+            Restraint::Fixed => false,
+        }
+    }
+}
+
 /// The finite element model. Lengths, forces and stresses are in any consistent unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
@@ -102,10 +121,10 @@ pub struct Model {
     pub sides: Sides,
     /// The edges that the mesh names, by ascending number.
     pub edges: Vec<Edge>,
-    /// Whether each degree of freedom is restrained to 0.
-    pub restrained: Vec<bool>,
+    /// What holds each degree of freedom.
+    pub(crate) restraints: Vec<Restraint>,
     /// The nodes that belong to no triangle, ascending: no equation has them, and both of their degrees
-    /// of freedom count as restrained.
+    /// of freedom count as fixed.
     pub dropped: Vec<NodeId>,
     /// The parts of the load, as the scene states them.
     pub forces: Vec<Force>,
@@ -175,9 +194,25 @@ impl Model {
         self.triangle(id).nodes.map(|node| self.coordinates(node))
     }
 
-    /// Returns whether a degree of freedom is restrained.
+    /// Returns what holds each degree of freedom.
+    pub fn restraints(&self) -> &[Restraint] {
+        &self.restraints
+    }
+
+    /// Sets what holds a degree of freedom.
+    pub fn restrain(&mut self, dof: Dof, restraint: Restraint) {
+        self.restraints[dof.index()] = restraint;
+    }
+
+    /// Adds a node that belongs to no triangle, with what holds both of its displacements.
+    pub fn add_node(&mut self, at: [f64; 2], restraint: Restraint) {
+        self.nodes.push(at);
+        self.restraints.extend([restraint; 2]);
+    }
+
+    /// Returns whether a degree of freedom is restrained: it has no equation.
     pub fn is_restrained(&self, dof: Dof) -> bool {
-        self.restrained[dof.index()]
+        !self.restraints[dof.index()].is_free()
     }
 
     /// Returns which of a node's two displacements are restrained.
@@ -187,7 +222,7 @@ impl Model {
 
     /// Returns the number of degrees of freedom that are not restrained.
     pub fn free_dofs(&self) -> usize {
-        self.restrained.iter().filter(|restrained| !**restrained).count()
+        self.restraints.iter().filter(|restraint| restraint.is_free()).count()
     }
 
     /// Returns the load by degree of freedom, restrained ones included, force, computed in T from
@@ -210,7 +245,7 @@ impl Model {
 
     /// Returns a load by degree of freedom with 0 at restrained ones, force.
     pub fn free_part<T: Scalar>(&self, load: &DVector<T>) -> DVector<T> {
-        let free = |e, _| if self.restrained[e] { T::zero() } else { load[e] };
+        let free = |e: usize, _| if self.restraints[e].is_free() { load[e] } else { T::zero() };
         DVector::from_fn(self.dofs(), free)
     }
 

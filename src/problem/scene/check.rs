@@ -6,7 +6,7 @@ use super::description::{Axis, Description};
 use super::groups::Groups;
 use super::mesh::Mesh;
 use super::surface;
-use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId};
+use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Restraint};
 use crate::modelling::{check_iterations, check_tolerance};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
@@ -58,15 +58,15 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
     found.collect()
 }
 
-/// Returns whether each degree of freedom is restrained.
+/// Returns what holds each degree of freedom.
 ///
 /// # Errors
 /// A restraint names no place or two, or a node or group that does not exist.
-pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<bool>> {
-    let mut restrained = vec![false; 2 * mesh.nodes.len()];
+pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<Restraint>> {
+    let mut restraints = vec![Restraint::Free; 2 * mesh.nodes.len()];
     let mut restrain = |n: usize, axis: &Axis| {
         let [x, y] = NodeId::from_number(n).dofs();
-        restrained[if *axis == Axis::X { x } else { y }.index()] = true;
+        restraints[if *axis == Axis::X { x } else { y }.index()] = Restraint::Fixed;
     };
     // Many restraints may name one group, which has many nodes.
     let mut done = HashSet::new();
@@ -93,7 +93,7 @@ pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Ve
             }
         }
     }
-    Ok(restrained)
+    Ok(restraints)
 }
 
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.

@@ -142,8 +142,9 @@ impl Scene {
         let materials = check::materials(&mesh, &physical, &description)?;
         let kinds = &description.materials.0;
         let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
-        let mut restrained = check::restraints(&mesh, &physical, &description)?;
-        dropped.iter().flat_map(|n| n.dofs()).for_each(|dof| restrained[dof.index()] = true);
+        let mut restraints = check::restraints(&mesh, &physical, &description)?;
+        let of_dropped = dropped.iter().flat_map(|n| n.dofs());
+        of_dropped.for_each(|dof| restraints[dof.index()] = model::Restraint::Fixed);
         let mut triangles = Vec::with_capacity(materials.len());
         triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| {
             let Material { e, nu } = kinds[*kind as usize].1;
@@ -166,7 +167,7 @@ impl Scene {
             rows: rows(&mesh),
             triangles,
             sides,
-            restrained,
+            restraints,
             dropped,
         };
         fold::check(&mesh, &model)?;

@@ -11,8 +11,8 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
-    TriangleId, unordered,
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Restraint, Row, Sides,
+    Triangle, TriangleId, unordered,
 };
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
@@ -51,7 +51,16 @@ pub fn half(scene: &Scene) -> Option<Half> {
         triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
     let nodes: Vec<NodeId> = nodes.into_iter().collect();
     let model = Restriction::new(&mirror, &nodes, &triangles).model();
-    let scene = Scene { model: Arc::new(model), source: None, ..scene.clone() };
+    let scene = Scene {
+        name: scene.name.clone(),
+        title: scene.title.clone(),
+        units: scene.units.clone(),
+        model: Arc::new(model),
+        iterations: scene.iterations,
+        variant: scene.variant,
+        contact: scene.contact,
+        source: None,
+    };
     Some(Half { scene, nodes, triangles, at: mirror.at })
 }
 
@@ -151,8 +160,14 @@ impl<'a> Mirror<'a> {
                 (nx + mx).abs() <= near && (ny - my).abs() <= near
             })
         };
-        let same_restraints =
-            |n: NodeId| model.restraints_of(n) == model.restraints_of(images.image(n));
+        let of = |dof: Dof| model.restraints[dof.index()];
+        let same_restraints = |n: NodeId| {
+            let mut pairs = n.dofs().into_iter().zip(images.image(n).dofs());
+            pairs.all(|(one, other)| match (of(one), of(other)) {
+                (Restraint::Free, Restraint::Free) | (Restraint::Fixed, Restraint::Fixed) => true,
+                (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
+            })
+        };
         model.node_ids().all(same_restraints) && model.stages.iter().all(same_load)
     }
 }
@@ -191,7 +206,7 @@ impl<'a> Restriction<'a> {
             sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
             triangles,
             edges: edges.collect(),
-            restrained: self.dofs().map(|dof| self.is_restrained(dof)).collect(),
+            restraints: self.dofs().map(|dof| self.restraint(dof)).collect(),
             forces: NodeId::all(self.nodes.len()).map(force).collect(),
             load,
             stages: whole.stages.iter().map(|stage| self.load(stage)).collect(),
@@ -213,8 +228,11 @@ impl<'a> Restriction<'a> {
         self.mirror.side(dof.node()) == 0
     }
 
-    fn is_restrained(&self, dof: Dof) -> bool {
-        dof.direction() == 0 && self.on_line(dof) || self.mirror.model.is_restrained(dof)
+    fn restraint(&self, dof: Dof) -> Restraint {
+        match self.mirror.model.restraints[dof.index()] {
+            Restraint::Free if dof.direction() == 0 && self.on_line(dof) => Restraint::Fixed,
+            own => own,
+        }
     }
 
     /// Returns the half of a load: of a force on the line half along it and none across it, force.

@@ -414,13 +414,14 @@ impl Translator<'_> {
 
     fn all(&self, operands: &[Expr]) -> String {
         let mut operands: Vec<&Expr> = operands.iter().collect();
-        if self.conjunction == Conjunction::Guarded {
-            operands.sort_by_key(|x| self.can_fail(x));
+        match self.conjunction {
+            Conjunction::Guarded => operands.sort_by_key(|x| self.can_fail(x)),
+            Conjunction::LeftToRight | Conjunction::Eager => (),
         }
         let text: Vec<_> = operands.into_iter().map(|x| self.expr(x)).collect();
         match self.conjunction {
             Conjunction::Eager => format!("all([{}])", text.join(", ")),
-            _ => text.join(" && "),
+            Conjunction::Guarded | Conjunction::LeftToRight => text.join(" && "),
         }
     }
 

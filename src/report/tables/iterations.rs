@@ -86,6 +86,13 @@ fn released(start: Start) -> Option<String> {
         Start::Held | Start::Closed | Start::Loose | Start::Overlapping => return None,
         Start::Released => "to where a vanishing load holds them without friction",
         Start::Unslipped => "so that all nodes that overlapped touch and none slipped",
+        Start::Pressed => {
+            return Some(
+                "The start is not determined by the overlap: it is the only contact state of all in which friction \
+                 holds the bodies under the first thousandth of the load; friction counts from there"
+                    .into(),
+            );
+        }
     };
     Some(format!(
         "The start is not determined by the overlap: before any load the bodies were moved apart as rigid \
@@ -119,7 +126,7 @@ fn why_unknown(path: &Path, assessment: &Assessment) -> &'static str {
             "unknown: nodes that overlap the target close with the first step, as no equilibrium was \
              found without load"
         }
-        Start::Held | Start::Closed | Start::Released | Start::Unslipped => {
+        Start::Held | Start::Closed | Start::Released | Start::Unslipped | Start::Pressed => {
             match (path.steps % 2, &assessment.estimates) {
                 (1, _) => "unknown: it takes an even number of steps",
                 (_, None) => "not asked for",

@@ -8,7 +8,7 @@ use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Compared};
 use crate::audit::range::{Range, range};
-use crate::audit::{Audit, Case, audit, steps};
+use crate::audit::{Audit, Case, audit, screen, steps};
 use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
 use ::report::folder::FolderOptions;
 use ::report::{folder, pressure};
@@ -21,27 +21,31 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting};
+use commands::{
+    ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting, width,
+};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-First the conclusion: five answers, each with its number and the command that prints it. Then the
-claims of the paper with their verdicts, how far each reaches, and what they assume; then three
-tables: the readings (what each other value changes), the findings (present, not triggered here,
-contradicted; with a number), and the variants side by side. --finding explains one on its smallest
+One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its statements,
+what each fault costs, what was assumed. --full prints the whole: five answers, each with its number and
+the command that prints it; the claims of the paper in full; the readings (what each other value
+changes), the findings (present, not triggered here, contradicted; with a number), and the variants side
+by side. --finding explains one on its smallest
 scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
 threshold, value, and the verdict under each other reading. --reading audits under another reading
 than the default, to see whether it rescues a claim. All figures are repeated on inputs that
 mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
 takes 150 to 300 times as long as solve.
 
-A variant that runs to its end and passes no load on, as printed does, is an audit result with exit
-status 0: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
+A variant that runs to its end and passes no load on, as printed does, is an audit result, no
+failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
 Examples:
   plane-contact audit
   plane-contact audit fig1 --json
+  plane-contact audit fig1 --full
   plane-contact audit --range
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
@@ -76,6 +80,9 @@ pub struct Args {
     /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
     #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
+    /// Print everything: conclusion, claims, prices, readings, findings and variants.
+    #[arg(long, conflicts_with_all = ["finding", "claim", "prices"])]
+    full: bool,
     #[command(flatten)]
     reading: ReadingArg,
     #[command(flatten)]
@@ -217,7 +224,14 @@ fn whole(args: &Args) -> Result<()> {
     if let Some(out) = &args.out {
         write(out, &case, &found, &report.text(usize::MAX), &json)?;
     }
-    if args.tables.json { print(&json) } else { args.tables.print(report) }
+    if args.tables.json {
+        return print(&json);
+    }
+    if args.full {
+        return args.tables.print(report);
+    }
+    args.tables.write(&report)?;
+    print(&screen::report(&found, &conclusion, &case.scene).text(width().min(screen::WIDTH)))
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

@@ -8,10 +8,11 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict, nearest as least};
+use super::evidence::NoFigures;
 use super::findings::{Evidence, Finding, Verdict};
 use super::range::{Parameter, distinct};
 use super::variants::{End, VariantRow};
-use super::{Assumption, Audit, BY_ROUNDING, Case};
+use super::{Assumption, Audit, Case};
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, over, summaries};
 use paper::corrected::FAULTS;
@@ -46,8 +47,8 @@ pub struct Coupled {
     pub joins: Option<usize>,
     /// The force that contact passes on at the end of `printed` over the load; nothing where it stops.
     pub share: Option<f64>,
-    /// Why `printed` stops.
-    pub failure: Option<String>,
+    /// Why `printed` has no such force.
+    pub failure: Option<NoFigures>,
 }
 
 /// The runs of the paper's algorithm, and those of them that are nearest to the equilibrium.
@@ -132,7 +133,8 @@ fn coupled(audit: &Audit) -> Coupled {
         Some(End::Failure { failure }) => (None, Some(failure.clone())),
         None => (None, None),
     };
-    Coupled { joins: joins.map(|(_, measured)| measured.number as usize), share, failure }
+    let joins = joins.and_then(|(_, measured)| measured.number);
+    Coupled { joins: joins.map(|joins| joins as usize), share, failure }
 }
 
 /// Returns the rows of the paper's variants, with their places.
@@ -142,7 +144,7 @@ fn of_the_paper(rows: &[VariantRow]) -> impl Iterator<Item = (usize, &VariantRow
 
 /// Finds the nearest of all variants and readings; runs that end alike count once.
 fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
-    let mut failures: Vec<&str> = Vec::new();
+    let mut failures: Vec<&NoFigures> = Vec::new();
     let mut found: Vec<NearRun> = Vec::new();
     for (k, VariantRow { variant, end }) in of_the_paper(&audit.variants) {
         match end {
@@ -162,7 +164,7 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
         if effect.id == "R7" && base.r7.is_none() && variant != Variant::Printed {
             continue;
         }
-        failures.extend(effect.failure.as_deref());
+        failures.extend(&effect.failure);
         let Some(energy) = effect.equilibrium_error else { continue };
         let run = NearRun {
             variant,
@@ -178,8 +180,8 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
     }
     let distances: Vec<(f64, &NearRun)> = found.iter().map(|run| (run.energy, run)).collect();
     let least = least(&distances)?;
-    let by_rounding = failures.iter().filter(|why| **why == BY_ROUNDING).count();
-    let stopped: BTreeSet<&str> = failures.into_iter().filter(|why| *why != BY_ROUNDING).collect();
+    let by_rounding = failures.iter().filter(|why| ***why == NoFigures::Rounding).count();
+    let stopped: BTreeSet<&str> = failures.iter().filter_map(|why| why.failure()).collect();
     let ended: BTreeSet<u64> = found.iter().map(|run| run.energy.to_bits()).collect();
     Some(Nearest {
         tried: ended.len() + apart.len() + stopped.len() + by_rounding,
@@ -212,7 +214,8 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     Some(Fields {
         variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
         difference: differences.map(f64::abs).filter(|x| x.is_finite()).reduce(f64::max),
-        by_rounding: of_the_paper(rows).any(|(_, row)| row.end.is_by_rounding()),
+        by_rounding: of_the_paper(rows)
+            .any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
         errors: Estimates::new(equilibrium).errors,
         theirs,
         own,

@@ -5,10 +5,12 @@ mod case;
 pub mod claims;
 pub(crate) mod command;
 pub mod conclusion;
+pub mod evidence;
 pub mod findings;
 pub mod prices;
 pub mod range;
 pub mod readings;
+pub mod screen;
 pub mod tables;
 pub mod variants;
 
@@ -22,15 +24,13 @@ use claims::{CLAIMS, JudgedClaim, UnderReading};
 use engine::contact::ContactNode;
 use engine::estimates::{Perturbed, perturbed};
 use engine::{BodySummary, NearestDecision, Solution, solve, summaries};
+use evidence::NoFigures;
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
 use problem::modelling::{ContactModel, Friction, Variant};
 use range::Range;
 use readings::Effect;
 use variants::VariantRow;
-
-/// What is said in place of a figure that inputs of the same meaning change ([`Case::equivalents`]).
-pub const BY_ROUNDING: &str = "decided by rounding";
 
 /// The results of an audit.
 pub struct Audit {
@@ -67,7 +67,7 @@ pub struct FrictionContact {
     /// The coefficient.
     pub friction: Friction,
     /// The contact nodes in contact; or why there is no equilibrium.
-    pub nodes: Result<Vec<ContactNode>, String>,
+    pub nodes: Result<Vec<ContactNode>, NoFigures>,
 }
 
 /// A solution that others are compared with, in short.
@@ -77,6 +77,8 @@ pub struct Compared {
     pub model: ContactModel,
     /// How many contact nodes are in contact.
     pub in_contact: usize,
+    /// The force that contact passes on over the size of the whole load; 0 without a load.
+    pub target_share: f64,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
     /// The decision of its contact state that is nearest to another one.
@@ -140,6 +142,7 @@ fn compared(solution: &Solution) -> Compared {
     Compared {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
+        target_share: variants::target_share(solution),
         bodies: summaries(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: perturbed(solution),
@@ -153,9 +156,9 @@ fn friction(case: &Case) -> Vec<FrictionContact> {
         let request = case.request(Variant::Unilateral).equilibrium();
         let contact = ContactModel { friction, ..request.contact };
         let solution = solve(&request.contact(contact), &mut |_| ());
-        let nodes = solution.map_err(|why| why.to_string()).and_then(|solution| {
+        let nodes = solution.map_err(NoFigures::fails).and_then(|solution| {
             match perturbed(&solution).is_some_and(|found| found.decides()) {
-                true => Err(BY_ROUNDING.to_string()),
+                true => Err(NoFigures::Rounding),
                 false => Ok(solution.in_contact().cloned().collect()),
             }
         });

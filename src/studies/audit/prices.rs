@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Case;
+use super::evidence::Measured;
 use super::range::{ParameterValue, Range};
 use base::choices;
 use engine::contact::{Sense, Status};
@@ -127,16 +128,6 @@ impl Outcome {
         }
     }
 
-    /// Returns whether an outcome of inputs that mean the same is another one.
-    fn moves(&self, other: &Self) -> bool {
-        match (self.figures(), other.figures()) {
-            (Some(own), Some(other)) => {
-                own.iter().zip(&other).any(|(own, other)| moves(*own, *other, SCALE))
-            }
-            (own, other) => own.is_some() != other.is_some(),
-        }
-    }
-
     fn figures(&self) -> Option<[Option<f64>; 7]> {
         match self {
             Outcome::Result {
@@ -175,6 +166,21 @@ impl Outcome {
             Outcome::NoFault {} => 0.0,
             Outcome::Failure { .. } | Outcome::Rounding {} => f64::INFINITY,
         }
+    }
+}
+
+impl Measured for Outcome {
+    fn moves(&self, other: &Self) -> bool {
+        match (self.figures(), other.figures()) {
+            (Some(own), Some(other)) => {
+                own.iter().zip(&other).any(|(own, other)| moves(*own, *other, SCALE))
+            }
+            (own, other) => own.is_some() != other.is_some(),
+        }
+    }
+
+    fn by_rounding(self) -> Self {
+        Outcome::Rounding {}
     }
 }
 
@@ -291,8 +297,8 @@ impl Compared {
 
     /// Leaves out the figures of an outcome where inputs that mean the same lead to others.
     fn repeated(&self, edits: &[&str], outcome: Outcome) -> Outcome {
-        let moved = |model: &Arc<Model>| outcome.moves(&self.run(model, edits));
-        if self.equivalents.par_iter().any(moved) { Outcome::Rounding {} } else { outcome }
+        let others = self.equivalents.par_iter().map(|model| self.run(model, edits));
+        outcome.repeated(others.collect::<Vec<_>>().into_iter())
     }
 
     /// The largest displacement of a run that has a result: a body that nothing holds moves farther.

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::BY_ROUNDING;
 use super::case::Case;
+use super::evidence::{Measured, NoFigures};
 use super::findings::ROUNDING;
 use engine::error::Error;
 use engine::estimates::moves;
@@ -36,6 +36,9 @@ pub struct Effect {
     /// The distance in the energy norm, relative, of the run under this reading from the equilibrium;
     /// nothing where there is no equilibrium, and where the reading has no run of its own.
     pub equilibrium_error: Option<f64>,
+    /// The largest displacement of the variant's own run, length; 1 where there is none.
+    #[serde(skip)]
+    size: f64,
     /// The variant that was run under this reading; nothing where none was.
     #[serde(skip)]
     pub variant: Option<Variant>,
@@ -45,7 +48,7 @@ pub struct Effect {
     /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,
     /// Why the reading cannot be run on this scene, or that rounding decides on its figures.
-    pub failure: Option<String>,
+    pub failure: Option<NoFigures>,
 }
 
 /// Nothing where a trial runs through, else what stopped it.
@@ -58,8 +61,7 @@ pub fn effects(case: &Case) -> Vec<Effect> {
     let effect = |(row, other)| {
         let mut effects =
             equivalents.iter().map(|(case, blank)| Effect::new(row, other, case, blank));
-        let own = effects.next().expect("the case itself");
-        if effects.any(|other| own.moves(&other, case)) { own.without_figures() } else { own }
+        effects.next().expect("the case itself").repeated(effects)
     };
     others(case).into_par_iter().map(effect).collect()
 }
@@ -117,6 +119,12 @@ impl Effect {
         blank: &Blank,
     ) -> Self {
         let own = case.published_variant();
+        let variant = match row.trial {
+            Trial::OwnVariant | Trial::EveryShape => Some(own),
+            Trial::Printed => Some(Variant::Printed),
+            Trial::Worksheet | Trial::Strains => None,
+        };
+        let run = variant.and_then(|variant| case.run(variant).ok());
         let mut effect = Effect {
             id: row.id,
             reading: row.label(value),
@@ -125,11 +133,8 @@ impl Effect {
             entries: None,
             displacement: None,
             equilibrium_error: None,
-            variant: match row.trial {
-                Trial::OwnVariant | Trial::EveryShape => Some(own),
-                Trial::Printed => Some(Variant::Printed),
-                Trial::Worksheet | Trial::Strains => None,
-            },
+            size: run.map_or(1.0, |run| max_displacement(&run.u)),
+            variant,
             apart: false,
             of: match row.trial {
                 Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
@@ -146,7 +151,7 @@ impl Effect {
             Trial::Worksheet => effect.worksheet(case, blank, value.change),
             Trial::Strains => effect.strains(case, own),
         };
-        effect.failure = outcome.err().map(|why| why.to_string());
+        effect.failure = outcome.err().map(NoFigures::fails);
         effect
     }
 
@@ -222,34 +227,33 @@ impl Effect {
         self.entries = Some(entries.filter(|(a, b)| (*a - *b).abs() > least).count());
     }
 
-    /// Whether inputs that mean the same lead to other figures.
-    fn moves(&self, other: &Self, case: &Case) -> bool {
-        let counts = |effect: &Self| [effect.statuses, effect.entries];
-        let run = self.variant.and_then(|variant| case.run(variant).ok());
-        let size = run.map_or(1.0, |run| max_displacement(&run.u));
-        self.failure.is_some() != other.failure.is_some()
-            || counts(self) != counts(other)
-            || moves(self.displacement, other.displacement, size)
-            || moves(self.equilibrium_error, other.equilibrium_error, 1.0)
-    }
-
-    fn without_figures(self) -> Self {
-        Effect {
-            statuses: None,
-            entries: None,
-            displacement: None,
-            equilibrium_error: None,
-            failure: Some(BY_ROUNDING.into()),
-            ..self
-        }
-    }
-
     /// Whether anything of the result depends on the reading.
     pub fn changes(&self) -> bool {
         self.failure.is_some()
             || self.statuses.is_some_and(|n| n > 0)
             || self.entries.is_some_and(|n| n > 0)
             || self.displacement.is_some_and(|d| d > 0.0)
+    }
+}
+
+impl Measured for Effect {
+    fn moves(&self, other: &Self) -> bool {
+        let counts = |effect: &Self| [effect.statuses, effect.entries];
+        self.failure.is_some() != other.failure.is_some()
+            || counts(self) != counts(other)
+            || moves(self.displacement, other.displacement, self.size)
+            || moves(self.equilibrium_error, other.equilibrium_error, 1.0)
+    }
+
+    fn by_rounding(self) -> Self {
+        Effect {
+            statuses: None,
+            entries: None,
+            displacement: None,
+            equilibrium_error: None,
+            failure: Some(NoFigures::Rounding),
+            ..self
+        }
     }
 }
 

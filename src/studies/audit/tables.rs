@@ -8,12 +8,13 @@ use crate::audit::claims::table as claims;
 use crate::audit::claims::{JudgedClaim, UnderReading};
 use crate::audit::conclusion::Conclusion;
 use crate::audit::conclusion::words::{self as conclusion, Answer};
-use crate::audit::findings::{Evidence, Finding, Repair, Verdict};
+use crate::audit::evidence::{BY_ROUNDING, NoFigures};
+use crate::audit::findings::{Evidence, Finding, Repair};
 use crate::audit::prices::Price;
 use crate::audit::prices::table as prices;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Assumption, Audit, BY_ROUNDING, Compared, FrictionContact};
+use crate::audit::{Assumption, Audit, Compared, FrictionContact};
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -21,7 +22,7 @@ use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::json;
-use report::layout::{first_line, listed};
+use report::layout::listed;
 use report::model::{Cell, Report, Table};
 use report::numbers::{or_dash, short};
 use report::tables::{nearest_decision, perturbed};
@@ -59,13 +60,14 @@ pub fn evidence(audit: &Audit) -> Report {
 
 /// Reports the readings; why one fails stands under the table, each reason once.
 fn readings(effects: &[Effect]) -> Report {
-    let mut failures: Vec<&str> = Vec::new();
-    for why in effects.iter().filter_map(failure) {
-        if !failures.contains(&why) {
+    let mut failures: Vec<&NoFigures> = Vec::new();
+    for why in effects.iter().filter_map(|effect| effect.failure.as_ref()) {
+        if *why != NoFigures::Rounding && !failures.contains(&why) {
             failures.push(why);
         }
     }
-    let remark = |effect: &&Effect| match failure(effect) {
+    let remark = |effect: &&Effect| match &effect.failure {
+        Some(NoFigures::Rounding) => format!("{}: {BY_ROUNDING}", effect.of),
         Some(why) => {
             let place = failures.iter().position(|known| *known == why).expect("it was collected");
             format!("{}: fails ({})", effect.of, place + 1)
@@ -90,17 +92,7 @@ fn readings(effects: &[Effect]) -> Report {
             table,
         )
         .note("error in energy norm: from the equilibrium; under R6 from that of its own plane problem")
-        .notes(failures.iter().zip(1..).map(|(why, k)| format!("({k}) {why}")))
-}
-
-/// Returns why a reading cannot be run, in one line.
-fn failure(effect: &Effect) -> Option<&str> {
-    effect.failure.as_deref().map(in_short)
-}
-
-/// Returns why something failed, in one line, without what it has in common with others.
-pub fn in_short(failure: &str) -> &str {
-    first_line(failure).trim_start_matches("the published algorithm fails as printed: ")
+        .notes(failures.iter().zip(1..).map(|(why, k)| format!("({k}) {}", why.in_short())))
 }
 
 fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Finding, Evidence)>> {
@@ -111,14 +103,9 @@ fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Find
             lines => format!("{} {}", finding.listing, listed(lines)),
         })
         .column("verdict", |(_, measured)| measured.verdict.name())
-        .column("value", |(_, measured)| figure(measured))
+        .column("value", |(_, measured)| measured.cell())
         .column("what the value is", |(finding, _)| finding.number)
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
-}
-
-/// Returns the number of a finding, or that rounding decides on it.
-fn figure(measured: &Evidence) -> Cell {
-    measured.figure().map_or(BY_ROUNDING.into(), Cell::from)
 }
 
 /// Reports the variants side by side, why some failed, and the two solutions without the print's
@@ -139,13 +126,10 @@ fn variants(audit: &Audit) -> Report {
         ],
         audit.variants.iter().map(variant),
     );
-    let notes = audit.variants.iter().filter_map(|row| {
-        let why = match &row.end {
-            End::Failure { failure } => in_short(failure),
-            End::Result { .. } => return None,
-        };
-        Some(format!("{}: {why}", row.variant))
-    });
+    let notes = audit
+        .variants
+        .iter()
+        .filter_map(|row| Some(format!("{}: {}", row.variant, row.end.failure()?.in_short())));
     let report = Report::default().table("3. Variants side by side", table).notes(notes);
     if audit.friction.is_empty() {
         return report;
@@ -208,7 +192,8 @@ fn stresses(bodies: &[BodySummary]) -> String {
 
 /// Reports a solution that others are compared with, and what rounding does to it.
 fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
-    let Some(Compared { model, in_contact, bodies, nearest, rounding }) = other else {
+    let Some(Compared { model, in_contact, target_share: _, bodies, nearest, rounding }) = other
+    else {
         return Report::default().note(format!("{what}: there is none"));
     };
     Report::default()
@@ -273,7 +258,7 @@ pub struct Document<'a> {
     by_reading: &'a [UnderReading],
     assumptions: &'a [Assumption],
     readings: &'a [Effect],
-    findings: Vec<FindingRow>,
+    findings: Vec<FindingRow<'a>>,
     /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
     prices: &'a Result<Vec<Price>, String>,
     variants: &'a [VariantRow],
@@ -284,50 +269,17 @@ pub struct Document<'a> {
 
 /// A finding on a scene.
 #[derive(Serialize)]
-pub struct FindingRow {
-    id: &'static str,
-    /// `c_cnt`, `Km`, or `-` where it is the iterations'.
-    listing: &'static str,
-    /// The printed lines that do it, from 1.
-    lines: &'static [usize],
-    /// What the listing does that the text does not say.
-    title: &'static str,
-    verdict: Verdict,
-    /// What was measured; nothing where rounding decides on it.
-    number: Option<f64>,
-    /// Whether inputs that mean the same lead to another verdict or number.
-    by_rounding: bool,
-    /// What the number is, with its unit.
-    of: &'static str,
-    detail: String,
-    /// What follows from it for a user of the listing.
-    why: &'static str,
-    /// What would repair it, in words.
-    repair: &'static str,
-    /// The repair as an edit of a listing, or why there is none.
-    edit: Repair,
+pub struct FindingRow<'a> {
+    #[serde(flatten)]
+    finding: &'a Finding,
+    #[serde(flatten)]
+    measured: &'a Evidence,
 }
 
-impl FindingRow {
-    /// Collects what a finding says of a scene.
-    pub fn new(finding: &Finding, measured: &Evidence) -> Self {
-        let Finding { id, listing, lines, title, number: of, why, repair, edit, .. } = *finding;
-        let Evidence { verdict, by_rounding, ref detail, .. } = *measured;
-        let (number, detail) = (measured.figure(), detail.clone());
-        FindingRow {
-            id,
-            listing,
-            lines,
-            title,
-            verdict,
-            number,
-            by_rounding,
-            of,
-            detail,
-            why,
-            repair,
-            edit,
-        }
+impl<'a> FindingRow<'a> {
+    /// Puts a finding beside what a scene shows of it.
+    pub fn new(finding: &'a Finding, measured: &'a Evidence) -> Self {
+        FindingRow { finding, measured }
     }
 }
 
@@ -369,12 +321,12 @@ pub fn explanation(
     scene: &Scene,
     reading: &Reading,
 ) -> Report {
-    let value = measured.figure().map_or(format!("{BY_ROUNDING}:"), short);
+    let value = measured.figure(short);
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")
         .then(quotation(finding))
         .heading(format!(
-            "On scene {}{}: {} ({value} {})",
+            "On scene {}{}: {} ({value}: {})",
             scene.name,
             claims::under(reading),
             measured.verdict.name(),

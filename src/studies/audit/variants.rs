@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::BY_ROUNDING;
 use super::case::Case;
+use super::evidence::{Measured, NoFigures, repeated};
 use engine::contact::pulling;
 use engine::estimates::moves;
 use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
@@ -56,14 +56,17 @@ pub enum End {
     /// It has none.
     Failure {
         /// Why the run ended without a result; or that rounding decides on it.
-        failure: String,
+        failure: NoFigures,
     },
 }
 
 impl End {
-    /// Returns whether rounding decides on it.
-    pub fn is_by_rounding(&self) -> bool {
-        matches!(self, End::Failure { failure } if failure == BY_ROUNDING)
+    /// Returns why it has none.
+    pub fn failure(&self) -> Option<&NoFigures> {
+        match self {
+            End::Result { .. } => None,
+            End::Failure { failure } => Some(failure),
+        }
     }
 
     /// Returns the figures of a result at its end, each over the scale of its kind.
@@ -94,6 +97,18 @@ impl End {
         let last = in_contact.last().copied().and_then(count);
         let others = [Some(*target_share), distance, *friction_needed, depth, period];
         [vec![last, count(pulling.len())], others.to_vec(), of_bodies.collect()].concat()
+    }
+}
+
+impl Measured for End {
+    fn moves(&self, other: &Self) -> bool {
+        let (own, other) = (self.figures(), other.figures());
+        own.len() != other.len()
+            || own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
+    }
+
+    fn by_rounding(self) -> Self {
+        End::Failure { failure: NoFigures::Rounding }
     }
 }
 
@@ -129,21 +144,8 @@ impl Penetration {
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
-    let row = |variant: &Variant| {
-        let own = end(case, *variant);
-        let figures = own.figures();
-        let moved = |other: &Case| {
-            let others = end(other, *variant).figures();
-            let mut pairs = figures.iter().zip(&others);
-            figures.len() != others.len() || pairs.any(|(own, other)| moves(*own, *other, 1.0))
-        };
-        let end = match case.equivalents().iter().any(moved) {
-            true => End::Failure { failure: BY_ROUNDING.into() },
-            false => own,
-        };
-        VariantRow { variant: *variant, end }
-    };
-    Variant::ALL.par_iter().map(row).collect()
+    let end = |variant| repeated(case, |case| end(case, variant));
+    Variant::ALL.par_iter().map(|v| VariantRow { variant: *v, end: end(*v) }).collect()
 }
 
 /// Returns the sizes of a body's fields at the end.
@@ -151,19 +153,24 @@ fn sizes(body: &BodySummary) -> [f64; 3] {
     [body.max_displacement, body.max_von_mises_stress, body.max_von_mises_strain]
 }
 
+/// Returns the force that contact passes on at the end over the size of the whole load; 0 without a load.
+pub(super) fn target_share(solution: &Solution) -> f64 {
+    let [fx, fy] = solution.model.total_load();
+    let load = fx.hypot(fy);
+    if load == 0.0 { 0.0 } else { solution.target_force() / load }
+}
+
 fn end(case: &Case, variant: Variant) -> End {
     let solution = match case.run(variant) {
         Ok(solution) => solution,
-        Err(why) => return End::Failure { failure: why.to_string() },
+        Err(why) => return End::Failure { failure: NoFigures::fails(why) },
     };
     let (model, last) = (&*solution.model, solution.last());
-    let [fx, fy] = model.total_load();
-    let load = fx.hypot(fy);
     let needed = solution.contact.iter().filter_map(|c| c.friction_needed);
     End::Result {
         in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
         contact_set: last.contact_set(model),
-        target_share: if load == 0.0 { 0.0 } else { solution.target_force() / load },
+        target_share: target_share(solution),
         transmits_nothing: solution.transmits_nothing(),
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),

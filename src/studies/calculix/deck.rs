@@ -3,7 +3,7 @@
 use super::problem::{Contact, Equation, Pair, Problem};
 use base::error::{InputError, Result};
 use problem::element::Plane;
-use problem::model::{Dof, Material, Model, NodeId, unordered};
+use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
 use problem::modelling::Friction;
 
 /// ccx reads no more characters of a field.
@@ -154,8 +154,13 @@ fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> R
 
 fn restraints(model: &Model) -> String {
     let mut text = String::from("*BOUNDARY\n");
-    for dof in model.all_dofs().filter(|dof| model.is_restrained(*dof)) {
-        text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
+    for (dof, restraint) in model.all_dofs().zip(model.restraints()) {
+        match restraint {
+            Restraint::Free => (),
+            Restraint::Fixed => {
+                text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
+            }
+        }
     }
     text
 }

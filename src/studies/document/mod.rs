@@ -7,9 +7,9 @@ pub mod page;
 use crate::audit::Audit;
 use crate::audit::claims::Verdict as ClaimVerdict;
 use crate::audit::conclusion::Conclusion;
+use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
-use crate::audit::variants::End;
 use crate::audit::{claims::table as claims, prices::table as prices, tables as audit};
 use crate::calculix::table::{self as comparison, Compared};
 use engine::{Assessment, Hertz, Solution, TriangleValues};
@@ -168,15 +168,16 @@ fn unchecked(audit: &Audit) -> Report {
         let claim = &judged.claim;
         format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
     });
-    let variants = audit.variants.iter().filter_map(|row| match &row.end {
-        End::Failure { failure } => {
-            Some(format!("variant {}, which stops: {}", row.variant, audit::in_short(failure)))
-        }
-        End::Result { .. } => None,
-    });
+    let why = |none: &NoFigures| match none {
+        NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
+        NoFigures::Rounding => "on which rounding decides".into(),
+    };
+    let variants = audit
+        .variants
+        .iter()
+        .filter_map(|row| Some(format!("variant {}, {}", row.variant, why(row.end.failure()?))));
     let readings = audit.readings.iter().filter_map(|effect| {
-        let why = audit::in_short(effect.failure.as_deref()?);
-        Some(format!("reading {}, which stops: {why}", effect.reading))
+        Some(format!("reading {}, {}", effect.reading, why(effect.failure.as_ref()?)))
     });
     let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Verdict::NotTriggered);
     let untriggered: Vec<&str> = untriggered.map(|(finding, _)| finding.id).collect();

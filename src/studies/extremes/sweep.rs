@@ -31,9 +31,7 @@ impl Method {
         scalar: ScalarName,
         measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
     ) -> Self {
-        // An exact answer is compared as an f64.
-        // An exact answer is compared as an f64.
-        let carried = f64::from(scalar.properties().digits.unwrap_or(16));
+        let carried = f64::from(scalar.properties().digits.expect("exact numbers are not tried"));
         Method { name, carried, measure: Box::new(measure) }
     }
 
@@ -47,19 +45,31 @@ impl Method {
     }
 }
 
-/// The scalars that are tried: those that keep a bound compute as those that they bound, and exact numbers are
-/// what all are compared with.
-fn tried() -> impl Iterator<Item = ScalarName> {
-    ScalarName::ALL.iter().copied().filter(|scalar| match scalar {
-        ScalarName::F32 | ScalarName::F64 | ScalarName::F64x2 => true,
-        ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => false,
-    })
+/// Judges a quantity of a search.
+type OfSearch = fn(Quantity, Search) -> Result<Verdict, Error>;
+
+/// The scalars that are tried, each with how it judges a search: those that keep a bound compute as those that
+/// they bound, and exact numbers are what all are compared with.
+fn tried() -> impl Iterator<Item = (ScalarName, OfSearch)> {
+    let of = |scalar: &ScalarName| -> Option<(ScalarName, OfSearch)> {
+        match scalar {
+            ScalarName::F32 => Some((*scalar, Quantity::judge::<f32>)),
+            ScalarName::F64 => Some((*scalar, Quantity::judge::<f64>)),
+            ScalarName::F64x2 => Some((*scalar, Quantity::judge::<F64x2>)),
+            ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => None,
+        }
+    };
+    ScalarName::ALL.iter().filter_map(of)
 }
 
-/// What is tried on blocks: `tied` in each scalar, the others in f64.
+/// What is tried on blocks: `tied` in each scalar, the others in f64; `stepped` is `tied` in steps.
 fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
-    let tied = tried().map(|scalar| (Variant::Tied, scalar));
-    let others = [Variant::Unilateral, Variant::Printed].map(|v| (v, ScalarName::F64));
+    let tied = tried().map(|(scalar, _)| (Variant::Tied, scalar));
+    let others = Variant::ALL.iter().rev().filter(|variant| match variant {
+        Variant::Unilateral | Variant::Printed => true,
+        Variant::Tied | Variant::Stepped => false,
+    });
+    let others = others.map(|variant| (*variant, ScalarName::F64));
     let method = |(variant, scalar): (Variant, ScalarName)| {
         let measure = move |x| answer::judge(&blocks(x), variant, scalar);
         Method::new(format!("{variant} {scalar}"), scalar, measure)
@@ -69,15 +79,8 @@ fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
 
 /// What is tried on a search: each quantity in each scalar.
 fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> {
-    let method = |(of, scalar): (Quantity, ScalarName)| {
-        Method::new(format!("{} {scalar}", of.name()), scalar, move |x| match scalar {
-            ScalarName::F32 => of.judge::<f32>(search(x)),
-            ScalarName::F64 => of.judge::<f64>(search(x)),
-            ScalarName::F64x2 => of.judge::<F64x2>(search(x)),
-            ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => {
-                unreachable!("it is not tried")
-            }
-        })
+    let method = |(of, (scalar, judge)): (Quantity, (ScalarName, OfSearch))| {
+        Method::new(format!("{} {scalar}", of.name()), scalar, move |x| judge(of, search(x)))
     };
     let each = quantities.iter().flat_map(|of| tried().map(|scalar| (*of, scalar)));
     each.map(method).collect()

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use ::report::evaluation as report;
 use ::report::model::Report;
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
@@ -51,7 +52,7 @@ pub struct Args {
 }
 
 /// Runs the call; returns the exit status.
-pub fn run(args: &Args) -> Result<u8> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     let place = shown(&args.file);
     let text = read_listing(&args.file)?;
     let notation = "see the notation in listings/README.md";
@@ -73,7 +74,7 @@ pub fn run(args: &Args) -> Result<u8> {
     let failure = match outcome {
         Ok(outcome) => {
             let printed = print_either(args.json, || report::json(&outcome), || ended(&outcome));
-            return printed.map(|()| 0);
+            return printed.map(|()| ExitStatus::Done);
         }
         Err(failure) => failure,
     };

@@ -3,6 +3,7 @@
 mod evaluate;
 mod run;
 
+use base::exit::ExitStatus;
 use engine::error::Result;
 
 /// Run a listing of the paper, or evaluate a program in its notation.
@@ -19,9 +20,9 @@ pub enum Command {
 }
 
 /// Runs the command; returns the exit status.
-pub fn run(command: &Command) -> Result<u8> {
+pub fn run(command: &Command) -> Result<ExitStatus> {
     match command {
-        Command::Run(which) => run::run(which).map(|()| 0),
+        Command::Run(which) => run::run(which).map(|()| ExitStatus::Done),
         Command::Evaluate(args) => evaluate::run(args),
     }
 }

@@ -33,7 +33,7 @@ contact), then the rows of k_cnt that are not zero. --json: {\"ct\": [...], \"yt
 
 Examples:
   plane-contact listing run c_cnt fig1
-  plane-contact listing run c_cnt fig1 --reading R4=left-to-right    the listing stops: exit status 3
+  plane-contact listing run c_cnt fig1 --reading R4=left-to-right    the listing stops
   plane-contact listing run c_cnt my/scene.json --json")]
 pub struct CCntArgs {
     /// Path of a scene, or the name of an embedded one.

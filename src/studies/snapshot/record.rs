@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::{Entry, Quantity};
+use base::exit::ExitStatus;
 use engine::contact::{ContactNode, Pairing};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
@@ -59,7 +60,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     }
     run.facts.insert(Quantity::Iterations.into(), json!(steps.len()));
     let (status, failure) = outcome(&solved);
-    run.facts.insert(Quantity::ExitStatus.into(), json!(status));
+    run.facts.insert(Quantity::ExitStatus.into(), json!(status.number()));
     run.facts.insert(Quantity::Failure.into(), failure);
     let solution = match solved {
         Err(why @ Error::Input(_)) => return Err(why),
@@ -75,16 +76,14 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
 }
 
 /// Returns the exit status of `solve`, and the failure; null where there is none.
-fn outcome(solved: &Result<Solution>) -> (u8, Value) {
+fn outcome(solved: &Result<Solution>) -> (ExitStatus, Value) {
     match solved {
-        Ok(solution) if is_refuted(solution) => (4, json!("the equilibrium is not the only one")),
-        Ok(_) => (0, Value::Null),
+        Ok(solution) => {
+            let several = solution.has_others().then_some("the equilibrium is not the only one");
+            (solution.exit_status(), json!(several))
+        }
         Err(why) => (why.exit_status(), failure(why)),
     }
-}
-
-fn is_refuted(solution: &Solution) -> bool {
-    solution.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
 }
 
 /// Returns what a failure is, without the numbers of its message, which rounding may change.
@@ -250,11 +249,11 @@ impl Recorded<'_> {
                 }
             }
             (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
-                let t = Elimination::new(&model.restrained, &step.constraints);
+                let t = Elimination::new(model.restraints(), &step.constraints);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
             (Detail::Unilateral(_), _) => {
-                let t = Elimination::closing(&model.restrained, &step.constraints);
+                let t = Elimination::closing(model.restraints(), &step.constraints);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
         }

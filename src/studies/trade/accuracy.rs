@@ -108,7 +108,7 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
     let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
     let is_mortar = request.contact.coupling == Coupling::Mortar && !is_printed;
     let runs = |scalar: &ScalarName| !is_mortar || scalar.properties().no_mortar.is_none();
-    let arithmetic = |scalar: ScalarName| match by_lu && scalar != ScalarName::Exact {
+    let arithmetic = |scalar: ScalarName| match by_lu && !scalar.is_exact() {
         true => by(scalar, Solver::DenseLu),
         false => sparse(scalar),
     };
@@ -134,7 +134,7 @@ fn not_run(request: &Request, scalar: ScalarName, accuracy: f64) -> Option<Strin
         return Some("its digits are too few".into());
     }
     let most = most_exact(request);
-    let is_large = scalar == ScalarName::Exact && request.scene.model.free_dofs() > most;
+    let is_large = scalar.is_exact() && request.scene.model.free_dofs() > most;
     is_large.then(|| format!("it takes too long for more than {most} free equations"))
 }
 

@@ -85,8 +85,8 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
                 .model
                 .load_in(|x| x)
                 .iter()
-                .zip(&model.restrained)
-                .map(|(f, restrained)| if *restrained { 0.0 } else { *f })
+                .zip(model.restraints())
+                .map(|(f, restraint)| if restraint.is_free() { *f } else { 0.0 })
                 .collect(),
             iterations: solution.steps.len(),
             pairs: door::Call::c_cnt(&model, &reading, &model.nodes)

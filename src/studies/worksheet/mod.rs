@@ -3,6 +3,7 @@
 mod export;
 mod run;
 
+use base::exit::ExitStatus;
 use engine::error::Result;
 
 /// Run a worksheet of Mathcad, or export a scene to one.
@@ -17,9 +18,9 @@ pub enum Command {
 }
 
 /// Runs the command; returns the exit status.
-pub fn run(command: &Command) -> Result<u8> {
+pub fn run(command: &Command) -> Result<ExitStatus> {
     match command {
         Command::Run(args) => run::run(args),
-        Command::Export(args) => export::run(args).map(|()| 0),
+        Command::Export(args) => export::run(args).map(|()| ExitStatus::Done),
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ::report::worksheet as report;
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
@@ -23,8 +24,8 @@ solve blocks, derivatives, integrals and random numbers are named as unsupported
 shows a name's value and ours is not the same to the last bit, or unsupported, the saved value goes on
 as input, so that each result is judged for itself; results that rest on it say so.
 
-Exit status: 0 where results were compared and all agree, 1 where one differs, a region fails here
-alone or nothing could be compared, 2 where the file is no worksheet.
+The exit status also tells a difference: a result, a region that fails here alone, or that nothing could
+be compared.
 
 Examples:
   plane-contact mathcad run worksheet.xmcd
@@ -43,7 +44,7 @@ pub struct Args {
 }
 
 /// Executes the worksheet; returns the exit status.
-pub fn run(args: &Args) -> Result<u8> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     let sheet = open(&args.file)?;
     let limits = Limits { steps: args.limit, ..limits() };
     let bar = progress(0, "region {pos} of {len} {wide_bar} {elapsed}");
@@ -56,7 +57,7 @@ pub fn run(args: &Args) -> Result<u8> {
     print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
     let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. } | Verdict::Fails(_)));
-    Ok(u8::from(differs || !some(Verdict::agrees)))
+    Ok(ExitStatus::compared(!differs && some(Verdict::agrees)))
 }
 
 /// Reads a worksheet's file.

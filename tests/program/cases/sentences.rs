@@ -147,7 +147,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact audit fig1",
+        command: "plane-contact audit fig1 --full",
         status: 0,
         contains: &[
             "largest difference of a node's displacement between c_tol and a thousandth of it",
@@ -156,7 +156,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "COLUMNS=40 plane-contact audit fig1",
+        command: "COLUMNS=40 plane-contact audit fig1 --full",
         status: 0,
         contains: &["/variants/0/penetration/relative\n"],
         lacks: &["panicked"],

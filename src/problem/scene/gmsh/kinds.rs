@@ -51,8 +51,3 @@ impl Reader<'_> {
         })
     }
 }
-
-/// Returns a tag without its sign, which is an orientation in Gmsh.
-pub fn magnitude(tag: i32) -> usize {
-    tag.unsigned_abs() as usize
-}

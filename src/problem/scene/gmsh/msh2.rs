@@ -1,8 +1,7 @@
 //! The sections `$Nodes` and `$Elements` of MSH 2.2.
 
 use super::error::Result;
-use super::kinds::magnitude;
-use super::reader::Reader;
+use super::reader::{Reader, magnitude};
 use super::tokens::Encoding;
 use crate::scene::mesh::{Element, NodeNumbers, Tags};
 

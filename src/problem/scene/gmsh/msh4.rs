@@ -4,8 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::error::Result;
-use super::kinds::magnitude;
-use super::reader::Reader;
+use super::reader::{Reader, magnitude};
 use crate::scene::mesh::{ENTITIES, Element, NodeNumbers};
 
 impl Reader<'_> {

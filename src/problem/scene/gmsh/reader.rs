@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::error::{GmshError, Result};
-use super::kinds::magnitude;
 use super::tokens::{Encoding, Tokens};
 use crate::scene::mesh::{ENTITIES, Element, Mesh, Node, PhysicalName};
 
@@ -221,4 +220,9 @@ impl Reader<'_> {
     pub fn repeated(&self, what: String) -> Result<()> {
         Err(self.tokens.refused(format!("{what} comes a second time")))
     }
+}
+
+/// Returns a tag without its sign, which is an orientation in Gmsh.
+pub fn magnitude(tag: i32) -> usize {
+    tag.unsigned_abs() as usize
 }

@@ -17,17 +17,13 @@ use serde::Serialize;
 pub(super) use measures::nearest;
 pub use register::CLAIMS;
 
-use super::BY_ROUNDING;
 use super::case::{Case, variant_index};
+use super::evidence::{BY_ROUNDING, Measured, repeated};
 use super::findings::{self, FINDINGS};
 use super::range::{ParameterValue, Range};
 use super::readings::others;
 use base::choices;
 use base::error::InputError;
-use engine::Solution;
-use engine::estimates::discretisation::Discretisation;
-use engine::estimates::moves;
-use numbers::finite;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 
@@ -48,6 +44,8 @@ pub struct Claim {
     pub condition: &'static str,
     /// The threshold of the condition, and where that comes from.
     pub threshold: &'static str,
+    /// Whether the threshold, or a part of the statement, is this audit's and not the paper's.
+    pub is_ours: bool,
     /// What the verdict rests on.
     pub basis: Basis,
     /// What the measured number is, with its unit.
@@ -136,62 +134,35 @@ choices! {
 /// What a scene says of a claim, or why a run failed.
 type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
 
-/// A verdict, the number that the claim names, and what else is to be said.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Evidence {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The number that the claim names; None where it names none or cannot be checked.
-    pub number: Option<f64>,
-    /// The variant that was measured, where it is one of the paper's.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub variant: Option<Variant>,
-    /// The condition of the verdict `true only if`; else what is to be said beside the number.
-    pub detail: String,
-    /// The error of the mesh in each run that was measured.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub mesh_errors: Vec<MeshError>,
-}
+/// A verdict, the number that the claim names, and its condition or what else is to be said.
+pub type Evidence = super::evidence::Evidence<Verdict>;
 
-/// The error of the mesh in a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MeshError {
-    /// Which run: a variant, or what distinguishes it.
-    pub run: String,
-    /// The estimate of the error in the energy norm, relative; nothing where there is none.
-    pub energy_relative: Option<f64>,
+impl Measured for Evidence {
+    fn moves(&self, other: &Self) -> bool {
+        self.verdict != other.verdict || self.moves_number(other)
+    }
+
+    fn by_rounding(self) -> Self {
+        let detail = match self.verdict {
+            Verdict::TrueOnlyIf => self.detail,
+            Verdict::True | Verdict::False | Verdict::NotCheckable => BY_ROUNDING.into(),
+        };
+        Evidence { number: None, by_rounding: true, detail, ..self }
+    }
+
+    /// Without a common verdict there is none.
+    fn repeated(self, others: impl Iterator<Item = Self>) -> Self {
+        let others: Vec<Self> = others.collect();
+        let is_common = others.iter().all(|other| other.verdict == self.verdict);
+        let verdict = if is_common { self.verdict } else { Verdict::NotCheckable };
+        match others.iter().any(|other| self.moves(other)) {
+            true => Evidence { verdict, ..self }.by_rounding(),
+            false => self,
+        }
+    }
 }
 
 impl Evidence {
-    fn new(verdict: Verdict, number: Option<f64>, detail: impl Into<String>) -> Self {
-        Evidence { verdict, number, variant: None, detail: detail.into(), mesh_errors: Vec::new() }
-    }
-
-    /// Adds the errors of the mesh in the runs that were measured.
-    fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
-        let error = |(run, solution): (&str, &Solution)| MeshError {
-            run: run.into(),
-            energy_relative: finite(
-                Discretisation::new(&solution.model, &solution.elements).relative(),
-            ),
-        };
-        self.mesh_errors = runs.into_iter().map(error).collect();
-        self
-    }
-
-    /// Leaves out the figures where inputs that mean the same lead to others; without a common verdict there
-    /// is none.
-    fn repeated(self, others: impl IntoIterator<Item = Self>) -> Self {
-        let others: Vec<Self> = others.into_iter().collect();
-        let same = |other: &Self| other.verdict == self.verdict;
-        let verdict = if others.iter().all(same) { self.verdict } else { Verdict::NotCheckable };
-        let moved = |other: &Self| moves(self.number, other.number, 1.0);
-        if verdict == self.verdict && !others.iter().any(moved) {
-            return self;
-        }
-        Evidence { verdict, number: None, detail: BY_ROUNDING.into(), ..self }
-    }
-
     /// Returns the verdict in words, with its condition.
     pub fn words(&self) -> String {
         match self.verdict {
@@ -338,13 +309,12 @@ impl Claim {
 
 /// Measures on a scene, and on the inputs that mean the same.
 fn on_scene(case: &Case, measure: fn(&Case) -> Outcome<'_>) -> Evidence {
-    let on = |case| {
+    repeated(case, |case| {
         measure(case).unwrap_or_else(|why| {
             let why = why.to_string();
             Evidence::new(Verdict::NotCheckable, None, why.lines().next().unwrap_or_default())
         })
-    };
-    on(case).repeated(case.equivalents().iter().map(on))
+    })
 }
 
 /// Judges a claim by a finding on the finding's own scene under a reading; without words the finding's
@@ -358,11 +328,11 @@ fn by_finding(id: &str, verdict: Verdict, words: Option<&str>, reading: Reading)
     let found = finding.measure(&case);
     match found.verdict {
         findings::Verdict::Present => {
-            Evidence::new(verdict, found.figure(), words.unwrap_or(finding.title))
+            Evidence::new(verdict, found.number, words.unwrap_or(finding.title))
         }
         findings::Verdict::NotTriggered | findings::Verdict::Contradicted => {
             let detail = format!("{id} does not show on its scene: {}", found.detail);
-            Evidence::new(Verdict::NotCheckable, found.figure(), detail)
+            Evidence::new(Verdict::NotCheckable, found.number, detail)
         }
     }
 }

@@ -20,6 +20,7 @@ pub const CLAIMS: &[Claim] = &[
                     contact or not, and no node in contact pulls",
         threshold: "of penetration 1 % of the target's largest displacement: this audit's; the paper gives \
                     none; of a pull, more than rounding",
+        is_ours: true,
         basis: Basis::Runs,
         number: "largest penetration of a contact node at the end of the scene's variant of the paper, over \
                  the largest displacement of the target",
@@ -38,6 +39,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "under unilateral no node in contact needs more friction than there is, on the whole path of the load",
         threshold: "none: the value is the least coefficient of friction, which runs 0.1 % above and below confirm; \
                     the paper gives none",
+        is_ours: false,
         basis: Basis::Runs,
         number: "largest shear over pressure of a node in contact on the path of unilateral, sticking",
         command: &["audit", "SCENE", "--claim", "P2", "--json"],
@@ -52,6 +54,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "displacements of linked nodes are equal in the system that is solved",
         condition: "the matrix MJS of Km has entries that join the two bodies",
         threshold: "none: without any the bodies are not coupled",
+        is_ours: false,
         basis: Basis::Listing,
         number: "entries of MJS that join the two bodies, on the finding's scene",
         command: &["audit", "--finding", "K1", "--json"],
@@ -69,6 +72,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "a node finds the same edge where the current coordinates of both bodies are moved far away \
                     together; that the weights take initial ones is finding C6",
         threshold: COUNT,
+        is_ours: false,
         basis: Basis::Listing,
         number: "contact nodes that find another edge then, on the scene of finding C7",
         command: &["audit", "--claim", "P4", "--json"],
@@ -89,6 +93,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "a node deeper inside than c_tol is treated as separated",
         condition: "c_cnt finds such a node no target edge",
         threshold: COUNT,
+        is_ours: false,
         basis: Basis::Listing,
         number: "nodes inside the target, deeper than c_tll, without a target edge, on the finding's scene",
         command: &["audit", "--finding", "C9", "--json"],
@@ -104,6 +109,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "in random scenes, after a jump to twice c_tll, the rule misses no node in contact, the \
                     target below the stamp or above",
         threshold: HUNDREDTH,
+        is_ours: true,
         basis: Basis::Random,
         number: "share of the nodes in contact that the rule misses, the target below, after a jump to \
                  twice c_tll",
@@ -121,6 +127,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "nodes within c_tol are given a fixed Y before signs are compared",
         condition: "no node apart is in contact because of a neighbour that is itself within c_tll",
         threshold: COUNT,
+        is_ours: false,
         basis: Basis::Listing,
         number: "nodes apart by c_tll or more, flagged beside nodes that only touch, on the \
                  finding's scene",
@@ -137,6 +144,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "comparing signs takes fewer operations than intersecting elements",
         condition: "in random scenes the sign rule takes fewer operations on lengths than the intersection",
         threshold: "none: the quotient is above 1",
+        is_ours: false,
         basis: Basis::Random,
         number: "operations of the intersection over those of the sign rule, on the largest surfaces tried",
         command: &[],
@@ -155,6 +163,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "no target node has two or more contact nodes tied to it: its row of k_cnt has room for \
                     one",
         threshold: COUNT,
+        is_ours: false,
         basis: Basis::Listing,
         number: "target nodes to which two or more contact nodes are tied, on the finding's scene",
         command: &["audit", "--finding", "C7", "--json"],
@@ -171,6 +180,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "c_tol = 0.001 brings no noticeable error",
         condition: "no node's displacement changes noticeably when c_tol is divided by 1,000",
         threshold: HUNDREDTH,
+        is_ours: true,
         basis: Basis::Runs,
         number: "largest difference of a node's displacement between c_tol and a thousandth of it, over \
                  the largest displacement at c_tol",
@@ -187,6 +197,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "under tied the contact state has settled in the last iteration; that 20 are enough, and \
                     the whole load in each, are this audit's reading: the paper says neither",
         threshold: "none: the period is 1",
+        is_ours: true,
         basis: Basis::Runs,
         number: "final period of the contact state under tied, iterations; 1 = settled, 0 = none yet",
         command: &["audit", "SCENE", "--json"],
@@ -204,6 +215,7 @@ pub const CLAIMS: &[Claim] = &[
         condition: "a variant of the paper reaches the equilibrium under the scene's own friction on the \
                     same mesh: what another code solves correctly, for that code itself is P13",
         threshold: HUNDREDTH,
+        is_ours: true,
         basis: Basis::Runs,
         number: "distance of the nearest variant of the paper from the equilibrium under the scene's own \
                  friction, in the energy norm, over that of the equilibrium",
@@ -221,6 +233,7 @@ pub const CLAIMS: &[Claim] = &[
         judged: "that program gives the same results",
         condition: "that program, with its contact settings, gives the same results",
         threshold: "none: nothing to compare with",
+        is_ours: false,
         basis: Basis::Nothing,
         number: "none",
         command: &["audit", "SCENE", "--json"],

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::audit::Audit;
 use crate::audit::conclusion::{Conclusion, Coupled, Fields, NearRun, Nearest, Spread};
+use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::range::is_example;
@@ -27,7 +28,8 @@ const CLEARANCE: &str = " The clearance of 0.1 mm is ours: with it contact spans
     Real ducts are wider.";
 
 /// What holds in wider ducts under the default reading, as golden/tables/range.md has it.
-pub const WIDER: &str = " From a clearance of 0.9 mm on P10 is true, and P11 is true or decided by rounding (golden/tables/range.md).";
+pub const WIDER: &str = " From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both are true \
+     (golden/tables/range.md).";
 
 /// An answer of the conclusion.
 #[derive(Clone, Debug, Serialize)]
@@ -78,8 +80,9 @@ pub fn report(answers: &[Answer]) -> Report {
     })
 }
 
-fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
-    let answer = match coupled {
+/// Says whether the print couples the bodies, and what passes between them.
+pub fn coupling(coupled: Option<&Coupled>) -> String {
+    match coupled {
         None => "The scene has no contact: there is nothing to couple.".into(),
         Some(Coupled { joins, share, failure }) => {
             let entries = match joins {
@@ -93,16 +96,25 @@ fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
                     format!("{entries}, and under printed {share} of the load reaches the target.")
                 }
                 (None, Some(why)) => {
-                    format!("{entries}; printed stops: {}.", first_line(why).trim_end_matches('.'))
+                    let what = match why {
+                        NoFigures::Fails(_) => {
+                            format!("stops: {}", why.in_short().trim_end_matches('.'))
+                        }
+                        NoFigures::Rounding => format!("is {BY_ROUNDING}"),
+                    };
+                    format!("{entries}; printed {what}.")
                 }
                 (None, None) => format!("{entries}."),
             }
         }
-    };
+    }
+}
+
+fn coupled(coupled: Option<&Coupled>, scene: &Scene) -> Answer {
     let joins = coupled.and_then(|coupled| coupled.joins);
     Answer {
         question: "Does the printed algorithm couple the bodies?",
-        answer,
+        answer: coupling(coupled),
         value: joins.map(|joins| joins as f64),
         of: "entries of MJS that join the two bodies",
         command: format!("audit {} --finding K1 --json", scene.name),
@@ -306,7 +318,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
 }
 
 /// Returns the places of the prices that shift the solution, the farthest first.
-fn shifts(prices: &[Price]) -> Vec<usize> {
+pub fn shifts(prices: &[Price]) -> Vec<usize> {
     let mut shifting: Vec<usize> =
         (0..prices.len()).filter(|k| prices[*k].weight == Weight::Shifts).collect();
     let distance = |k: &usize| prices[*k].outcome.from_equilibrium().unwrap_or(0.0);

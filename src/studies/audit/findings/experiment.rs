@@ -48,7 +48,7 @@ pub(super) fn at_shapes(
         let nothing = |failure: Failure| Evidence::present_if(false, 0.0, failure.to_string());
         let mut here = experiment(&shape).unwrap_or_else(nothing);
         here.detail = format!("{name}: {}", here.detail);
-        let weight = |m: &Evidence| (m.verdict, m.number.abs());
+        let weight = |m: &Evidence| (m.verdict, m.number.map(f64::abs));
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
             heaviest = Some(here);
         }

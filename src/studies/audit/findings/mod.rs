@@ -18,12 +18,13 @@ pub use register::FINDINGS;
 use serde::Serialize;
 
 use super::Case;
+use super::evidence::{Measured, repeated};
 use base::choices;
-use engine::estimates::moves;
 use problem::model::Model;
 use problem::scene::Scene;
 
 /// Something that a listing does and the text does not say.
+#[derive(Serialize)]
 pub struct Finding {
     /// Its name: C1, C2, ..., K1, ...
     pub id: &'static str,
@@ -40,9 +41,12 @@ pub struct Finding {
     /// The repair as an edit of a listing.
     pub edit: Repair,
     /// What is changed for it to show in one call of each listing on its own scene.
+    #[serde(skip)]
     pub before: Preparation,
     /// What the measured number is, with its unit.
+    #[serde(rename = "of")]
     pub number: &'static str,
+    #[serde(skip)]
     measure: fn(&Case) -> Outcome<'_>,
 }
 
@@ -80,15 +84,10 @@ impl Finding {
     /// Looks for the finding in a scene, and on the inputs that mean the same. Where a listing or a run fails,
     /// the detail says so; it never panics.
     pub fn measure(&self, case: &Case) -> Evidence {
-        let on = |case| {
+        repeated(case, |case| {
             (self.measure)(case)
                 .unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
-        };
-        let own = on(case);
-        let moved = |other: Evidence| {
-            other.verdict != own.verdict || moves(Some(own.number), Some(other.number), 1.0)
-        };
-        Evidence { by_rounding: case.equivalents().iter().map(on).any(moved), ..own }
+        })
     }
 
     /// Returns the smallest scene that shows the finding.
@@ -110,35 +109,38 @@ choices! {
     }
 }
 
-/// What a scene says of a finding.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Evidence {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The number that the finding names; 0 where it is not triggered and nothing could be counted.
-    pub number: f64,
-    /// What was found, in words.
-    pub detail: String,
-    /// Whether inputs that mean the same lead to another verdict or number.
-    pub by_rounding: bool,
+/// What a scene says of a finding; the number is 0 where it is not triggered and nothing could be counted.
+pub type Evidence = super::evidence::Evidence<Verdict>;
+
+impl Measured for Evidence {
+    fn moves(&self, other: &Self) -> bool {
+        self.verdict != other.verdict || self.moves_number(other)
+    }
+
+    fn by_rounding(self) -> Self {
+        Evidence { number: None, by_rounding: true, ..self }
+    }
 }
 
 impl Evidence {
-    /// Returns the number; nothing where rounding decides on it.
-    pub fn figure(&self) -> Option<f64> {
-        (!self.by_rounding).then_some(self.number)
-    }
-
     /// Returns a measure of the verdict `present` or `not triggered here`.
-    fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
+    fn present_if(
+        is_present: bool,
+        number: impl Into<Option<f64>>,
+        detail: impl Into<String>,
+    ) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
-        Evidence { verdict, number, detail: detail.into(), by_rounding: false }
+        Evidence::new(verdict, number, detail)
     }
 
     /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
     /// finding needs.
-    fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
+    fn must_be_present(
+        is_present: bool,
+        number: impl Into<Option<f64>>,
+        detail: impl Into<String>,
+    ) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
-        Evidence { verdict, number, detail: detail.into(), by_rounding: false }
+        Evidence::new(verdict, number, detail)
     }
 }

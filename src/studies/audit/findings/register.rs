@@ -1,7 +1,7 @@
 //! The findings (`listings/READING.md`, section 5).
 
 use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
-use problem::model::Model;
+use problem::model::{Model, Restraint};
 
 /// A repair that is a file in `listings/`.
 macro_rules! edit {
@@ -359,10 +359,9 @@ fn release_stamp(model: &mut Model) {
     model.contact.nodes.truncate(1);
     let stamp = model.body_of(model.contact.nodes[0]).expect("a contact node is of a body");
     let dofs: Vec<_> = stamp.nodes.iter().flat_map(|node| node.dofs()).collect();
-    dofs.iter().for_each(|dof| model.restrained[dof.index()] = false);
+    dofs.iter().for_each(|dof| model.restrain(*dof, Restraint::Free));
 }
 
 fn add_orphan(model: &mut Model) {
-    model.nodes.push([1.0, 0.0]);
-    model.restrained.extend([false; 2]);
+    model.add_node([1.0, 0.0], Restraint::Free);
 }

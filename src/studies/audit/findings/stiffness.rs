@@ -11,7 +11,7 @@ use engine::linear::DenseLu;
 use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
 use paper::door::{self, Call};
 use paper::mirror::Failure;
-use problem::model::{Body, Model, NodeId, TriangleId};
+use problem::model::{Body, Model, NodeId, Restraint, TriangleId};
 use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
@@ -79,12 +79,12 @@ pub(super) fn switched_off(case: &Case) -> Outcome<'_> {
 pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case, case.model(), shape)?.diagonal();
-        let range = |restrained: bool| {
-            let entries = diagonal.iter().zip(&case.model().restrained);
-            let of = entries.filter(|(_, is)| **is == restrained);
+        let range = |is_free: bool| {
+            let entries = diagonal.iter().zip(case.model().restraints());
+            let of = entries.filter(|(_, restraint)| restraint.is_free() == is_free);
             of.fold((f64::INFINITY, 0.0_f64), |(low, high), (x, _)| (low.min(*x), high.max(*x)))
         };
-        let ((low, high), (one, _)) = (range(false), range(true));
+        let ((low, high), (one, _)) = (range(true), range(false));
         let detail = format!("restrained: {one}, others {low:.4e} to {high:.4e}");
         let outside = one < low || (one > high && one.is_finite());
         Ok(Evidence::present_if(outside, high.max(one) / low.min(one), detail))
@@ -103,14 +103,15 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
 
 /// K4: rows of zeros that one node without a triangle adds, free or restrained.
 pub(super) fn orphan(case: &Case) -> Outcome<'_> {
-    let zero_rows = |orphans: usize, restrained: bool| -> Result<usize, Failure> {
+    let zero_rows = |orphan: Option<Restraint>| -> Result<usize, Failure> {
         let mut model = case.model().clone();
-        model.nodes.extend(vec![[0.0; 2]; orphans]);
-        model.restrained.extend(vec![restrained; 2 * orphans]);
+        orphan.into_iter().for_each(|restraint| model.add_node([0.0; 2], restraint));
         let mjs = Call::without_contact(&model).km(case.reading())?;
         Ok(mjs.row_iter().filter(|row| row.iter().all(|x| *x == 0.0)).count())
     };
-    let (own, free, restrained) = (zero_rows(0, false)?, zero_rows(1, false)?, zero_rows(1, true)?);
+    let [own, free, restrained] =
+        [None, Some(Restraint::Free), Some(Restraint::Fixed)].map(zero_rows);
+    let (own, free, restrained) = (own?, free?, restrained?);
     let detail = format!(
         "rows of zeros: {own} without the node, {free} with it, {restrained} where S restrains it"
     );
@@ -130,7 +131,7 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
         1 => Verdict::NotTriggered,
         _ => Verdict::Present,
     };
-    Ok(Evidence { verdict, number: cycle.length as f64, detail, by_rounding: false })
+    Ok(Evidence::new(verdict, cycle.length as f64, detail))
 }
 
 /// K9: nodes that eq. (1) binds to the target with a pull, at the end of `stepped`.
@@ -167,12 +168,12 @@ pub(super) fn hinge(case: &Case) -> Outcome<'_> {
     let call = first_in_contact(case)?;
     let k = door::free_stiffness(&call.sheet, case.reading())?;
     let linked = door::linked(&call.sheet, &call.pairs);
-    let restrained = released(case.model(), case.model().contact.nodes[0]);
+    let restraints = released(case.model(), case.model().contact.nodes[0]);
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few: Vec<Constraint> =
             linked.get(..count)?.iter().map(|bound| (*bound).into()).collect();
-        Some(DenseLu::new(Elimination::new(&restrained, &few).matrix(k.as_matrix())).is_err())
+        Some(DenseLu::new(Elimination::new(&restraints, &few).matrix(k.as_matrix())).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {
@@ -185,10 +186,10 @@ pub(super) fn hinge(case: &Case) -> Outcome<'_> {
 }
 
 /// The restraints, none of them on the body of `node`.
-fn released(model: &Model, node: NodeId) -> Vec<bool> {
-    let mut restrained = model.restrained.clone();
+fn released(model: &Model, node: NodeId) -> Vec<Restraint> {
+    let mut restraints = model.restraints().to_vec();
     for dof in model.body_of(node).into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {
-        restrained[dof.index()] = false;
+        restraints[dof.index()] = Restraint::Free;
     }
-    restrained
+    restraints
 }

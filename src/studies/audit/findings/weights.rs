@@ -17,7 +17,7 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
             for NodeToSegment { node, masters } in found_in(&solution.model, step) {
                 let [k1, k2] = masters.map(|(_, weight)| weight);
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
-                if outside > furthest.number.max(ROUNDING) {
+                if outside > furthest.number.unwrap_or(0.0).max(ROUNDING) {
                     let k = step.k;
                     let detail = format!("{variant}, iteration {k}: node {node}: {k1:.4}, {k2:.4}");
                     furthest = Evidence::present_if(true, outside, detail);
@@ -75,7 +75,7 @@ pub(super) fn listed_twice(case: &Case) -> Outcome<'_> {
         });
         let linked = linked(&call.sheet, &call.pairs);
         let largest = linked.iter().map(|bound| sum(bound.node)).fold(0.0, f64::max);
-        Evidence { number: largest, ..twice }
+        Evidence { number: Some(largest), ..twice }
     })
 }
 

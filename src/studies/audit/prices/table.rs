@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::audit::BY_ROUNDING;
 use crate::audit::claims::table::under;
+use crate::audit::evidence::BY_ROUNDING;
 use crate::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
 use crate::audit::range::ParameterValue;
 use paper::mirror::Reading;
@@ -270,6 +270,9 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
             return Some(
                 "Under the corrected algorithm too no load passes between the bodies".into(),
             );
+        }
+        Outcome::Result { energy_relative, .. } if !energy_relative.is_finite() => {
+            return Some("Nothing moves in the solution of this scene".into());
         }
         Outcome::Result { .. } if !corrected.is_settled() => "does not settle on this scene".into(),
         Outcome::Result { .. } if corrected.error() > 0.0 => {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{Bounds, Snapshot, difference};
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files::json;
 use base::plain::shown;
 use engine::error::Result;
@@ -13,7 +14,6 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
 
-use super::verify::DIFFERS;
 use commands::{print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
@@ -58,7 +58,7 @@ fn of_side<T: Copy>(values: &[T], side: usize, option: &str) -> Result<Option<T>
     }
 }
 
-pub fn run(args: &Args) -> Result<u8> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     let names = [&args.sides[0], args.sides.last().expect("one is required")];
     let varied = [args.variant.len(), args.solver.len(), args.scalar.len(), args.reading.len()];
     if args.sides.len() == 1 && !varied.contains(&2) {
@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<u8> {
         Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
     })?;
     let verified = difference(&sides[0], &sides[1]);
-    let status = if verified.is_same() { 0 } else { DIFFERS };
+    let status = ExitStatus::compared(verified.is_same());
     let file = format!("{} and {}", shown(names[0]), shown(names[1]));
     let checked = [VerifiedFile { file, verified: Ok(verified) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;

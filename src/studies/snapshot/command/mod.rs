@@ -5,6 +5,7 @@ mod diff;
 mod record;
 mod verify;
 
+use base::exit::ExitStatus;
 use engine::error::Result;
 
 /// Record, verify, diff, or accept what a scene gives.
@@ -23,11 +24,11 @@ pub enum Command {
 }
 
 /// Runs the command; returns the exit status.
-pub fn run(command: &Command) -> Result<u8> {
+pub fn run(command: &Command) -> Result<ExitStatus> {
     match command {
-        Command::Record(args) => record::run(args).map(|()| 0),
+        Command::Record(args) => record::run(args).map(|()| ExitStatus::Done),
         Command::Verify(args) => verify::run(args),
         Command::Diff(args) => diff::run(args),
-        Command::Accept(args) => accept::run(args).map(|()| 0),
+        Command::Accept(args) => accept::run(args).map(|()| ExitStatus::Done),
     }
 }

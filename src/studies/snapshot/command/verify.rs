@@ -6,15 +6,13 @@ use std::path::{Path, PathBuf};
 use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{self, Snapshot};
 use base::error::InputError;
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use problem::scene::Scene;
 
 use commands::{print_either, progress, report_error, within};
-
-/// The exit status where what was compared differs, or nothing was compared.
-pub const DIFFERS: u8 = 1;
 
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
@@ -47,7 +45,7 @@ pub struct Args {
     report: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<u8> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
     let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
     let snapshots = snapshots.collect();
@@ -69,12 +67,12 @@ pub fn run(args: &Args) -> Result<u8> {
 
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
-fn report(checked: &[VerifiedFile], json: bool) -> Result<u8> {
+fn report(checked: &[VerifiedFile], json: bool) -> Result<ExitStatus> {
     print_either(json, || report::json(checked), || report::report(checked))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
-    let statuses: Vec<u8> = failures.map(report_error).collect();
+    let statuses: Vec<ExitStatus> = failures.map(report_error).collect();
     let is_same = checked.iter().all(VerifiedFile::is_same);
-    Ok(statuses.first().copied().unwrap_or(if is_same { 0 } else { DIFFERS }))
+    Ok(statuses.first().copied().unwrap_or(ExitStatus::compared(is_same)))
 }
 
 /// Reads the snapshot in the text of a file.

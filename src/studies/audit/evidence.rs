@@ -1,0 +1,152 @@
+//! What a case shows, and whether the inputs that mean the same ([`Case::equivalents`]) show it too.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use super::Case;
+use engine::Solution;
+use engine::estimates::discretisation::Discretisation;
+use engine::estimates::moves;
+use numbers::finite;
+use problem::modelling::Variant;
+use report::model::Cell;
+
+/// What is said in place of a figure that inputs of the same meaning change.
+pub const BY_ROUNDING: &str = "decided by rounding";
+
+/// What is measured on a case and on the inputs that mean the same.
+pub trait Measured: Sized {
+    /// Returns whether another such input leads to another verdict, or moves a figure.
+    fn moves(&self, other: &Self) -> bool;
+
+    /// Returns what is left where rounding decides: no figure.
+    fn by_rounding(self) -> Self;
+
+    /// Leaves the figures out where one of `others`, measured on inputs that mean the same, moves them.
+    fn repeated(self, mut others: impl Iterator<Item = Self>) -> Self {
+        if others.any(|other| self.moves(&other)) { self.by_rounding() } else { self }
+    }
+}
+
+/// Measures on a case and on the inputs that mean the same.
+pub fn repeated<M: Measured>(case: &Case, measure: impl Fn(&Case) -> M) -> M {
+    measure(case).repeated(case.equivalents().iter().map(&measure))
+}
+
+/// A verdict, the number that it names, and what else is to be said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Evidence<V> {
+    /// The verdict.
+    pub verdict: V,
+    /// The number that is named; None where none is, and where rounding decides on it.
+    pub number: Option<f64>,
+    /// Whether inputs that mean the same lead to another verdict or number.
+    pub by_rounding: bool,
+    /// The variant that was measured, where it is one of the paper's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variant: Option<Variant>,
+    /// What is to be said beside the number; of the verdict `true only if` the condition.
+    pub detail: String,
+    /// The error of the mesh in each run that was measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mesh_errors: Vec<MeshError>,
+}
+
+/// The error of the mesh in a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshError {
+    /// Which run: a variant, or what distinguishes it.
+    pub run: String,
+    /// The estimate of the error in the energy norm, relative; nothing where there is none.
+    pub energy_relative: Option<f64>,
+}
+
+impl<V> Evidence<V> {
+    /// Collects what was found.
+    pub fn new(verdict: V, number: impl Into<Option<f64>>, detail: impl Into<String>) -> Self {
+        Evidence {
+            verdict,
+            number: number.into(),
+            by_rounding: false,
+            variant: None,
+            detail: detail.into(),
+            mesh_errors: Vec::new(),
+        }
+    }
+
+    /// Adds the errors of the mesh in the runs that were measured.
+    #[must_use]
+    pub fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
+        let error = |(run, solution): (&str, &Solution)| MeshError {
+            run: run.into(),
+            energy_relative: finite(
+                Discretisation::new(&solution.model, &solution.elements).relative(),
+            ),
+        };
+        self.mesh_errors = runs.into_iter().map(error).collect();
+        self
+    }
+
+    /// Writes the number; where there is none, a dash, or that rounding decides on it.
+    pub fn figure(&self, write: fn(f64) -> String) -> String {
+        match self.number {
+            Some(number) => write(number),
+            None if self.by_rounding => BY_ROUNDING.into(),
+            None => "-".into(),
+        }
+    }
+
+    /// Returns the number as a cell of a table; where rounding decides on it, that.
+    pub fn cell(&self) -> Cell {
+        if self.by_rounding { BY_ROUNDING.into() } else { self.number.into() }
+    }
+
+    /// Returns whether another input leads to another number.
+    pub fn moves_number(&self, other: &Self) -> bool {
+        moves(self.number, other.number, 1.0)
+    }
+}
+
+/// Why a run has no figures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoFigures {
+    /// It fails, or its listing does: says why.
+    Fails(String),
+    /// Inputs that mean the same lead to other figures.
+    Rounding,
+}
+
+impl NoFigures {
+    /// Describes a failure.
+    pub fn fails(why: impl fmt::Display) -> Self {
+        NoFigures::Fails(why.to_string())
+    }
+
+    /// Returns why a run fails; nothing where rounding decides.
+    pub fn failure(&self) -> Option<&str> {
+        match self {
+            NoFigures::Fails(why) => Some(why),
+            NoFigures::Rounding => None,
+        }
+    }
+
+    /// Returns the reason in one line, without what it has in common with others.
+    pub fn in_short(&self) -> &str {
+        let why = self.failure().unwrap_or(BY_ROUNDING);
+        let first = why.lines().next().unwrap_or_default();
+        first.trim_start_matches("the published algorithm fails as printed: ")
+    }
+}
+
+impl fmt::Display for NoFigures {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.failure().unwrap_or(BY_ROUNDING))
+    }
+}
+
+impl Serialize for NoFigures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

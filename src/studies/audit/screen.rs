@@ -1,0 +1,233 @@
+//! The first screen of an audit: a verdict to quote, the runs beside the equilibrium, the statements by how far
+//! their verdicts reach, the faults by what they cost, what was assumed, and where more stands.
+
+use crate::audit::claims::table as claims;
+use crate::audit::claims::{JudgedClaim, Scope, Verdict};
+use crate::audit::conclusion::words as conclusion;
+use crate::audit::conclusion::{Conclusion, Coupled, NearRun};
+use crate::audit::prices::table as prices;
+use crate::audit::prices::{Price, Weight};
+use crate::audit::variants::{End, VariantRow};
+use crate::audit::{Assumption, Audit, Compared};
+use engine::BodySummary;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use report::layout::{counted, listed};
+use report::model::{Cell, Report, Table};
+use report::numbers::{or_dash, percent, significant, with_unit};
+use report::tables::UNDERESTIMATE;
+
+/// The most columns of the screen.
+pub const WIDTH: usize = 100;
+
+/// Reports the first screen.
+pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
+    let under = claims::under(&conclusion.reading);
+    let report = Report::titled(format!(
+        "Audit of Filipov & Khomenko, \"Plane contact by the finite element method\", on scene {}{under}",
+        scene.name
+    ))
+    .line(
+        "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it. Not judged: the worksheet that \
+         the authors ran, which is not public. A listing may be misprinted; the authors were not asked.",
+    )
+    .heading("Verdict")
+    .notes(verdict(audit, conclusion));
+    if conclusion.coupled.is_none() {
+        return report.line(more(scene));
+    }
+    report
+        .table("Runs of the paper's algorithm, and the equilibrium under the scene's own friction", runs(audit, scene))
+        .notes(error_of_the_mesh(conclusion))
+        .notes(inside(audit, scene))
+        .table(format!("The paper's {}", claims::counts()), statements(&audit.claims))
+        .note("*: the threshold, or a part of the statement, is this audit's; the paper gives none. audit --claim P12 \
+             explains one.")
+        .then(faults(&audit.prices))
+        .line(assumed(&audit.assumptions))
+        .line(more(scene))
+}
+
+/// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
+fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
+    let coupled = match &conclusion.coupled {
+        Some(Coupled { joins: Some(0), share: Some(share), .. }) => format!(
+            "As printed, Km adds no entry that joins the two bodies (K1): {} of the load reaches the target.",
+            percent(*share, 0)
+        ),
+        other => conclusion::coupling(other.as_ref()),
+    };
+    let nearest = conclusion.nearest.as_ref().map(|nearest| {
+        let runs = &nearest.runs;
+        format!(
+            "Of {} {} {} nearest to the equilibrium: {} from it in the energy norm, on the same mesh.",
+            counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
+            listed(runs.iter().map(short_name)),
+            if runs.len() == 1 { "is" } else { "are equally" },
+            percent(runs[0].energy, 0)
+        )
+    });
+    let other_code = audit.claims.iter().find(|judged| judged.claim.id == "P13");
+    let other_code = other_code.filter(|judged| judged.measured.verdict == Verdict::NotCheckable);
+    let other_code =
+        other_code.map(|_| "Agreement with the commercial code cannot be checked (P13).".into());
+    std::iter::once(coupled).chain(nearest).chain(other_code).collect()
+}
+
+/// Names a run, with its reading where that is not the default.
+fn short_name(NearRun { variant, reading, .. }: &NearRun) -> String {
+    reading.as_ref().map_or(variant.to_string(), |reading| format!("{variant} ({reading})"))
+}
+
+/// The paper's variants, and the equilibrium.
+fn runs(audit: &Audit, scene: &Scene) -> Table {
+    let bodies: Vec<&str> = scene.model.bodies.iter().map(|body| body.name.as_str()).collect();
+    let stress =
+        format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
+    let variants = audit.variants.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant));
+    let rows = variants.map(run).chain(audit.equilibrium.as_ref().map(equilibrium));
+    Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
+}
+
+fn run(row: &VariantRow) -> Vec<Cell> {
+    let name = row.variant.to_string().into();
+    match &row.end {
+        End::Failure { failure } => vec![name, Cell::Empty, failure.in_short().into()],
+        End::Result { in_contact, target_share, cycle, bodies, distance, .. } => {
+            let nodes = match cycle {
+                Some(cycle) if cycle.length > 1 => {
+                    let mut counts: Vec<usize> =
+                        cycle.members.iter().map(|k| in_contact[k - 1]).collect();
+                    counts.sort_unstable();
+                    counts.dedup();
+                    format!("alternates, {}", listed(counts))
+                }
+                _ => in_contact.last().map_or("-".into(), usize::to_string),
+            };
+            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative, 0));
+            vec![
+                name,
+                Cell::percent(*target_share, 0),
+                nodes.into(),
+                stresses(bodies).into(),
+                error.into(),
+            ]
+        }
+    }
+}
+
+fn equilibrium(found: &Compared) -> Vec<Cell> {
+    let nodes = found.in_contact.to_string();
+    vec![
+        "equilibrium".into(),
+        Cell::percent(found.target_share, 0),
+        nodes.into(),
+        stresses(&found.bodies).into(),
+        Cell::Empty,
+    ]
+}
+
+fn stresses(bodies: &[BodySummary]) -> String {
+    let each = bodies.iter().map(|body| significant(body.max_von_mises_stress, 3));
+    each.collect::<Vec<_>>().join(" / ")
+}
+
+fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
+    let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
+    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error, 0)))
+}
+
+/// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
+/// pass a load on.
+fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
+    let said = |row: &VariantRow| match &row.end {
+        End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
+            if Variant::OF_THE_PAPER.contains(&row.variant) && found.depth > 0.0 =>
+        {
+            let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
+            let status = if found.in_contact { "in contact" } else { "not in contact" };
+            let pulls = match pulling.len() {
+                0 => String::new(),
+                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
+            };
+            Some(format!(
+                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
+                row.variant, found.node
+            ))
+        }
+        End::Result { .. } | End::Failure { .. } => None,
+    };
+    audit.variants.iter().filter_map(said).collect()
+}
+
+/// The statements by verdict, in a row for each scope.
+fn statements(judged: &[JudgedClaim]) -> Table {
+    let of = |scope: Scope, verdict: Verdict| {
+        let found = judged.iter().filter(|judged| judged.scope == scope);
+        let found = found.filter(|judged| judged.measured.verdict == verdict);
+        let mark = |is_ours| if is_ours { "*" } else { "" };
+        let ids = found.map(|judged| format!("{}{}", judged.claim.id, mark(judged.claim.is_ours)));
+        Cell::from(ids.collect::<Vec<_>>().join(" "))
+    };
+    let scopes =
+        Scope::ALL.iter().filter(|scope| judged.iter().any(|judged| judged.scope == **scope));
+    let rows = scopes.map(|scope| {
+        let cells = Verdict::ALL.iter().map(|verdict| of(*scope, *verdict));
+        std::iter::once(scope.to_string().into()).chain(cells).collect()
+    });
+    let headings = Verdict::ALL.iter().map(|verdict| verdict.name());
+    Table::new(std::iter::once("verdict holds on").chain(headings), rows)
+}
+
+/// Reports what each fault costs, the dearest first.
+fn faults(prices: &Result<Vec<Price>, String>) -> Report {
+    let report = Report::default()
+        .heading("Faults, each put back alone into the corrected algorithm, with the distance from the equilibrium");
+    let prices = match prices {
+        Ok(prices) => prices,
+        Err(why) => {
+            return report
+                .note(format!("Not measured here: {}", why.lines().next().unwrap_or_default()));
+        }
+    };
+    if let Some(why) = prices::unsound(prices) {
+        return report.note(format!("{why}: no fault is priced."));
+    }
+    let of = |weight| prices.iter().filter(move |price| price.weight == weight);
+    let fatal = of(Weight::Fatal).map(|price| ("fatal".to_string(), price));
+    let shifts = conclusion::shifts(prices).into_iter().map(|k| {
+        let price = &prices[k];
+        let far = or_dash(price.outcome.from_equilibrium(), |far| percent(far, 0));
+        (if price.outcome.is_settled() { far } else { format!("{far}, does not settle") }, price)
+    });
+    let rounding = of(Weight::Rounding).map(|price| (Weight::Rounding.to_string(), price));
+    let said = fatal.chain(shifts).chain(rounding).map(|(cost, price)| {
+        format!("{cost}: {}: {}", price.name.as_deref().unwrap_or("-"), price.fault)
+    });
+    let own = or_dash(prices[0].outcome.from_equilibrium(), |own| percent(own, 0));
+    let free = prices::of_weight(prices, Weight::Free);
+    let none = prices::of_weight(prices, Weight::NoFault);
+    report
+        .notes(said)
+        .note(format!(
+            "{own}: no fault: the corrected algorithm, which has no friction; as far with {}",
+            listed(free)
+        ))
+        .notes(
+            (!none.is_empty())
+                .then(|| format!("no fault here, as no node slides: {}", listed(none))),
+        )
+}
+
+fn assumed(assumptions: &[Assumption]) -> String {
+    let each =
+        assumptions.iter().map(|assumption| format!("{}: {}", assumption.what, assumption.set_to));
+    format!("Assumed, as the paper is silent: {}.", each.collect::<Vec<_>>().join("; "))
+}
+
+fn more(scene: &Scene) -> String {
+    let name = &scene.name;
+    format!(
+        "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
+    )
+}
