@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use paper::corrected::{Bound, Ending, FAULTS, check, iterate};
-use problem::model::{Material, Model};
+use problem::model::{Force, Material, Model, NodeId};
 use problem::scene::Scene;
 use testing::tolerances::{ELEMENT, assert_near};
 
@@ -46,13 +46,13 @@ fn two_blocks_in_closed_form() {
 #[test]
 fn bound_in_both_components_a_node_goes_with_its_target() {
     let mut model = model("two-blocks");
-    let free = |node: &&problem::model::NodeId| !model.is_restrained(node.dofs()[0]);
+    let free = |node: &&NodeId| !model.is_restrained(node.dofs()[0]);
     let node = *model.contact.nodes.iter().find(free).expect("one in the middle");
     let place = model.nodes[node.index()];
     let mate = (0..model.nodes.len())
         .find(|n| *n != node.index() && model.nodes[*n] == place)
         .expect("meshes match");
-    Arc::make_mut(&mut model).load[node.dofs()[0].index()] = 5.0;
+    Arc::make_mut(&mut model).forces.push(Force::Node(node, [5.0, 0.0]));
     let slip = |bound| {
         let u = ending(&model, bound, STEPS).u;
         u[2 * node.index()] - u[2 * mate]
