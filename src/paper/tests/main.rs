@@ -3,6 +3,7 @@
 extern crate plane_contact_paper as paper;
 
 mod bitwise;
+mod corrected;
 mod listings;
 mod quotes;
 mod scalars;
