@@ -9,7 +9,7 @@ use super::findings::ROUNDING;
 use super::variants::apart;
 use engine::error::Error;
 use engine::estimates::moves;
-use engine::{Detail, Request, Solution, distance, max_displacement, solve};
+use engine::{Detail, Request, Solution, max_displacement, solve};
 use mathcad::array::Table;
 use mathcad::{Failure, Settings};
 use paper::door::{self, Call};
