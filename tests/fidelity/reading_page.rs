@@ -54,7 +54,7 @@ fn finding(finding: &Finding) -> String {
     let id = format!("[{0}](../golden/findings/{0}/{PAGE})", finding.id);
     let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
     let lines = format!("{} {}", finding.listing, lines.join(", "));
-    let measured = finding.measure(&Case::new(finding.scene()));
+    let measured = finding.measure(&Case::new(finding.scene()).with_equivalents(0));
     let value = format!("{:.3}", measured.number.expect("a number"));
     let value = value.trim_end_matches('0').trim_end_matches('.');
     let shown = format!("{value} = {}", finding.number);

@@ -89,10 +89,10 @@ impl Case {
         &self.base.reading
     }
 
-    /// The case with one input that means the same, as one of many: each takes as long as the case itself.
+    /// The case with so many inputs that mean the same at most: each takes as long as the case itself.
     #[must_use]
-    pub fn of_many(self) -> Self {
-        Case { most_equivalents: 1, ..self }
+    pub fn with_equivalents(self, most: usize) -> Self {
+        Case { most_equivalents: most, ..self }
     }
 
     /// The case of the same request under another reading.

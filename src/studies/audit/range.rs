@@ -98,7 +98,7 @@ pub fn range(reading: Reading) -> Result<Range> {
     let case = |(strand, r8): &(Strand, ToleranceUnit)| {
         let scene = strand.generate().and_then(|scene| scene.build())?;
         let reading = Reading { r8: *r8, ..reading };
-        Ok(Arc::new(Case::from_request(Request::new(&scene).reading(reading))?.of_many()))
+        Ok(Arc::new(Case::from_request(Request::new(&scene).reading(reading))?.with_equivalents(1)))
     };
     let own = (Strand::default(), ToleranceUnit::default());
     let own_case = case(&own)?;
