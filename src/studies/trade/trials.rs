@@ -125,19 +125,20 @@ pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
         Varied::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
-            turned(parameter, &tolerances(own), own, place)
+            turned(parameter, &CARRYING[..2], &tolerances(own), own, place)
         }
         Varied::Iterations => {
             let place = |n: usize| (n.to_string(), Setting::Iterations(n));
-            turned(parameter, &iterations(request.iterations), request.iterations, place)
+            let own = request.iterations;
+            turned(parameter, &CARRYING[..2], &iterations(own), own, place)
         }
         Varied::Status => {
             let place = |rule: StatusRule| (rule.to_string(), Setting::Status(rule));
-            turned(parameter, StatusRule::ALL, request.contact.status, place)
+            turned(parameter, &CARRYING[..2], StatusRule::ALL, request.contact.status, place)
         }
         Varied::Coupling => {
             let place = |c: Coupling| (c.to_string(), Setting::Coupling(c));
-            turned(parameter, Coupling::ALL, request.contact.coupling, place)
+            turned(parameter, &CARRYING, Coupling::ALL, request.contact.coupling, place)
         }
     }
 }
@@ -151,16 +152,15 @@ pub(super) fn judges(parameter: Varied) -> bool {
     }
 }
 
-/// A parameter at each of `values` under each variant that has it and carries load across; the scene has
-/// the parameter at `own`.
+/// A parameter at each of `values` under each of `variants`, which have it; the scene has the parameter at
+/// `own`.
 fn turned<T: Copy + PartialEq>(
     parameter: Varied,
+    variants: &[Variant],
     values: &[T],
     own: T,
     place: impl Fn(T) -> (String, Setting),
 ) -> Vec<Trial> {
-    // Only the coupling is a parameter of `unilateral` too.
-    let variants = if parameter == Varied::Coupling { &CARRYING[..] } else { &CARRYING[..2] };
     let trial = |(variant, value): (Variant, T)| {
         let (label, setting) = place(value);
         Trial { setting, own: value == own, ..Trial::new(parameter, label, variant) }
