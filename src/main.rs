@@ -4,6 +4,7 @@
 use std::process::ExitCode;
 use std::thread::Builder;
 
+use clap::error::{ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
@@ -65,6 +66,10 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(mut why) if why.use_stderr() => {
             command::name_subcommands(&mut why, &grammar);
+            escape(&mut why);
+            if why.kind() == ErrorKind::InvalidUtf8 {
+                return exit_code(Err(not_utf8()), json);
+            }
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
@@ -148,6 +153,28 @@ fn is_ignored(signal: i32) -> bool {
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let set = ignored.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok());
     set.is_some_and(|set| set >> (signal - 1) & 1 == 1)
+}
+
+/// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as escapes.
+fn escape(why: &mut clap::Error) {
+    let escaped = |text: &String| text.escape_debug().to_string();
+    let is_unsafe = |text: &String| text.contains(char::is_control);
+    let context = why.context().filter_map(|(kind, value)| match value {
+        ContextValue::String(text) if is_unsafe(text) => {
+            Some((kind, ContextValue::String(escaped(text))))
+        }
+        _ => None,
+    });
+    for (kind, value) in context.collect::<Vec<_>>() {
+        why.insert(kind, value);
+    }
+}
+
+/// Returns the fault of an argument that is no text.
+fn not_utf8() -> Error {
+    let arg = std::env::args_os().find(|arg| arg.to_str().is_none()).unwrap_or_default();
+    let what = format!("the argument {arg:?} is not in UTF-8");
+    InputError::new("the command line", what, "rename the file, or type a value in UTF-8").into()
 }
 
 /// Returns a fault of the command line.
