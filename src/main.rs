@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 use std::thread::Builder;
 
-use clap::error::{ContextValue, ErrorKind};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
@@ -54,7 +54,12 @@ struct Cli {
 const STACK: usize = 1 << 21;
 
 fn main() -> ExitCode {
-    let _ = rayon::ThreadPoolBuilder::new().stack_size(STACK).build_global();
+    let pool = || rayon::ThreadPoolBuilder::new().stack_size(STACK);
+    // Where the system starts no threads, the one that there is does all the work.
+    let _ = match pool().build() {
+        Ok(_) => pool().build_global(),
+        Err(_) => pool().num_threads(1).use_current_thread().build_global(),
+    };
     #[cfg(unix)]
     heed_signals();
     // Every command that prints JSON has this option.
@@ -73,7 +78,7 @@ fn main() -> ExitCode {
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
-            commands::print_stderr(&why.render().to_string());
+            commands::print_stderr(&rendered(&why));
             return ExitStatus::Input.into();
         }
         // What was asked for is help, or the version.
@@ -166,8 +171,24 @@ fn escape(why: &mut clap::Error) {
         _ => None,
     });
     for (kind, value) in context.collect::<Vec<_>>() {
+        why.remove(ContextKind::Suggested);
         why.insert(kind, value);
     }
+}
+
+/// Returns what is wrong with the command line, with plain words in place of those that Rust has for numbers.
+fn rendered(why: &clap::Error) -> String {
+    const WORDS: [(&str, &str); 5] = [
+        ("invalid float literal", "it is no number"),
+        ("cannot parse float from empty string", "it is empty"),
+        ("invalid digit found in string", "it is no whole number of 0 or more"),
+        ("cannot parse integer from empty string", "it is empty"),
+        ("number too large to fit in target type", "it is too large"),
+    ];
+    let text = why.render().to_string();
+    WORDS
+        .iter()
+        .fold(text, |text, (rust, plain)| text.replace(&format!(": {rust}"), &format!(": {plain}")))
 }
 
 /// Returns the fault of an argument that is no text.
@@ -179,7 +200,7 @@ fn not_utf8() -> Error {
 
 /// Returns a fault of the command line.
 fn usage(why: &clap::Error) -> Error {
-    let text = why.render().to_string();
+    let text = rendered(why);
     let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
     let start = start.collect::<Vec<_>>().join(" ");
     InputError::new("the command line", start.trim_start_matches("error: "), "see --help").into()

@@ -54,7 +54,7 @@ pub struct Unknown<'a> {
 /// Returns the unknown name of which serde's words speak.
 pub fn unknown(words: &str) -> Option<Unknown<'_>> {
     let (kind, rest) = words.strip_prefix("unknown ")?.split_once(" `")?;
-    let (name, known) = rest.rsplit_once("`, ")?;
+    let (name, known) = rest.split_once("`, expected ").or(rest.split_once("`, there are no "))?;
     Some(Unknown { kind, name, known: known.split('`').skip(1).step_by(2).collect() })
 }
 

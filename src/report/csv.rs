@@ -52,16 +52,21 @@ impl<R> Table<R> {
 }
 
 /// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
-/// a formula, U+FFFD in place of what controls a terminal.
+/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
 fn words(text: &str) -> String {
     let text = text.replace(controls_a_terminal, "\u{fffd}");
-    let is_number = text.parse::<f64>().is_ok();
-    let is_formula = !is_number && text.starts_with(['=', '+', '-', '@', '\t', '\n']);
-    if is_formula { format!("'{text}") } else { text }
+    text.split_inclusive([';', '\t', '\n', '|']).map(guarded).collect()
+}
+
+fn guarded(part: &str) -> String {
+    const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
+    let is_number = part.trim_end_matches([';', '\t', '\n', '|']).parse::<f64>().is_ok();
+    let is_formula = !is_number && part.trim_start().starts_with(STARTS);
+    if is_formula { format!("'{part}") } else { part.into() }
 }
 
 fn line(cells: Vec<String>) -> String {
-    let quoted = |cell: String| match cell.contains(['"', ',', '\n', '\r']) {
+    let quoted = |cell: String| match cell.contains(['"', ',', ';', '\t', '|', '\n', '\r']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),
         false => cell,
     };

@@ -99,21 +99,21 @@ fn sides() {
 #[test]
 fn fields() {
     let e = refused(|s| s["c_tol"] = json!(1.0));
-    says(&e, "c_tol", &["unknown field `c_tol`", "expected one of `title`, `mesh`"]);
+    says(&e, "c_tol", &["there is no field \"c_tol\" here", "the fields are title, mesh"]);
     let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
     says(&e, "contact.c_tll, line 1", &["the text \"small\" where a number is expected"]);
     let e = refused(|s| s["plane"] = json!("strian"));
     says(&e, "plane", &["\"strian\" is none of strain, stress"]);
     let e = refused(|s| s["restraints"][1]["fix"] = json!(["z"]));
-    says(&e, "restraints[1].fix[0]", &["unknown value `z`, expected `x` or `y`"]);
+    says(&e, "restraints[1].fix[0]", &["\"z\" is none of x, y"]);
     let e = refused(|s| s["loads"][0]["on"] = json!([1]));
     says(&e, "loads[0].on", &["where the name or the tag of a physical group is expected"]);
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
-    says(&e, "materials.1", &["unknown field `G`, expected `E` or `nu`"]);
+    says(&e, "materials.1", &["there is no field \"G\" here", "the fields are E, nu"]);
     let e = refused(|s| s["materials"] = json!([]));
     says(&e, "materials", &["a list where an object whose keys are physical groups"]);
     let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
-    says(&e, "the scene file", &["missing field `materials`"]);
+    says(&e, "the scene file", &["the field \"materials\" is missing"]);
     let e = refused(|s| s["variant"] = json!("glued"));
     says(&e, "variant", &["\"glued\" is none of stepped, tied, printed"]);
     let e = refused(|s| s["iterations"] = json!(1_000_000));
@@ -188,9 +188,9 @@ fn meshes() {
         &["a difference of 2e-11 in a mesh of the size 3"],
     );
     let e = refused(|s| s["elem"][9] = json!([10, 2, 2, 1, 1, 1, 2, 10]));
-    says(&e, "triangles", &["triangle 10 (nodes [1, 2, 10]) runs clockwise", "area is -0.5"]);
+    says(&e, "triangles", &["triangle 10 (nodes 1, 2, 10) runs clockwise", "area is -0.5"]);
     let e = refused(|s| s["node"][9] = json!([10, 2.0, 0.04, 0.0]));
-    says(&e, "triangles", &["triangle 10 (nodes [1, 10, 2])", "area"]);
+    says(&e, "triangles", &["triangle 10 (nodes 1, 10, 2)", "area"]);
     assert_eq!(e.fix, "move or merge its nodes");
     for (factor, size) in [(1e160, "large"), (1e-170, "small")] {
         let e = refused(|s| {
@@ -308,7 +308,7 @@ fn triangles_of_one_body_that_lie_over_each_other() {
             let [a, b, c] = nodes;
             push(&mut s["elem"], json!([19, 2, 2, 1, 1, a, b, c]));
         });
-        says(&e, "the mesh's triangles", &["of one body lie over each other", "and 19"]);
+        says(&e, "the mesh's triangles", &["lie over each other", "and 19"]);
         assert!(pair.iter().any(|number| e.what.contains(&number.to_string())), "{e}");
     }
     let e = refused(|s| {

@@ -108,7 +108,7 @@ fn faults_of_the_file_are_named() {
     };
     says(json!({"format": 2, "scene": "fig1"}), "format 2");
     says(json!({"format": 1, "grit": {}}), "grit");
-    says(json!({"format": 1}), "missing field `scene`");
+    says(json!({"format": 1}), "the field \"scene\" is missing");
     says(
         json!({"format": 1, "scene": "fig1", "grid": {"/scene/x": 3}}),
         "neither a list nor steps",

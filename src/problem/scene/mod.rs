@@ -21,6 +21,7 @@ mod orphans;
 mod refine;
 mod scene_file;
 mod schema;
+mod slit;
 mod source;
 pub mod surface;
 pub mod symmetry;
@@ -133,7 +134,7 @@ impl Scene {
     fn assemble(
         name: &str,
         description: Description,
-        mesh: Mesh,
+        mut mesh: Mesh,
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
@@ -174,6 +175,8 @@ impl Scene {
         check::restrained_bodies(&model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
+        let slit = slit::note(&mesh, &model);
+        mesh.adapted.extend(slit);
         Ok(Scene {
             name: name.into(),
             title: description.title.clone(),

@@ -70,6 +70,9 @@ pub fn read_field<T: DeserializeOwned>(value: &Value, kind: &Kind, field: &str) 
     deserialize(value, kind, place, plain)
 }
 
+/// The most bytes of a field's place that an error shows.
+const MOST_OF_A_PLACE: usize = 200;
+
 /// Reads what `source` holds; `place` names a path, which is empty of the whole, and `words` says what
 /// is wrong.
 fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json::Error>>(
@@ -81,6 +84,9 @@ fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json
     serde_path_to_error::deserialize(Strict(source)).map_err(|error| {
         let place = match error.path().to_string() {
             path if path == "." || path == "?" => place(""),
+            path if path.len() > MOST_OF_A_PLACE => {
+                place(&path[..path.floor_char_boundary(MOST_OF_A_PLACE)]) + "..."
+            }
             path => place(path.trim_end_matches(".?")),
         };
         let (error, what) = (error.inner(), words(error.inner()));
