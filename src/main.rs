@@ -1,7 +1,9 @@
 //! The command line.
 #![forbid(unsafe_code)]
 
+use std::num::NonZero;
 use std::process::ExitCode;
+use std::sync::{Arc, Barrier};
 use std::thread::Builder;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -54,11 +56,10 @@ struct Cli {
 const STACK: usize = 1 << 21;
 
 fn main() -> ExitCode {
-    let pool = || rayon::ThreadPoolBuilder::new().stack_size(STACK);
-    // Where the system starts no threads, the one that there is does all the work.
-    let _ = match pool().build() {
-        Ok(_) => pool().build_global(),
-        Err(_) => pool().num_threads(1).use_current_thread().build_global(),
+    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK);
+    let _ = match can_start_threads() {
+        true => pool.build_global(),
+        false => pool.num_threads(1).use_current_thread().build_global(),
     };
     #[cfg(unix)]
     heed_signals();
@@ -91,6 +92,19 @@ fn main() -> ExitCode {
         );
     };
     exit_code(command.run().map_err(named_by_option), json)
+}
+
+/// Returns whether the system starts as many threads as there are processors, and one more, which signals wait for.
+fn can_start_threads() -> bool {
+    let count = std::thread::available_parallelism().map_or(1, NonZero::get) + 1;
+    let all = Arc::new(Barrier::new(count + 1));
+    let start = |all: Arc<Barrier>| Builder::new().stack_size(STACK).spawn(move || all.wait());
+    let started: Vec<_> = (0..count).map_while(|_| start(all.clone()).ok()).collect();
+    if started.len() < count {
+        return false; // Those that wait end with the process.
+    }
+    all.wait();
+    started.into_iter().all(|thread| thread.join().is_ok())
 }
 
 /// Returns a line for each exit status.

@@ -55,18 +55,22 @@ impl<R> Table<R> {
 /// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
 fn words(text: &str) -> String {
     let text = text.replace(controls_a_terminal, "\u{fffd}");
-    text.split_inclusive([';', '\t', '\n', '|']).map(guarded).collect()
+    let start = if text.starts_with(['\t', '\n']) { "'" } else { "" };
+    start.to_string() + &text.split_inclusive(SEPARATORS).map(guarded).collect::<String>()
 }
+
+/// The separators of tables beside the comma, in which a cell is quoted.
+const SEPARATORS: [char; 4] = [';', '\t', '\n', '|'];
 
 fn guarded(part: &str) -> String {
     const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
-    let is_number = part.trim_end_matches([';', '\t', '\n', '|']).parse::<f64>().is_ok();
+    let is_number = part.trim_end_matches(SEPARATORS).parse::<f64>().is_ok();
     let is_formula = !is_number && part.trim_start().starts_with(STARTS);
     if is_formula { format!("'{part}") } else { part.into() }
 }
 
 fn line(cells: Vec<String>) -> String {
-    let quoted = |cell: String| match cell.contains(['"', ',', ';', '\t', '|', '\n', '\r']) {
+    let quoted = |cell: String| match cell.contains(['"', ',', '\n', '\r']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),
         false => cell,
     };

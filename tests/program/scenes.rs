@@ -325,6 +325,59 @@ fn triangles_of_one_body_that_lie_over_each_other() {
     assert!(build(&scene).is_ok(), "the stamp lies 0.01 inside the base");
 }
 
+/// What passes nothing on, though it looks joined, is said: a crack may be meant. Triangles of bodies without
+/// contact between them are refused where they lie over each other.
+#[test]
+fn slits_are_named() {
+    let changed = |change: fn(&mut Value)| {
+        let mut scene = scene_json("fig1");
+        change(&mut scene);
+        build(&scene).map(|scene| scene.adapted().to_vec())
+    };
+    assert_eq!(changed(|_| ()), Ok(vec![]));
+    // Node 14 divides the side of triangle 10 between nodes 1 and 10, which its neighbour has.
+    let hanging = changed(|s| {
+        let [a, b] = [0, 9].map(|k| s["node"][k].clone());
+        let mean = |k: usize| (a[k].as_f64().unwrap() + b[k].as_f64().unwrap()) / 2.0;
+        push(&mut s["node"], json!([14, mean(1), mean(2), 0.0]));
+        let triangles = s["elem"].as_array_mut().expect("a list");
+        let at = triangles.iter().position(|row| row[0] == 10).expect("a triangle");
+        let mut row = triangles[at].as_array().expect("a row").clone();
+        let nodes = row.split_off(5);
+        let halves = [1, 10].map(|old| {
+            let node = |n: &Value| if *n == json!(old) { json!(14) } else { n.clone() };
+            [row.clone(), nodes.iter().map(node).collect()].concat()
+        });
+        let [first, mut second] = halves;
+        second[0] = json!(19);
+        triangles[at] = json!(first);
+        triangles.push(json!(second));
+    });
+    let said = hanging.expect("a scene").concat();
+    assert!(
+        said.contains("node 14 is on the side between 1 and 10") || said.contains("nodes 1 and 10"),
+        "{said}"
+    );
+    let apart = changed(|s| {
+        for (n, x, y) in [(14, 20.0, 0.0), (15, 21.0, 0.0), (16, 20.0, 1.0)] {
+            push(&mut s["node"], json!([n, x, y, 0.0]));
+            push(&mut s["node"], json!([n + 3, x, y, 0.0]));
+        }
+        s["node"].as_array_mut().unwrap().sort_by_key(|row| row[0].as_u64());
+        for (k, n) in [(19, 14), (20, 17)] {
+            push(&mut s["elem"], json!([k, 2, 2, 1, 1, n, n + 1, n + 2]));
+            for n in n..n + 3 {
+                push(&mut s["restraints"], json!({"node": n, "fix": ["x", "y"]}));
+            }
+        }
+    });
+    says(
+        &apart.expect_err("an overlap"),
+        "the mesh's triangles",
+        &["triangles 19 and 20 lie over"],
+    );
+}
+
 #[test]
 fn contact() {
     let e = refused(|s| s["contact"]["cnt"] = json!([5, 6, 2]));

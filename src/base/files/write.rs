@@ -224,7 +224,7 @@ fn is_mark(path: &Path) -> io::Result<bool> {
 }
 
 fn in_the_way(name: &str, names: &[&str]) -> io::Error {
-    let mark = names.last().unwrap_or(&name);
+    let mark = names.last().map_or("it", |mark| if *mark == name { "it" } else { mark });
     io::Error::other(format!(
         "{name} is in the way: {mark} does not tell that it is from this program"
     ))

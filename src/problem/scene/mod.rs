@@ -175,8 +175,8 @@ impl Scene {
         check::restrained_bodies(&model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
-        let slit = slit::note(&mesh, &model);
-        mesh.adapted.extend(slit);
+        let notes = slit::notes(&mesh, &model);
+        mesh.adapted.extend(notes);
         Ok(Scene {
             name: name.into(),
             title: description.title.clone(),

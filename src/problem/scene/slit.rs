@@ -1,5 +1,6 @@
 //! Slits: places where the outline of the mesh lies on itself, so that nothing is passed on across them.
-//! Some are meant, as a crack; where two bodies are in contact there is none.
+//! Some are meant, as a crack; where two bodies are in contact there is none. And edges that are a side of no
+//! triangle, as where one was divided and its edge was not.
 //!
 //! ```text
 //!   two nodes at one place      a node on a side that does not have it
@@ -11,7 +12,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::fold::{DEPTH, Faces};
-use super::mesh::Mesh;
+use super::mesh::{Element, Mesh};
 use crate::model::{Model, NodeId};
 
 /// The direction along which nodes are sorted, by its slope: few outlines run across it.
@@ -20,8 +21,28 @@ const SLOPE: f64 = 0.618_033_988_749_895;
 /// The most places that are named.
 const MOST: usize = 5;
 
-/// Says where the mesh has slits; None where it has none.
-pub fn note(mesh: &Mesh, model: &Model) -> Option<String> {
+/// Says where the mesh has slits, and edges that are a side of no triangle.
+pub fn notes(mesh: &Mesh, model: &Model) -> Vec<String> {
+    slits(mesh, model).into_iter().chain(loose_edges(mesh, model)).collect()
+}
+
+fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
+    let nodes = |edge: &&Element| [0, 1].map(|k| NodeId::from_number(edge.nodes[k]));
+    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(nodes(edge)).is_empty());
+    let first = loose.next()?;
+    let more = match loose.count() {
+        0 => String::new(),
+        more => format!(", as {more} more"),
+    };
+    Some(format!(
+        "Edge {} of the mesh (nodes {}) is a side of no triangle{more}: what its group restrains are its two \
+         nodes, and no node between them",
+        first.number,
+        mesh.named(&first.nodes)
+    ))
+}
+
+fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
     let faces = Faces::new(model);
     let on_contact: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
     let on_target: HashSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
