@@ -501,7 +501,10 @@ fn compare(saved: &Value, ours: &Value) -> Verdict {
         _ => {
             let [saved, ours] = match (saved.to_string(), ours.to_string()) {
                 // Numbers look like arrays of one entry, and like strings.
-                (a, b) if a == b => [saved.kind(), ours.kind()].map(|kind| format!("{a}, {kind}")),
+                (a, b) if a == b => [saved, ours].map(|value| match value {
+                    Value::Number(_) => format!("{a}, a number"),
+                    other => format!("{a}, {}", other.kind()),
+                }),
                 (a, b) => [a, b],
             };
             Verdict::Differs { saved, ours }

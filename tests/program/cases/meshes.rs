@@ -192,4 +192,9 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
     mesh_edited!("/^[46] 2 2 8/d; s/^6$/4/; s/ 2 7 / 2 8 /", 2, &["\"low\" has no element", "groups of triangles are \"all\" (8)"]),
     edited!("s/\"loads\"/\"contact\": {\"cnt\": [3], \"trg\": [1], \"c_tll\": 0, \"friction\": \"1e9\"}, \"loads\"/",
         2, &["friction \"1e9\" is neither a number of 0 or more nor \"stick\""]),
+    mesh_edited!(
+        "/Nodes/,/EndNodes/s/^4$/5/; s/^4 0 1 0/&\\n99 5 5 0/",
+        2,
+        &["nodes 99 (5 here) belong to no triangle"]
+    ),
 ];
