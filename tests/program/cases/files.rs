@@ -15,7 +15,7 @@ const CASES: &[Case] = &[
                   'scene mesh blocks' 'solve fig1 --out out/a'; do plane-contact $c; echo $?; done; ls else; \
                   plane-contact solve fig1 --no-pictures --out $PWD/out >text && ls else",
         status: 0,
-        contains: &["out is a link: name the folder that it leads to", "2\nresult.json"],
+        contains: &["out is a link: name the folder that it leads to", "2\nfields.vtu"],
         lacks: &["Written to out/"],
     },
     // A page that no option names is replaced only where it is the program's own.
