@@ -99,7 +99,7 @@ fn sides() {
 #[test]
 fn fields() {
     let e = refused(|s| s["c_tol"] = json!(1.0));
-    says(&e, "c_tol", &["there is no field \"c_tol\" here", "the fields are title, mesh"]);
+    says(&e, "c_tol", &["there is no field \"c_tol\" here"]);
     let e = refused(|s| s["contact"]["c_tll"] = json!("small"));
     says(&e, "contact.c_tll, line 1", &["the text \"small\" where a number is expected"]);
     let e = refused(|s| s["plane"] = json!("strian"));
@@ -109,7 +109,7 @@ fn fields() {
     let e = refused(|s| s["loads"][0]["on"] = json!([1]));
     says(&e, "loads[0].on", &["where the name or the tag of a physical group is expected"]);
     let e = refused(|s| s["materials"]["1"]["G"] = json!(1));
-    says(&e, "materials.1", &["there is no field \"G\" here", "the fields are E, nu"]);
+    says(&e, "materials.1", &["there is no field \"G\" here"]);
     let e = refused(|s| s["materials"] = json!([]));
     says(&e, "materials", &["a list where an object whose keys are physical groups"]);
     let e = refused(|s| drop(s.as_object_mut().unwrap().remove("materials")));
@@ -354,7 +354,7 @@ fn slits_are_named() {
         triangles.push(json!(second));
     });
     let said = hanging.expect("a scene").concat();
-    assert!(said.contains("node 14 is on the side between 10 and 2"), "{said}");
+    assert!(said.contains("node 14 is on the side between 2 and 10"), "{said}");
     let loose =
         changed(|s| push(&mut s["elem"], json!([19, 1, 2, 30, 30, 1, 3]))).expect("a scene");
     assert!(
@@ -434,6 +434,10 @@ fn bodies_that_nothing_holds() {
     says(&e, "restraints", &["the bodies that contact joins can still move in x, all together"]);
     let mut held = scene_json("fig1");
     held.as_object_mut().unwrap().remove("contact");
+    // Without contact no body may lie in the other.
+    for n in 4..9 {
+        held["node"][n][2] = json!(0.1);
+    }
     push(&mut held["restraints"], json!({ "node": 12, "fix": ["x", "y"] }));
     push(&mut held["restraints"], json!({ "node": 9, "fix": ["y"] }));
     build(&held).expect("three restraints hold a body");

@@ -171,8 +171,8 @@ impl Scene {
             restraints,
             dropped,
         };
-        fold::check(&mesh, &model)?;
         check::restrained_bodies(&model)?;
+        fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         let notes = slit::notes(&mesh, &model);
