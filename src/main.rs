@@ -1,9 +1,12 @@
 //! The command line.
 #![forbid(unsafe_code)]
 
+use std::num::NonZero;
 use std::process::ExitCode;
+use std::sync::{Arc, Barrier};
 use std::thread::Builder;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
@@ -53,7 +56,11 @@ struct Cli {
 const STACK: usize = 1 << 21;
 
 fn main() -> ExitCode {
-    let _ = rayon::ThreadPoolBuilder::new().stack_size(STACK).build_global();
+    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK);
+    let _ = match can_start_threads() {
+        true => pool.build_global(),
+        false => pool.num_threads(1).use_current_thread().build_global(),
+    };
     #[cfg(unix)]
     heed_signals();
     // Every command that prints JSON has this option.
@@ -65,10 +72,14 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(mut why) if why.use_stderr() => {
             command::name_subcommands(&mut why, &grammar);
+            escape(&mut why);
+            if why.kind() == ErrorKind::InvalidUtf8 {
+                return exit_code(Err(not_utf8()), json);
+            }
             if json {
                 let _ = commands::print(&failure(&usage(&why)));
             }
-            commands::print_stderr(&why.render().to_string());
+            commands::print_stderr(&rendered(&why));
             return ExitStatus::Input.into();
         }
         // What was asked for is help, or the version.
@@ -81,6 +92,19 @@ fn main() -> ExitCode {
         );
     };
     exit_code(command.run().map_err(named_by_option), json)
+}
+
+/// Returns whether the system starts as many threads as there are processors, and one more, which signals wait for.
+fn can_start_threads() -> bool {
+    let count = std::thread::available_parallelism().map_or(1, NonZero::get) + 1;
+    let all = Arc::new(Barrier::new(count + 1));
+    let start = |all: Arc<Barrier>| Builder::new().stack_size(STACK).spawn(move || all.wait());
+    let started: Vec<_> = (0..count).map_while(|_| start(all.clone()).ok()).collect();
+    if started.len() < count {
+        return false; // Those that wait end with the process.
+    }
+    all.wait();
+    started.into_iter().all(|thread| thread.join().is_ok())
 }
 
 /// Returns a line for each exit status.
@@ -150,9 +174,47 @@ fn is_ignored(signal: i32) -> bool {
     set.is_some_and(|set| set >> (signal - 1) & 1 == 1)
 }
 
+/// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as escapes.
+fn escape(why: &mut clap::Error) {
+    let escaped = |text: &String| text.escape_debug().to_string();
+    let is_unsafe = |text: &String| text.contains(char::is_control);
+    let context = why.context().filter_map(|(kind, value)| match value {
+        ContextValue::String(text) if is_unsafe(text) => {
+            Some((kind, ContextValue::String(escaped(text))))
+        }
+        _ => None,
+    });
+    for (kind, value) in context.collect::<Vec<_>>() {
+        why.remove(ContextKind::Suggested);
+        why.insert(kind, value);
+    }
+}
+
+/// Returns what is wrong with the command line, with plain words in place of those that Rust has for numbers.
+fn rendered(why: &clap::Error) -> String {
+    const WORDS: [(&str, &str); 5] = [
+        ("invalid float literal", "it is no number"),
+        ("cannot parse float from empty string", "it is empty"),
+        ("invalid digit found in string", "it is no whole number of 0 or more"),
+        ("cannot parse integer from empty string", "it is empty"),
+        ("number too large to fit in target type", "it is too large"),
+    ];
+    let text = why.render().to_string();
+    WORDS
+        .iter()
+        .fold(text, |text, (rust, plain)| text.replace(&format!(": {rust}"), &format!(": {plain}")))
+}
+
+/// Returns the fault of an argument that is no text.
+fn not_utf8() -> Error {
+    let arg = std::env::args_os().find(|arg| arg.to_str().is_none()).unwrap_or_default();
+    let what = format!("the argument {arg:?} is not in UTF-8");
+    InputError::new("the command line", what, "rename the file, or type a value in UTF-8").into()
+}
+
 /// Returns a fault of the command line.
 fn usage(why: &clap::Error) -> Error {
-    let text = why.render().to_string();
+    let text = rendered(why);
     let start = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
     let start = start.collect::<Vec<_>>().join(" ");
     InputError::new("the command line", start.trim_start_matches("error: "), "see --help").into()

@@ -32,7 +32,14 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}\n  where: {}\n  fix:   {}", self.what, self.place, self.fix)
+        // A value with a line break begins no line of its own.
+        let lines = self.what.split('\n').enumerate();
+        let indented = |(k, line): (usize, &str)| match k == 0 || line.starts_with(' ') {
+            true => line.to_string(),
+            false => format!("  {line}"),
+        };
+        let what = lines.map(indented).collect::<Vec<_>>().join("\n");
+        write!(f, "{what}\n  where: {}\n  fix:   {}", self.place, self.fix)
     }
 }
 

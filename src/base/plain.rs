@@ -26,6 +26,38 @@ const KINDS: &[(&str, &str)] = &[
     ("length", "a list of"),
 ];
 
+/// What serde says of JSON that is malformed, by how it begins.
+const SYNTAX: &[(&str, &str)] = &[
+    ("trailing characters", "the list is too long"),
+    ("trailing comma", "no value follows the comma"),
+    ("expected `:`", "a colon is missing behind a name"),
+    ("expected `,` or `]`", "a comma, or the end of the list, is missing"),
+    ("expected `,` or `}`", "a comma, or the end of the object, is missing"),
+    ("control character", "a line break or another control character stands in a text"),
+    ("invalid escape", "what follows the backslash is no escape of JSON"),
+    ("invalid unicode", "the escape \\u stands for no character"),
+    ("lone leading surrogate", "the escape \\u stands for no character"),
+    ("unexpected end of hex", "the escape \\u stands for no character"),
+    ("recursion limit", "lists and objects stand too deep in each other: 127 levels are read"),
+];
+
+/// A name that there is not.
+pub struct Unknown<'a> {
+    /// Of what: `field` or `variant`.
+    pub kind: &'a str,
+    /// The name.
+    pub name: &'a str,
+    /// The names that there are.
+    pub known: Vec<&'a str>,
+}
+
+/// Returns the unknown name of which serde's words speak.
+pub fn unknown(words: &str) -> Option<Unknown<'_>> {
+    let (kind, rest) = words.strip_prefix("unknown ")?.split_once(" `")?;
+    let (name, known) = rest.split_once("`, expected ").or(rest.split_once("`, there are no "))?;
+    Some(Unknown { kind, name, known: known.split('`').skip(1).step_by(2).collect() })
+}
+
 /// Returns what `error` says, with the kinds of JSON in place of those of Rust, and without the line.
 ///
 /// ```
@@ -36,14 +68,20 @@ const KINDS: &[(&str, &str)] = &[
 pub fn plain(error: &impl Display) -> String {
     let text = error.to_string();
     let text = text.rsplit_once(" at line ").map_or(&*text, |(text, _)| text);
-    if text == "trailing characters" {
-        return "the list is too long".into();
+    if let Some((_, words)) = SYNTAX.iter().find(|(start, _)| text.starts_with(start)) {
+        return (*words).into();
     }
     if let Some(rest) = text.strip_prefix("EOF while parsing ") {
         return format!("the text ends within {rest}");
     }
-    if let Some(rest) = text.strip_prefix("unknown variant ") {
-        return format!("unknown value {rest}");
+    if let Some(field) = text.strip_prefix("missing field ") {
+        return format!("the field {:?} is missing", field.trim_matches('`'));
+    }
+    if let Some(Unknown { kind, name, known }) = unknown(text) {
+        return match kind {
+            "field" => format!("there is no field {name:?} here"),
+            _ => format!("{name:?} is none of {}", known.join(", ")),
+        };
     }
     let starts = ["invalid type: ", "invalid value: ", "invalid "];
     let Some(rest) = starts.iter().find_map(|start| text.strip_prefix(start)) else {

@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::path::PathBuf;
+use std::thread::Builder;
 use std::time::Duration;
 
 use base::error::InputError;
@@ -75,7 +76,7 @@ pub fn report_error(error: &Error) -> ExitStatus {
 /// only in a terminal.
 pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
     let spinner = ProgressBar::new_spinner().with_message(what);
-    spinner.enable_steady_tick(Duration::from_millis(500));
+    tick(&spinner);
     let result = work();
     spinner.finish_and_clear();
     result
@@ -128,13 +129,40 @@ pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
     }
 }
 
+/// Checks that a page can be written to `out`, before it is computed.
+///
+/// # Errors
+/// Those of [`files::check_file`]; or no option `asked` for that place, and what is there is not known to be
+/// from this program.
+pub fn check_page(asked: &Option<PathBuf>, out: &Path) -> Result<()> {
+    files::check_file(out)?;
+    let name = out.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let folder = out.parent().unwrap_or(Path::new(""));
+    Ok(if asked.is_none() {
+        files::check_folder(folder, &[name])?
+    })
+}
+
+/// Writes a page.
+///
+/// # Errors
+/// Those of [`check_page`], or it cannot be written.
+pub fn write_page(asked: &Option<PathBuf>, out: &Path, page: &str) -> Result<()> {
+    check_page(asked, out)?;
+    Ok(files::write(out, page)?)
+}
+
 /// A progress bar on standard error; it shows only in a terminal.
 pub fn progress(steps: usize, template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template).expect("the template is sound");
     let bar = ProgressBar::new(steps as u64).with_style(style);
-    // What nobody sees needs no thread.
-    if !bar.is_hidden() {
+    tick(&bar);
+    bar
+}
+
+/// Moves a bar by a thread of its own: none for one that nobody sees, nor where no thread can be started.
+fn tick(bar: &ProgressBar) {
+    if !bar.is_hidden() && Builder::new().spawn(|| ()).is_ok() {
         bar.enable_steady_tick(Duration::from_millis(500));
     }
-    bar
 }

@@ -420,7 +420,9 @@ impl Execution<'_> {
             Ok(outcome) => Outcome::Value(outcome.value),
             Err(Cause::Unsupported { construct }) => Outcome::Unsupported(construct),
             Err(Cause::Complex { .. }) => Outcome::Unsupported("complex numbers".into()),
-            Err(limit @ Cause::Limit { .. }) => Outcome::Unsupported(limit.to_string()),
+            Err(Cause::Limit { limit, of }) => {
+                Outcome::Unsupported(format!("more than {limit} {of}, the limit of this region"))
+            }
             Err(cause) => Outcome::Failed(cause),
         }
     }
@@ -496,7 +498,17 @@ fn compare(saved: &Value, ours: &Value) -> Verdict {
     match digits {
         Some(u32::MAX) => Verdict::Same,
         Some(digits) if digits >= LEAST_DIGITS => Verdict::Digits(digits),
-        _ => Verdict::Differs { saved: saved.to_string(), ours: ours.to_string() },
+        _ => {
+            let [saved, ours] = match (saved.to_string(), ours.to_string()) {
+                // Numbers look like arrays of one entry, and like strings.
+                (a, b) if a == b => [saved, ours].map(|value| match value {
+                    Value::Number(_) => format!("{a}, a number"),
+                    other => format!("{a}, {}", other.kind()),
+                }),
+                (a, b) => [a, b],
+            };
+            Verdict::Differs { saved, ours }
+        }
     }
 }
 

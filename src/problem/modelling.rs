@@ -71,7 +71,7 @@ impl FromStr for Friction {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = || text.parse().ok().filter(|mu: &f64| mu.is_finite()).and_then(Friction::new);
         let read = if text == "stick" { Some(Friction::STICK) } else { number() };
-        read.ok_or_else(|| no_friction(text))
+        read.ok_or_else(|| no_friction(format!("{text:?}")))
     }
 }
 

@@ -52,12 +52,21 @@ impl<R> Table<R> {
 }
 
 /// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
-/// a formula, U+FFFD in place of what controls a terminal.
+/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
 fn words(text: &str) -> String {
     let text = text.replace(controls_a_terminal, "\u{fffd}");
-    let is_number = text.parse::<f64>().is_ok();
-    let is_formula = !is_number && text.starts_with(['=', '+', '-', '@', '\t', '\n']);
-    if is_formula { format!("'{text}") } else { text }
+    let start = if text.starts_with(['\t', '\n']) { "'" } else { "" };
+    start.to_string() + &text.split_inclusive(SEPARATORS).map(guarded).collect::<String>()
+}
+
+/// The separators of tables beside the comma, in which a cell is quoted.
+const SEPARATORS: [char; 4] = [';', '\t', '\n', '|'];
+
+fn guarded(part: &str) -> String {
+    const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
+    let is_number = part.trim_end_matches(SEPARATORS).parse::<f64>().is_ok();
+    let is_formula = !is_number && part.trim_start().starts_with(STARTS);
+    if is_formula { format!("'{part}") } else { part.into() }
 }
 
 fn line(cells: Vec<String>) -> String {

@@ -20,6 +20,7 @@ use base::error::{InputError, Result};
 use base::files::json::{Kind, read, read_field};
 use engine::error::Error;
 use engine::{Request, Solution, max_displacement, solve, summaries};
+use problem::scene::file::SCENE;
 use problem::scene::{SceneBuilder, SceneFile, sha256, sha256_of};
 
 /// Files of sweeps.
@@ -97,8 +98,7 @@ impl Jobs {
             return Err(InputError::new("field format", what, "this program reads format 1"));
         }
         let scene = SceneFile::read_in(folder, &sweep.scene)?;
-        let kind = Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: true };
-        let fields: Value = read(&scene.text, &kind).map_err(|error| error.within(&scene.name))?;
+        let fields: Value = read(&scene.text, &SCENE).map_err(|error| error.within(&scene.name))?;
         let base = json!({"scene": fields, "options": sweep.options});
         let mut all = if sweep.list.is_empty() { vec![Map::new()] } else { sweep.list };
         if all.len() > MOST_JOBS {

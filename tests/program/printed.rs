@@ -112,6 +112,10 @@ fn no_cell_of_csv_is_a_formula() {
     let row = cells.map(Cell::from).into_iter().chain([Cell::from(-2.5)]).collect();
     let csv = Table::new(["=h", "", "", "", "", "", "", "", ""], [row]).csv();
     assert_eq!(csv, "'=h,,,,,,,,\r\n'=1+1,'+a,'-a,'@a,'\ta,-1.5,a=b,�a,-2.5\r\n");
+    let cells =
+        ["a;=1+1", " =1", "＝1+1", "a|-b", "a;-1", "a - b"].map(|text| Cell::Text(text.into()));
+    let csv = Table::new([""; 6], [cells.to_vec()]).csv();
+    assert_eq!(csv, ",,,,,\r\na;'=1+1,' =1,'＝1+1,a|'-b,a;-1,a - b\r\n");
 }
 
 /// `format!` has no width beyond 65,535.

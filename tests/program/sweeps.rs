@@ -108,7 +108,7 @@ fn faults_of_the_file_are_named() {
     };
     says(json!({"format": 2, "scene": "fig1"}), "format 2");
     says(json!({"format": 1, "grit": {}}), "grit");
-    says(json!({"format": 1}), "missing field `scene`");
+    says(json!({"format": 1}), "the field \"scene\" is missing");
     says(
         json!({"format": 1, "scene": "fig1", "grid": {"/scene/x": 3}}),
         "neither a list nor steps",
@@ -144,7 +144,7 @@ fn a_job_runs_alone_and_its_result_is_left_alone() {
     let text = std::fs::read_to_string(&file).expect("a result");
     std::fs::write(&file, text.replace(&key, "other")).expect("written");
     let (status, _, errors) = only("3");
-    assert!(status == 2 && errors.contains("it is not the result of this job"), "{errors}");
+    assert!(status == 2 && errors.contains("this is not the result of this job"), "{errors}");
 }
 
 /// A sweep that is killed goes on where it was.

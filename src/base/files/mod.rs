@@ -3,11 +3,13 @@
 //! writes over what it reads.
 
 pub mod json;
+mod kind;
 mod read;
 mod write;
 
+pub use kind::{fields, is_json, kind_of};
 pub use read::{MOST, names, read, read_from, read_in, read_most, text};
 pub use write::{
-    MARKDOWN, abandon, check_file, check_folder, rewrite, temporary_folder, write, write_all,
-    write_new,
+    HTML, MARKDOWN, abandon, check_file, check_folder, is_same_place, rewrite, temporary_folder,
+    write, write_all, write_new,
 };

@@ -1,6 +1,6 @@
 //! The one way in which files are written: beside their target, and then renamed.
 //!
-//! No link is followed, no device is written to, and what the run has read is not replaced. A file that
+//! No link is followed but those of an absolute path, no device is written to, and what the run has read is not replaced. A file that
 //! the user named is replaced. Of a folder only what is the program's own is replaced: where the last
 //! of the files, the *mark* of the folder, is already there and was written by this program. The mark is
 //! renamed first, so that a run that is killed leaves no file without it.
@@ -29,6 +29,9 @@ const TRIES: usize = 100;
 
 /// What begins a page of Markdown that marks a folder; no reader shows it.
 pub const MARKDOWN: &str = "<!-- plane-contact -->\n";
+
+/// What tells that a page of HTML is from this program; it stands in the first bytes.
+pub const HTML: &str = "<meta name=\"generator\" content=\"plane-contact\">";
 
 /// The temporary files and folders of this process.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -80,7 +83,22 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
 /// # Errors
 /// There is a link, a device, a folder, or a file that this run reads.
 pub fn check_file(path: &Path) -> Result<()> {
-    no_hyphen(path).and_then(|()| is_there(path).map(drop)).map_err(|why| unwritable(path, &why))
+    let folder = path.parent().unwrap_or(path);
+    let checked = no_hyphen(path).and_then(|()| no_link(folder)).and_then(|()| is_there(path));
+    checked.map(drop).map_err(|why| unwritable(path, &why))
+}
+
+/// Returns whether two paths lead to one place, where a file need not be yet.
+pub fn is_same_place(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
+        match (folder, path.file_name()) {
+            (Some(folder), Some(name)) => folder.join(name),
+            _ => path,
+        }
+    };
+    place(a) == place(b)
 }
 
 /// Refuses a hyphen, by which others name standard output.
@@ -88,6 +106,17 @@ fn no_hyphen(path: &Path) -> io::Result<()> {
     match path == Path::new("-") {
         true => Err(io::Error::other("a hyphen is no name here; a file of that name is ./-")),
         false => Ok(()),
+    }
+}
+
+/// Refuses a folder that a link below the current one leads to. Whoever names an absolute path names its links.
+fn no_link(folder: &Path) -> io::Result<()> {
+    match folder.ancestors().find(|way| folder.is_relative() && way.is_symlink()) {
+        Some(link) => {
+            let why = "is a link: name the folder that it leads to by its absolute path";
+            Err(io::Error::other(format!("{} {why}", shown(link))))
+        }
+        None => Ok(()),
     }
 }
 
@@ -161,6 +190,7 @@ pub fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
 /// program.
 fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
     no_hyphen(folder)?;
+    no_link(folder)?;
     if let Some(file) = folder.ancestors().find(|there| there.exists() && !there.is_dir()) {
         let why = format!("{} is a file", shown(file));
         return Err(io::Error::new(io::ErrorKind::NotADirectory, why));
@@ -189,11 +219,12 @@ fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
 /// Returns whether this program wrote the file, which marks a folder.
 fn is_mark(path: &Path) -> io::Result<bool> {
     let head = read_from(io::Read::take(fs::File::open(path)?, HEAD), HEAD)?;
-    Ok(is_from_program(&head) || head.starts_with(MARKDOWN.as_bytes()))
+    let is_page = head.windows(HTML.len()).any(|part| part == HTML.as_bytes());
+    Ok(is_from_program(&head) || is_page || head.starts_with(MARKDOWN.as_bytes()))
 }
 
 fn in_the_way(name: &str, names: &[&str]) -> io::Error {
-    let mark = names.last().unwrap_or(&name);
+    let mark = names.last().map_or("it", |mark| if *mark == name { "it" } else { mark });
     io::Error::other(format!(
         "{name} is in the way: {mark} does not tell that it is from this program"
     ))

@@ -324,6 +324,19 @@ fn a_solve_block_is_named() {
     assert_eq!(checked[0].id, "1", "the region of the word");
 }
 
+/// An array of one entry is no number, though both look the same.
+#[test]
+fn values_that_look_the_same_are_told_apart() {
+    let matrix = "<matrix rows=\"1\" cols=\"1\"><real>49</real></matrix>";
+    let text = format!(
+        "<worksheet><regions><region><math><eval>{matrix}<result><real>49</real></result></eval></math>\
+         </region></regions></worksheet>"
+    );
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let [saved, ours] = ["49, a number", "49, a 1 x 1 array"].map(String::from);
+    assert_eq!(checked[0].verdict, Verdict::Differs { saved, ours });
+}
+
 #[test]
 fn what_is_no_worksheet_is_refused() {
     for text in ["", "<", "<html/>", "<!DOCTYPE a [<!ENTITY b \"c\">]><worksheet>&b;</worksheet>"] {

@@ -8,6 +8,7 @@ use super::{Unsupported, scan};
 use crate::settings::Settings;
 use crate::value::{Grid, Value};
 use base::error::{InputError, Result};
+use base::files::{is_json, kind_of};
 
 /// The most bytes of a file that is read: its regions become text and then trees.
 pub const LARGEST: usize = 1 << 26;
@@ -115,7 +116,7 @@ pub fn read(text: &str, place: &str) -> Result<Worksheet> {
     scan::check(text).map_err(|why| wrong(format!("the file is refused: {why}")))?;
     let options = ParsingOptions { nodes_limit: 1 << 24, ..ParsingOptions::default() };
     let xml = Xml::parse_with_options(text.trim_start_matches('\u{feff}'), options)
-        .map_err(|why| wrong(format!("the file is no XML: {why}")))?;
+        .map_err(|why| wrong(not_xml(text, &why)))?;
     let root = xml.root_element();
     if root.tag_name().name() != "worksheet" {
         return Err(wrong(format!("the file is no worksheet but <{}>", root.tag_name().name())));
@@ -132,6 +133,59 @@ pub fn read(text: &str, place: &str) -> Result<Worksheet> {
         return Err(wrong(format!("the file has more than {REGIONS} regions")));
     }
     Ok(Worksheet { settings: settings(root), regions })
+}
+
+/// Says why a text is no XML of a worksheet, in the words of neither the reader nor its grammar.
+fn not_xml(text: &str, why: &roxmltree::Error) -> String {
+    use roxmltree::Error;
+    let is_xml = text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
+    let found = kind_of(text.as_bytes()).filter(|_| !is_xml);
+    if let Some(found) = found.or(is_json(text.as_bytes()).then_some("JSON")) {
+        return format!("this is {found}, not a worksheet");
+    }
+    if !is_xml {
+        return "the file is no XML, and no worksheet: it does not begin with `<`".into();
+    }
+    let lines = text.lines().count();
+    let what = match why {
+        Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            return format!(
+                "the worksheet is cut short: it ends in line {lines}, before its last element is closed"
+            );
+        }
+        Error::UnexpectedCloseTag(expected, found, _) => {
+            format!("</{found}> stands where </{expected}> is expected")
+        }
+        Error::NonXmlChar(c, _) => format!("XML has no character U+{:04X}", u32::from(*c)),
+        Error::UnknownNamespace(name, _) => format!("the prefix {name:?} is not declared"),
+        Error::UnknownEntityReference(name, _) => format!("the entity {name:?} is not declared"),
+        Error::MalformedEntityReference(_) => "`&` begins no entity; a plain one is `&amp;`".into(),
+        Error::DuplicatedAttribute(name, _) => format!("the attribute {name:?} is given twice"),
+        Error::DuplicatedNamespace(name, _) => format!("the prefix {name:?} is declared twice"),
+        Error::InvalidAttributeValue(_) => "`<` stands in the value of an attribute".into(),
+        Error::InvalidComment(_) => "`--` stands in a comment".into(),
+        Error::InvalidCharacterData(_) => "`]]>` stands in a text".into(),
+        Error::UnexpectedDeclaration(_) => "an XML declaration stands behind the beginning".into(),
+        Error::DtdDetected => return "the file has a DTD, which no worksheet has".into(),
+        Error::NodesLimitReached
+        | Error::AttributesLimitReached
+        | Error::NamespacesLimitReached => return "the file has too many elements".into(),
+        Error::InvalidXmlPrefixUri(_)
+        | Error::UnexpectedXmlUri(_)
+        | Error::UnexpectedXmlnsUri(_)
+        | Error::InvalidElementNamePrefix(_)
+        | Error::UnexpectedEntityCloseTag(_)
+        | Error::EntityReferenceLoop(_)
+        | Error::InvalidName(_)
+        | Error::InvalidChar(..)
+        | Error::InvalidChar2(..)
+        | Error::InvalidString(..)
+        | Error::InvalidExternalID(_)
+        | Error::EntityResolver(..)
+        | Error::UnknownToken(_) => "what stands there does not follow the rules of XML".into(),
+    };
+    let place = why.pos();
+    format!("the file is no XML: line {}, column {}: {what}", place.row, place.col)
 }
 
 fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {

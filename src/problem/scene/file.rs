@@ -9,11 +9,11 @@ use serde_json::Value;
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use base::error::{InputError, Result};
+use base::error::Result;
 use base::files::json;
 
-/// Scene files.
-const SCENE: json::Kind =
+/// Scene files, of which the mesh is another file.
+pub const SCENE: json::Kind =
     json::Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: false };
 
 /// Parses a scene file, with the source of its mesh still in it.
@@ -21,12 +21,6 @@ const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    if text.trim_ascii_start().starts_with(b"$") {
-        let what = "this is a mesh of Gmsh, and no scene";
-        let fix = "write a scene file that names the mesh, with materials, restraints and loads: see \
-                   src/guide/scenes.md, or plane-contact scene copy strand for one";
-        return Err(InputError::new("the scene file", what, fix));
-    }
     json::read(text, &SCENE)
 }
 

@@ -1,47 +1,80 @@
-//! Triangles of one body that lie over each other, as in a mesh that folds over itself: their stiffness would
-//! count twice. Two bodies may lie inside each other; contact pushes them apart.
+//! Triangles that lie over each other, as in a mesh that folds over itself: their stiffness would count
+//! twice. Two bodies may lie inside each other where contact pushes them apart.
 
 use super::mesh::Mesh;
 use crate::element::Corners;
-use crate::model::{Body, Model, TriangleId};
+use crate::model::{Model, NodeId, TriangleId};
 use base::error::{InputError, Result};
 
 /// How deep one triangle may lie in another, over their longest side: what rounding does where the nodes
 /// along a crack are doubled.
-const DEPTH: f64 = 1e-9;
+pub const DEPTH: f64 = 1e-9;
 
-/// Checks that no triangles of one body lie over each other.
+/// Which bodies have contact between them.
+pub struct Faces {
+    /// The place of each node's body.
+    of_node: Vec<usize>,
+    /// Whether each body has contact nodes, and whether it has target edges.
+    sides: Vec<[bool; 2]>,
+}
+
+impl Faces {
+    /// Finds the bodies on which the contact surfaces of a model lie.
+    pub fn new(model: &Model) -> Self {
+        let mut of_node = vec![0; model.nodes.len()];
+        for (k, body) in model.bodies.iter().enumerate() {
+            body.nodes.iter().for_each(|n| of_node[n.index()] = k);
+        }
+        let mut sides = vec![[false; 2]; model.bodies.len()];
+        model.contact.nodes.iter().for_each(|n| sides[of_node[n.index()]][0] = true);
+        let target = model.target_edges().flat_map(|edge| edge.nodes);
+        target.for_each(|n| sides[of_node[n.index()]][1] = true);
+        Faces { of_node, sides }
+    }
+
+    /// Returns whether two nodes are of two bodies that have contact between them.
+    pub fn may_meet(&self, a: NodeId, b: NodeId) -> bool {
+        let [a, b] = [a, b].map(|n| self.of_node[n.index()]);
+        let [[a_contact, a_target], [b_contact, b_target]] = [self.sides[a], self.sides[b]];
+        a != b && (a_contact && b_target || a_target && b_contact)
+    }
+}
+
+/// Checks that no triangles lie over each other but those of bodies that have contact between them.
 ///
 /// # Errors
 /// Names two that do.
 pub fn check(mesh: &Mesh, model: &Model) -> Result<()> {
-    let Some(ids) = model.bodies.iter().find_map(|body| overlap(model, body)) else {
-        return Ok(());
-    };
+    let Some(ids) = overlap(model) else { return Ok(()) };
     let numbers: Vec<usize> = mesh.of_dimension(2).map(|triangle| triangle.number).collect();
     let [a, b] = ids.map(|id| numbers[id.index()]);
-    let what = format!("triangles {} and {} of one body lie over each other", a.min(b), a.max(b));
-    let fix = "remove one, or move its nodes: the mesh folds over itself";
+    let what = format!("triangles {} and {} lie over each other", a.min(b), a.max(b));
+    let fix =
+        "remove one, or move its nodes; only bodies that have contact between them may overlap";
     Err(InputError::new("the mesh's triangles", what, fix))
 }
 
 /// A triangle with the rectangle around it.
 struct Boxed {
     id: TriangleId,
+    /// One of its nodes.
+    node: NodeId,
     corners: Corners<f64>,
     low: [f64; 2],
     high: [f64; 2],
 }
 
-/// Returns two triangles of a body that lie over each other; None where there are none.
-fn overlap(model: &Model, body: &Body) -> Option<[TriangleId; 2]> {
-    let boxed = |id: &TriangleId| {
-        let corners @ [a, b, c] = model.corners(*id);
+/// Returns two triangles that lie over each other and may not; None where there are none.
+fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
+    let faces = Faces::new(model);
+    let boxed = |id: TriangleId| {
+        let corners @ [a, b, c] = model.corners(id);
+        let node = model.triangles[id.index()].nodes[0];
         let bound = |by: fn(f64, f64) -> f64| [0, 1].map(|k| by(by(a[k], b[k]), c[k]));
-        Boxed { id: *id, corners, low: bound(f64::min), high: bound(f64::max) }
+        Boxed { id, node, corners, low: bound(f64::min), high: bound(f64::max) }
     };
-    let mut triangles: Vec<Boxed> = body.triangles.iter().map(boxed).collect();
-    // A line sweeps the body along the axis on which it crosses fewer triangles at a time.
+    let mut triangles: Vec<Boxed> = TriangleId::all(model.triangles.len()).map(boxed).collect();
+    // A line sweeps the bodies along the axis on which it crosses fewer triangles at a time.
     let crossed = [0, 1].map(|k| {
         let along: f64 = triangles.iter().map(|one| one.high[k] - one.low[k]).sum();
         let low = triangles.iter().map(|one| one.low[k]).fold(f64::INFINITY, f64::min);
@@ -53,7 +86,9 @@ fn overlap(model: &Model, body: &Body) -> Option<[TriangleId; 2]> {
     let mut crossed: Vec<&Boxed> = Vec::new();
     for one in &triangles {
         crossed.retain(|other| other.high[axis] > one.low[axis]);
-        if let Some(other) = crossed.iter().find(|other| other.overlaps(one)) {
+        let is_over =
+            |other: &&&Boxed| other.overlaps(one) && !faces.may_meet(other.node, one.node);
+        if let Some(other) = crossed.iter().find(is_over) {
             return Some([other.id, one.id]);
         }
         crossed.push(one);

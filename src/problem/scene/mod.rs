@@ -21,6 +21,7 @@ mod orphans;
 mod refine;
 mod scene_file;
 mod schema;
+mod slit;
 mod source;
 pub mod surface;
 pub mod symmetry;
@@ -139,7 +140,7 @@ impl Scene {
     fn assemble(
         name: &str,
         description: Description,
-        mesh: Mesh,
+        mut mesh: Mesh,
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
@@ -176,10 +177,12 @@ impl Scene {
             restraints,
             dropped,
         };
-        fold::check(&mesh, &model)?;
         check::restrained_bodies(&model)?;
+        fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
+        let notes = slit::notes(&mesh, &model);
+        mesh.adapted.extend(notes);
         Ok(Scene {
             name: name.into(),
             word: name.into(),

@@ -45,7 +45,7 @@ impl Scene {
             nodes.push(Node { number: nodes.len() + 1, xyz });
         }
         let (names, adapted) = (mesh.names.clone(), mesh.adapted.clone());
-        let finer = Mesh { nodes, elements, names, adapted };
+        let finer = Mesh { nodes, elements, names, adapted, in_file: Vec::new() };
         let file = halves.renumbered(file, &children);
         let mut scene = Scene::assemble(&self.name, file, finer, self.model.dropped.clone())?;
         (scene.variant, scene.contact) = (self.variant, self.contact);

@@ -4,6 +4,7 @@ use super::description::Description;
 use super::gmsh::{self, Fault};
 use super::mesh::Mesh;
 use base::error::{InputError, Result};
+use base::files::kind_of;
 use base::limits;
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
@@ -43,7 +44,8 @@ pub fn mesh(
         {
             // A file that is no mesh may hold secrets of who runs the scene.
             fix = "save a mesh from Gmsh: gmsh part.geo -2 makes part.msh of the geometry part.geo";
-            format!("it is no mesh of Gmsh: expected {expected}")
+            let but = kind_of(&file).map_or(String::new(), |found| format!(" but {found}"));
+            format!("it is no mesh of Gmsh{but}: expected {expected}")
         } else {
             error.to_string()
         };

@@ -126,7 +126,7 @@ fn refusal(corners: [[f64; 2]; 3]) -> String {
 /// 1e-310 enclose 1e-326, which is below the least number; with a longest side of 1 it is 2e-295.
 #[test]
 fn a_triangle_without_area_is_refused() {
-    let triangle = "triangle 1 (nodes [1, 3, 2]) has";
+    let triangle = "triangle 1 (nodes 1, 3, 2) has";
     let flat = [0.0, 1.0, 2.0].map(|x| [x, 0.0]);
     assert_eq!(refusal(flat), format!("{triangle} the area 0"));
     let small = [[1.0, 0.0], [1.0 + f64::EPSILON, 0.0], [1.0, 1e-310]];

@@ -10,6 +10,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::language::Language;
+use base::files::HTML;
 use base::xml::escape;
 
 /// The style and the script that all pages share.
@@ -56,7 +57,7 @@ impl Page<'_> {
         let script = format!("\n\"use strict\";\n{script}");
         let style = format!("\n{STYLE}{}", self.style);
         format!(
-            "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n\
+            "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n{HTML}\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
              script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n\

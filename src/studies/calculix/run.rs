@@ -68,8 +68,9 @@ fn print(program: &str, deck: &str) -> Result<String> {
         return Err(failed(program, &format!("failed ({status})"), &text));
     }
     let results = files::read_in(folder.path(), Path::new("job.dat"), RESULTS);
-    let results = results.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
-    results.map_err(|why| failed(program, &format!("left no results ({why})"), &text))
+    results
+        .and_then(files::text)
+        .map_err(|why| failed(program, &format!("left no results ({why})"), &text))
 }
 
 /// The last word of `ccx -v`: "This is Version 2.20".

@@ -93,7 +93,7 @@ pub fn run(args: &Args) -> Result<()> {
         };
         Path::new("out/report").with_extension(ending)
     });
-    files::check_file(&out)?;
+    commands::check_page(&args.out, &out)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
     let case = if args.no_audit {
@@ -126,7 +126,7 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
     };
     let report = document(&contents);
     match args.format {
-        Format::Html => files::write(out, &page::html(&report, &contents))?,
+        Format::Html => commands::write_page(&args.out, out, &page::html(&report, &contents))?,
         Format::Markdown => {
             let page = files::MARKDOWN.to_string() + &report.markdown();
             let mut written = report.figures();

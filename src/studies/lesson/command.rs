@@ -7,7 +7,6 @@ use crate::audit::Case;
 use crate::audit::findings::{Evidence, FINDINGS, Finding};
 use crate::lesson::page::{self as page, Chapter};
 use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
-use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use paper::edited::Edited;
@@ -51,7 +50,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
-    files::write(&out, &lesson(args)?)?;
+    commands::check_page(&args.out, &out)?;
+    commands::write_page(&args.out, &out, &lesson(args)?)?;
     report_written(&out);
     Ok(())
 }

@@ -211,16 +211,17 @@ impl Snapshot {
         struct Head {
             format: Option<u32>,
         }
+        let kind = json::Kind { name: "snapshot", fix, has_values: true };
         let head = json::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
         if let Some(Head { format }) = head
             && format != Some(FORMAT)
         {
             let found = format.map_or("names no format".into(), |n| format!("is of format {n}"));
             let what = format!("the snapshot {found}; this program reads format {FORMAT}");
-            return Err(InputError::new("field format", what, fix));
+            let error = InputError::new("field format", what, fix);
+            return Err(json::instead(text, &kind).unwrap_or(error));
         }
-        let snapshot: Self =
-            json::read(text, &json::Kind { name: "snapshot", fix, has_values: true })?;
+        let snapshot: Self = json::read(text, &kind)?;
         for (name, run) in snapshot.runs.iter() {
             run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
         }

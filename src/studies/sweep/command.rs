@@ -151,13 +151,13 @@ fn run_jobs(sweep: &SweepArgs, only: Option<usize>) -> Result<()> {
 /// Returns the result of a job that is in the folder of the results.
 fn result(out: &Path, job: &Job) -> Result<Option<Row>> {
     let name = report::result_name(job);
-    let row = match files::read_in(out, Path::new(&name), RESULT) {
+    let place = shown(&out.join(&name));
+    let text = match files::read_in(out, Path::new(&name), RESULT) {
         Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(None),
-        read => read.and_then(|text| report::read_result(job, &text)),
+        read => read.map_err(|why| {
+            let what = format!("the result cannot be read: {why}");
+            InputError::new(&place, what, "move what is there")
+        })?,
     };
-    let row = row.map_err(|why| {
-        let what = format!("the result cannot be read: {why}");
-        InputError::new(shown(&out.join(name)), what, "move what is there")
-    });
-    Ok(Some(row?))
+    Ok(Some(report::read_result(job, &text).map_err(|error| error.within(&place))?))
 }

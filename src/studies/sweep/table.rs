@@ -4,7 +4,6 @@
 //! alone; its file is named by the job's key.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -12,6 +11,7 @@ use serde_json::{Value, json};
 use crate::sweep::{Job, Row};
 use base::choices;
 use base::error::{InputError, Result};
+use base::files::json::{Kind, read};
 use base::plain::shown;
 use problem::scene::sha256;
 use report::json;
@@ -29,6 +29,13 @@ choices! {
     }
 }
 
+/// The results of jobs.
+const RESULT: Kind = Kind {
+    name: "result of a job",
+    fix: "move the file away, or give another folder by --out",
+    has_values: true,
+};
+
 /// Returns the name of a job's result.
 pub fn result_name(job: &Job) -> String {
     format!("{}.json", job.key)
@@ -43,11 +50,14 @@ pub fn result(job: &Job, row: &Row) -> String {
 ///
 /// # Errors
 /// The text is no result, or that of another job.
-pub fn read_result(job: &Job, text: &[u8]) -> io::Result<Row> {
-    let result: Value = serde_json::from_slice(text)?;
+pub fn read_result(job: &Job, text: &[u8]) -> Result<Row> {
+    let result: Value = read(text, &RESULT)?;
     match result["result"].as_object().filter(|row| row.contains_key("exit_status")) {
         Some(row) if result["key"] == *job.key => Ok(row.clone()),
-        _ => Err(io::Error::other("it is not the result of this job")),
+        _ => {
+            let what = "this is not the result of this job";
+            Err(InputError::new("the result of a job", what, RESULT.fix))
+        }
     }
 }
 

@@ -77,10 +77,21 @@ fn open(file: &Path) -> Result<document::Worksheet, InputError> {
 /// Reads the text of a worksheet, packed or not.
 fn read_text(bytes: Vec<u8>) -> io::Result<String> {
     let bytes = match bytes.starts_with(&[0x1f, 0x8b]) {
-        true => files::read_from(MultiGzDecoder::new(&*bytes), document::LARGEST as u64)?,
+        true => files::read_from(MultiGzDecoder::new(&*bytes), document::LARGEST as u64)
+            .map_err(unpacked)?,
         false => bytes,
     };
     files::text(bytes)
+}
+
+/// Says what is wrong with a packed file.
+fn unpacked(why: io::Error) -> io::Error {
+    let what = match why.kind() {
+        io::ErrorKind::FileTooLarge => return why,
+        io::ErrorKind::UnexpectedEof => "the packed file is cut short",
+        _ => "the packed file is damaged: it cannot be unpacked",
+    };
+    io::Error::new(why.kind(), what)
 }
 
 /// The limits of a region: arrays that are spelled out make long lines.

@@ -8,6 +8,94 @@ fn files() {
 }
 
 const CASES: &[Case] = &[
+    // A link below the current folder is not followed, be it the program's own folder.
+    Case {
+        input: "",
+        command: "mkdir else; ln -s else out; for c in 'solve fig1 --no-pictures' lesson 'snapshot record fig1' \
+                  'scene mesh blocks' 'solve fig1 --out out/a'; do plane-contact $c; echo $?; done; ls else; \
+                  plane-contact solve fig1 --no-pictures --out $PWD/out >text && ls else",
+        status: 0,
+        contains: &["out is a link: name the folder that it leads to", "2\nfields.vtu"],
+        lacks: &["Written to out/"],
+    },
+    // A page that no option names is replaced only where it is the program's own.
+    Case {
+        input: "",
+        command: "mkdir out; echo mine >out/lesson.html; plane-contact lesson; plane-contact lesson --out a.html && \
+                  mv a.html out/a.html && cat out/lesson.html && rm out/lesson.html && plane-contact lesson && \
+                  plane-contact lesson && plane-contact report fig1 --no-audit && \
+                  plane-contact report fig1 --no-audit",
+        status: 0,
+        contains: &["lesson.html is in the way: it does not tell", "mine"],
+        lacks: &["report.html is in the way"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact snapshot record fig1 --out s.json; \
+                  plane-contact snapshot verify s.json --report x.md --junit ./x.md || \
+                  plane-contact snapshot verify s.json --report x.md --junit $PWD/x.md",
+        status: 2,
+        contains: &["both --junit and --report write this file"],
+        lacks: &["same"],
+    },
+    // Where no thread can be started, there is no sign of progress.
+    Case {
+        input: "",
+        command: "RUST_MIN_STACK=100000000000 script -qec 'plane-contact solve fig1 --no-pictures --out o' t",
+        status: 0,
+        contains: &["Written to o"],
+        lacks: &["panicked"],
+    },
+    // Another kind of file is named, and no word is a library's.
+    Case {
+        input: "",
+        command: "plane-contact snapshot record fig1 --out s.json >t; plane-contact solve s.json; \
+                  printf 'Point(1) = {0, 0, 0, 1};' >g.geo; plane-contact solve g.geo; \
+                  plane-contact mathcad run s.json; plane-contact mathcad run g.geo; \
+                  echo '{\"format\": 1, \"scene\": \"g.geo\"}' >w.json; plane-contact sweep run w.json; \
+                  plane-contact snapshot verify w.json",
+        status: 2,
+        contains: &[
+            "this is a snapshot, not a scene file",
+            "this is a Gmsh geometry, not a scene file",
+            "this is a snapshot, not a worksheet",
+            "this is a Gmsh geometry, not a worksheet",
+            "this is a sweep, not a snapshot",
+        ],
+        lacks: &["expected", "token"],
+    },
+    Case {
+        input: "",
+        command: "echo '{\"format\": 1, \"scene\": \"fig1\"}' >s.json; plane-contact sweep run s.json >t; \
+                  for file in out/s/*; do echo x >$file; done; plane-contact sweep table s.json; \
+                  plane-contact sweep run s.json",
+        status: 2,
+        contains: &["x where a value is expected", "the result of a job, line 1"],
+        lacks: &["expected value"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact mathcad export fig1 --out w.xmcd; head -c 3000 w.xmcd >cut.xmcd; \
+                  (head -c 300 w.xmcd; printf '\\001'; tail -c +301 w.xmcd) >control.xmcd; gzip -c w.xmcd | head -c 1000 >cut.xmcdz; \
+                  for f in cut.xmcd control.xmcd cut.xmcdz; do plane-contact mathcad run $f; done",
+        status: 2,
+        contains: &[
+            "is cut short: it ends in line",
+            "no character U+0001",
+            "packed file is cut short",
+        ],
+        lacks: &["root node", "non-XML", "deflate"],
+    },
+    // What a user typed begins no line of an error.
+    Case {
+        input: "",
+        command: "a=$(printf 'a\\nerror: forged'); for o in --variant --friction --c-tll --reading \"--$a\"; do \
+                  plane-contact solve fig1 $o \"$a\" && exit; done 2>text; grep -c '^error: forged' text; \
+                  plane-contact compare fig1 --ccx \"$(printf 'u/\\377')\"",
+        status: 2,
+        contains: &["0\n", "is not in UTF-8"],
+        lacks: &["forged"],
+    },
     Case {
         input: "",
         command: "echo mine > o && plane-contact solve fig1 --out o",
@@ -69,7 +157,7 @@ const CASES: &[Case] = &[
         command: "mkdir o; echo mine > o/result.json; \
                   plane-contact solve fig1 --out o; status=$?; cat o/*; exit $status",
         status: 2,
-        contains: &["result.json is in the way: result.json does not tell", "mine", "move what"],
+        contains: &["result.json is in the way: it does not tell", "mine", "move what"],
         lacks: &["Written"],
     },
     Case {

@@ -61,7 +61,7 @@ const CASES: &[Case] = &[
     edited!(
         "s/\"E\": 3e4, \"nu\": 0.2/\"E\": \"\\\\ud800\"/",
         2,
-        &["end of hex escape", "materials.7.E"]
+        &["stands for no character", "materials.7.E"]
     ),
     edited!(
         "s/{\"node\": 1, \"fix\"/[1, 2, 3], {\"node\": 1, \"fix\"/",
@@ -182,7 +182,7 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
         2,
         &["found \"3000000000\", beyond the largest number 2147483647"]
     ),
-    mesh_edited!("s/^6 2 2 8 1/6 2 2 8 2/", 2, &["triangles 5 and 6 have the same nodes [1, 3, 4]"]),
+    mesh_edited!("s/^6 2 2 8 1/6 2 2 8 2/", 2, &["triangles 5 and 6 have the same nodes 1, 3, 4"]),
     // Gmsh's Mesh.SaveAll = 1 in MSH 2.2.
     mesh_edited!(
         "s/ 2 [5-8] / 2 0 /; /^[46] 2 2 0/d; s/^6$/4/",
@@ -192,4 +192,9 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
     mesh_edited!("/^[46] 2 2 8/d; s/^6$/4/; s/ 2 7 / 2 8 /", 2, &["\"low\" has no element", "groups of triangles are \"all\" (8)"]),
     edited!("s/\"loads\"/\"contact\": {\"cnt\": [3], \"trg\": [1], \"c_tll\": 0, \"friction\": \"1e9\"}, \"loads\"/",
         2, &["friction \"1e9\" is neither a number of 0 or more nor \"stick\""]),
+    mesh_edited!(
+        "/Nodes/,/EndNodes/s/^4$/5/; s/^4 0 1 0/&\\n99 5 5 0/",
+        2,
+        &["nodes 99 (5 here) belong to no triangle"]
+    ),
 ];

@@ -1,17 +1,16 @@
 //! The one reader of JSON: scenes, snapshots, sweeps, results, inputs of programs.
 
-mod fields;
 mod strict;
 
 use serde::de::{DeserializeOwned, Deserializer, IgnoredAny};
 use serde_json::Value;
 
-pub use fields::has_field;
+use super::kind::kind_of;
 use strict::Strict;
 
 use crate::error::{InputError, Result};
 use crate::limits;
-use crate::plain::plain;
+use crate::plain::{Unknown, plain, unknown};
 use crate::suggestion::did_you_mean;
 
 /// The version of the format of the documents that the program writes and reads.
@@ -46,11 +45,14 @@ pub struct Kind {
 /// document; or says that it is in another encoding, or has too many values.
 pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
     let whole = format!("the {}", kind.name);
-    let text = utf8(text).map_err(|what| InputError::new(&whole, what, "save it as UTF-8"))?;
+    let bytes = text;
+    let text = utf8(text).map_err(|what| InputError::new(&whole, what, "save it as UTF-8"));
+    let text = text.map_err(|error| instead(bytes, kind).unwrap_or(error))?;
     limits::VALUES.check(values(text), &whole)?;
     let mut source = serde_json::Deserializer::from_str(text);
     let place = |path: &str| if path.is_empty() { whole.clone() } else { format!("field {path}") };
-    let document = deserialize(&mut source, kind, place, |error| words(error, text))?;
+    let document = deserialize(&mut source, kind, place, |error| words(error, text));
+    let document = document.map_err(|error| instead(bytes, kind).unwrap_or(error))?;
     source.end().map_err(|error| {
         let what = format!("more follows, from line {}, column {}", error.line(), error.column());
         InputError::new(format!("the end of {whole}"), what, kind.fix)
@@ -68,6 +70,9 @@ pub fn read_field<T: DeserializeOwned>(value: &Value, kind: &Kind, field: &str) 
     deserialize(value, kind, place, plain)
 }
 
+/// The most bytes of a field's place that an error shows.
+const MOST_OF_A_PLACE: usize = 200;
+
 /// Reads what `source` holds; `place` names a path, which is empty of the whole, and `words` says what
 /// is wrong.
 fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json::Error>>(
@@ -79,14 +84,17 @@ fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json
     serde_path_to_error::deserialize(Strict(source)).map_err(|error| {
         let place = match error.path().to_string() {
             path if path == "." || path == "?" => place(""),
+            path if path.len() > MOST_OF_A_PLACE => {
+                place(&path[..path.floor_char_boundary(MOST_OF_A_PLACE)]) + "..."
+            }
             path => place(path.trim_end_matches(".?")),
         };
-        let (what, error) = (words(error.inner()), error.inner());
+        let (error, what) = (error.inner(), words(error.inner()));
         let at = match (error.line(), error.column()) {
             (0, _) => String::new(),
             (line, column) => format!(", line {line}, column {}", column.max(1)),
         };
-        InputError::new(place + &at, &what, meant(&what) + kind.fix)
+        InputError::new(place + &at, what, meant(error) + kind.fix)
     })
 }
 
@@ -171,12 +179,30 @@ fn word(text: &str, line: usize, column: usize) -> String {
     word.chars().take(if start < end { MOST } else { 1 }).collect()
 }
 
-/// Returns the name that an unknown one was meant to be: serde's words name it first, then those that
-/// it expected, each in backticks.
-fn meant(what: &str) -> String {
-    let mut names = what.split('`').skip(1).step_by(2);
-    match names.next().filter(|_| what.starts_with("unknown ")) {
-        Some(typed) => did_you_mean(typed, names),
-        None => String::new(),
+/// Returns the name that an unknown one was meant to be, and the fields that there are.
+fn meant(error: &serde_json::Error) -> String {
+    let error = error.to_string();
+    let Some(Unknown { kind, name, known }) = unknown(&error) else { return String::new() };
+    let near = did_you_mean(name, known.iter().copied());
+    match kind {
+        "field" if !known.is_empty() => format!("{near}the fields are {}; ", known.join(", ")),
+        _ => near,
     }
+}
+
+/// Returns the error of a file that is another kind than the wanted one; None where it is not known to be.
+///
+/// ```
+/// use plane_contact_base::files::json::{Kind, instead};
+///
+/// let kind = Kind { name: "scene file", fix: "see the guide", has_values: false };
+/// let error = instead(b"$MeshFormat", &kind).expect("a mesh");
+/// assert_eq!(error.what, "this is a Gmsh mesh, not a scene file");
+/// ```
+pub fn instead(file: &[u8], wanted: &Kind) -> Option<InputError> {
+    let article = if wanted.name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    let is_wanted = format!("{article} {}", wanted.name);
+    let found = kind_of(file).filter(|found| *found != is_wanted)?;
+    let what = format!("this is {found}, not {is_wanted}");
+    Some(InputError::new(format!("the {}", wanted.name), what, wanted.fix))
 }

@@ -151,7 +151,7 @@ impl Reader<'_> {
             nodes: self.nodes,
             elements: self.elements,
             names: self.names.into_iter().map(named).collect(),
-            adapted: Vec::new(),
+            ..Mesh::default()
         };
         mesh.join_groups();
         Ok(mesh)

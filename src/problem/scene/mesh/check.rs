@@ -126,7 +126,8 @@ impl Mesh {
         triangles.sort_unstable();
         let same = triangles.windows(2).filter(|pair| pair[0].0 == pair[1].0);
         if let Some([(_, first), (nodes, second)]) = same.min_by_key(|pair| pair[1].1) {
-            let what = format!("triangles {first} and {second} have the same nodes {nodes:?}");
+            let what =
+                format!("triangles {first} and {second} have the same nodes {}", self.named(nodes));
             let fix = "keep one, or give both the same geometric tag and different physical groups";
             return Err(InputError::new(place, what, fix));
         }
@@ -178,7 +179,8 @@ impl Mesh {
             let size = if area == 0.0 { "small" } else { "large" };
             (format!("has an area too {size} to represent"), "choose other units")
         };
-        let what = format!("triangle {} (nodes {:?}) {what}", triangle.number, triangle.nodes);
+        let what =
+            format!("triangle {} (nodes {}) {what}", triangle.number, self.named(&triangle.nodes));
         Err(InputError::new("the mesh's triangles", what, fix))
     }
 }

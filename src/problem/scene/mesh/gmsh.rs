@@ -26,6 +26,7 @@ impl Mesh {
             }
             self.nodes.iter_mut().zip(1..).for_each(|(node, n)| node.number = n);
             self.adapted.push(renumbered("node", &numbers));
+            self.in_file = numbers;
         }
         let numbers: Vec<usize> = self.elements.iter().map(|element| element.number).collect();
         if numbers.last().is_some_and(|last| *last > Self::largest_number(numbers.len())) {

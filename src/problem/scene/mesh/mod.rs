@@ -37,9 +37,12 @@ pub struct Mesh {
     /// once, with two tags, in one of version 4.1.
     #[schemars(with = "Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>")]
     pub elements: Vec<Element>,
-    /// What a Gmsh file has in another form, in sentences for people.
+    /// What a Gmsh file has in another form, and what its outline has, in sentences for people.
     #[serde(skip)]
     pub adapted: Vec<String>,
+    /// The numbers of the nodes in a file that has gaps; else empty.
+    #[serde(skip)]
+    pub in_file: Vec<usize>,
 }
 
 /// A node of the mesh file.
@@ -176,6 +179,19 @@ impl Mesh {
         };
         let groups: String = element.physical.iter().map(group).collect();
         format!("{} {}{groups}", ENTITIES[dim], element.geometric)
+    }
+
+    /// Names nodes, at most ten: where the numbers of the mesh file have gaps, by the file's and in
+    /// brackets by those here.
+    pub(in crate::scene) fn named(&self, nodes: &[usize]) -> String {
+        let name = |n: &usize| match self.in_file.get(n.wrapping_sub(1)) {
+            Some(file) if file != n => format!("{file} ({n} here)"),
+            _ => n.to_string(),
+        };
+        let shown: Vec<String> = nodes.iter().take(10).map(name).collect();
+        let more = nodes.len().saturating_sub(10);
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        shown.join(", ") + &rest
     }
 
     /// Returns the nodes that belong to no triangle, ascending.

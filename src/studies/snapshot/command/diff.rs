@@ -6,7 +6,7 @@ use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{Bounds, Snapshot, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;
-use base::files::json;
+use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use engine::linear::{Arithmetic, ScalarName, Solver};
@@ -81,7 +81,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
 fn side(args: &Args, side: usize, name: &Path) -> Result<Snapshot> {
     // It is read once: it may come through a pipe.
     let file = SceneFile::read(name)?;
-    if json::has_field(&file.text, "format") {
+    if files::fields(&file.text).iter().any(|name| name == "format") {
         let snapshot = Snapshot::read(&file.text);
         // What it says of its scene must be true.
         let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));

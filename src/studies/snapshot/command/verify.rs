@@ -51,7 +51,9 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let snapshots = snapshots.collect();
     let written = [&args.junit, &args.report].into_iter().flatten();
     written.clone().try_for_each(|file| files::check_file(file))?;
-    if args.junit.is_some() && args.junit == args.report {
+    if let (Some(junit), Some(report)) = (&args.junit, &args.report)
+        && files::is_same_place(junit, report)
+    {
         let what = "both --junit and --report write this file";
         return Err(InputError::new("--report", what, "name another file").into());
     }

@@ -1,0 +1,115 @@
+//! Slits: places where the outline of the mesh lies on itself, so that nothing is passed on across them.
+//! Some are meant, as a crack; where two bodies are in contact there is none. And edges that are a side of no
+//! triangle, as where one was divided and its edge was not.
+//!
+//! ```text
+//!   two nodes at one place      a node on a side that does not have it
+//!   +----a----+                 +---------+
+//!   |    |b   |                 |    a    |      a lies on the side p q of the lower triangle
+//!   +----+----+                 p----+----q
+//! ```
+
+use std::collections::{BTreeSet, HashSet};
+
+use super::fold::{DEPTH, Faces};
+use super::mesh::{Element, Mesh};
+use crate::model::{Model, NodeId};
+
+/// The direction along which nodes are sorted, by its slope: few outlines run across it.
+const SLOPE: f64 = 0.618_033_988_749_895;
+
+/// The most places that are named.
+const MOST: usize = 5;
+
+/// Says where the mesh has slits, and edges that are a side of no triangle.
+pub fn notes(mesh: &Mesh, model: &Model) -> Vec<String> {
+    slits(mesh, model).into_iter().chain(loose_edges(mesh, model)).collect()
+}
+
+fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
+    let nodes = |edge: &&Element| [0, 1].map(|k| NodeId::from_number(edge.nodes[k]));
+    let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(nodes(edge)).is_empty());
+    let first = loose.next()?;
+    let more = match loose.count() {
+        0 => String::new(),
+        more => format!(", as {more} more"),
+    };
+    Some(format!(
+        "Edge {} of the mesh (nodes {}) is a side of no triangle{more}: what its group restrains are its two \
+         nodes, and no node between them",
+        first.number,
+        mesh.named(&first.nodes)
+    ))
+}
+
+fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
+    let faces = Faces::new(model);
+    let on_contact: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
+    let on_target: HashSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();
+    let is_contact = |a: NodeId, b: NodeId| {
+        faces.may_meet(a, b)
+            || on_contact.contains(&a) && on_target.contains(&b)
+            || on_contact.contains(&b) && on_target.contains(&a)
+    };
+    let corners = model.triangles.iter().flat_map(|triangle| {
+        let [a, b, c] = triangle.nodes;
+        [[a, b], [b, c], [c, a]]
+    });
+    let outline: Vec<[NodeId; 2]> =
+        corners.filter(|side| model.sides.boundary(*side).is_some()).collect();
+    let along = |n: NodeId| {
+        let [x, y] = model.nodes[n.index()];
+        x + SLOPE * y
+    };
+    let mut nodes: Vec<NodeId> = outline.iter().map(|side| side[0]).collect();
+    nodes.sort_by(|a, b| along(*a).total_cmp(&along(*b)));
+    let (mut twins, mut hanging) = (BTreeSet::new(), BTreeSet::new());
+    for &[p, q] in &outline {
+        let [[x, y], end] = [p, q].map(|n| model.nodes[n.index()]);
+        let (dx, dy) = (end[0] - x, end[1] - y);
+        let length = dx.hypot(dy);
+        let depth = DEPTH * length;
+        let (low, high) = (along(p).min(along(q)), along(p).max(along(q)));
+        let from = nodes.partition_point(|n| along(*n) < low - 2.0 * depth);
+        let near = nodes[from..].iter().take_while(|n| along(**n) <= high + 2.0 * depth);
+        for &n in near.filter(|n| ![p, q].contains(n)) {
+            let [nx, ny] = model.nodes[n.index()];
+            let (ax, ay) = (nx - x, ny - y);
+            let (on, off) = ((ax * dx + ay * dy) / length, (ax * dy - ay * dx) / length);
+            if off.abs() > depth || on < -depth || on > length + depth {
+                continue;
+            }
+            let twin = if on <= depth { Some(p) } else { (on >= length - depth).then_some(q) };
+            match twin {
+                Some(twin) if !is_contact(n, twin) => {
+                    twins.insert([n.min(twin), n.max(twin)]);
+                }
+                None if !is_contact(n, p) && !is_contact(n, q) => {
+                    hanging.insert((n, [p, q]));
+                }
+                Some(_) | None => {}
+            }
+        }
+    }
+    let count = twins.len() + hanging.len();
+    let named = |nodes: &[NodeId]| {
+        let numbers: Vec<usize> = nodes.iter().map(|n| n.number()).collect();
+        mesh.named(&numbers).replace(", ", " and ")
+    };
+    let twins = twins.iter().map(|pair| format!("nodes {} are at one place", named(pair)));
+    let on_side = |(n, side): &(NodeId, [NodeId; 2])| {
+        format!("node {} is on the side between {}", named(&[*n]), named(side))
+    };
+    let places: Vec<String> = twins.chain(hanging.iter().map(on_side)).take(MOST).collect();
+    let more = match count.saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!("; and {more} more places"),
+    };
+    (count > 0).then(|| {
+        format!(
+            "The mesh has a slit, across which nothing is passed on: {}{more}. If no crack is meant, merge the \
+             nodes or divide the sides (in Gmsh: Coherence, then mesh again)",
+            places.join("; ")
+        )
+    })
+}
