@@ -4,7 +4,7 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::outline::{FacedPoint, Outline};
-use super::pairing::{Pairing, Vector, unit};
+use super::pairing::{Pairing, Vector};
 use super::search::Segment;
 use super::surface::{Edge, Surfaces};
 use base::error::InputError;
@@ -63,7 +63,7 @@ impl Surfaces {
         let nodes: BTreeSet<NodeId> =
             self.target.edges.iter().flat_map(|edge| edge.nodes).collect();
         let depth = |node: NodeId| {
-            let own = self.target.node_normals.get(&node).map(|normal| unit(*normal));
+            let own = self.target.node_normals.get(&node).copied();
             let faced = outline.closest_point(shape[node.index()], own)?;
             (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
         };

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use rustc_hash::FxHashMap;
 
-use super::pairing::Vector;
+use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
@@ -36,8 +36,7 @@ pub(super) struct Surface {
     /// The unit normals of the edges out of the body in the undeformed shape. An intermediate shape of the
     /// iterations may be folded, so that its normals do not decide which surfaces face each other.
     pub(super) normals: Vec<Vector>,
-    /// The mean normal at each node over its edges, weighted by length. It is no unit vector where they meet
-    /// in a corner.
+    /// The unit mean normal at each node over its edges, weighted by length.
     pub(super) node_normals: FxHashMap<NodeId, Vector>,
 }
 
@@ -59,18 +58,17 @@ impl Surface {
         for &k in &once {
             edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
         }
-        let mut sums: FxHashMap<NodeId, (Vector, f64)> = FxHashMap::default();
+        let mut sums: FxHashMap<NodeId, Vector> = FxHashMap::default();
         let mut normals = Vec::new();
         for edge in &edges {
             let PlacedEdge { normal, length, .. } = edge.in_shape(&model.nodes);
             normals.push(normal);
             for n in edge.nodes {
-                let (sum, total) = sums.entry(n).or_default();
-                *total += length;
+                let sum = sums.entry(n).or_default();
                 (0..2).for_each(|d| sum[d] += length * normal[d]);
             }
         }
-        let means = sums.into_iter().map(|(n, (sum, total))| (n, sum.map(|x| x / total)));
+        let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         Surface { edges, once, at, normals, node_normals: means.collect() }
     }
 }

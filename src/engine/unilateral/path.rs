@@ -157,16 +157,24 @@ impl<'a> Run<'a> {
                     Ok((Start::Overlapping, rest))
                 }
             },
-            // In the initial geometry all contact states of a first small step say whether there is one way alone.
-            Err(several) => match self.step(&rest, FIRST, Problem::equilibrium) {
-                Ok(held) if !problem.is_current() => {
-                    self.take(&rest, FIRST, &held);
-                    let is_only = uniqueness(problem, &held, &self.taken).is_proven();
-                    let pressed = (Start::Pressed, Point::after(FIRST, held));
-                    is_only.then_some(pressed).ok_or(several.into())
+            Err(several) => {
+                // Where nothing holds the load, the start does not matter.
+                let no_end = (1..=problem.stages())
+                    .find_map(|to| problem.slides(&rest.u, [to - 1, to].map(|stage| stage as f64)));
+                if let Some(none) = no_end {
+                    return Err(none.into());
                 }
-                Ok(_) | Err(_) => Err(several.into()),
-            },
+                // In the initial geometry all contact states of a first small step say whether there is one way alone.
+                match self.step(&rest, FIRST, Problem::equilibrium) {
+                    Ok(held) if !problem.is_current() => {
+                        self.take(&rest, FIRST, &held);
+                        let is_only = uniqueness(problem, &held, &self.taken).is_proven();
+                        let pressed = (Start::Pressed, Point::after(FIRST, held));
+                        is_only.then_some(pressed).ok_or(several.into())
+                    }
+                    Ok(_) | Err(_) => Err(several.into()),
+                }
+            }
         }
     }
 

@@ -19,8 +19,8 @@ use problem::modelling::Coupling;
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
 
-/// The part of the sum of forces times their arms below which a moment is rounding: coordinates and loads have 16
-/// digits, and a pressure along 10,000 nodes loses 4 of them.
+/// The part of the sum of forces times the farthest node's arm below which a moment is rounding: coordinates and
+/// loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
 const BALANCED: f64 = 1e-9;
 
 /// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
@@ -202,19 +202,21 @@ impl Problem<'_> {
     /// node at most: several hold a body that has turned by a finite angle. None where none of these is so, to rounding.
     fn turned(&self, body: usize, centre: [f64; 2]) -> Option<&'static str> {
         let (load, body) = (self.load(1.0), &self.model.bodies[body]);
-        let (mut moment, mut outwards, mut size) = (0.0, 0.0, 0.0);
+        let (mut moment, mut outwards, mut forces, mut farthest) = (0.0, 0.0, 0.0, 0.0_f64);
         let mut held = 0;
         for node in self.model.node_ids().filter(|node| body.has(*node)) {
             let ([x, y], [fx, fy]) = (self.model.coordinates(node), node.components(&load));
             let [rx, ry] = [x - centre[0], y - centre[1]];
             moment += rx * fy - ry * fx;
             outwards += rx * fx + ry * fy;
-            size += rx.hypot(ry) * fx.hypot(fy);
+            forces += fx.hypot(fy);
+            farthest = farthest.max(rx.hypot(ry));
             held += usize::from(node.dofs().into_iter().any(|dof| self.model.is_restrained(dof)));
         }
-        if moment.abs() > size * BALANCED {
+        let rounding = forces * farthest * BALANCED;
+        if moment.abs() > rounding {
             Some("the load turns it")
-        } else if outwards < -size * BALANCED {
+        } else if outwards < -rounding {
             Some("the load topples it")
         } else if held <= 1 {
             Some("restraints hold one of its nodes at most")
@@ -223,20 +225,35 @@ impl Problem<'_> {
         }
     }
 
-    /// Says which node faces edges at a corner in turn, of the normals in two shapes, and what helps; no text
-    /// where none does.
+    /// Says of two shapes between which the search goes to and fro which node makes it: one that faces edges at a
+    /// corner in turn, faces the target in one of them alone, or else moves most; and what helps.
     pub(super) fn torn(&self, before: &Configuration, after: &Configuration) -> String {
         let pairs = before.pairings.iter().zip(&*after.pairings);
         let turn = |(a, b): (&Option<Pairing>, &Option<Pairing>)| {
             let (a, b) = (a.as_ref()?, b.as_ref()?);
             Some((a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1], a.node))
         };
-        let sharpest = pairs.filter_map(turn).min_by(|a, b| a.0.total_cmp(&b.0));
+        let sharpest = pairs.clone().filter_map(turn).min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((cosine, node)) = sharpest.filter(|(cosine, _)| *cosine < BEND) else {
-            return String::new();
+            let mut in_one = pairs.filter_map(|(a, b)| a.as_ref().xor(b.as_ref()));
+            let moved = |node: &NodeId| {
+                let [[ax, ay], [bx, by]] = [before, after].map(|c| c.shape[node.index()]);
+                (ax - bx).hypot(ay - by)
+            };
+            let (node, why) = match in_one.next() {
+                Some(pairing) => {
+                    (Some(pairing.node), "faces the target in one of the last two shapes alone")
+                }
+                None => {
+                    let most = self.model.node_ids().max_by(|a, b| moved(a).total_cmp(&moved(b)));
+                    (most, "moves most between the last two shapes")
+                }
+            };
+            let node = node.map_or(String::new(), |node| self.named(node));
+            return format!("; {node} {why}; geometry initial measures contact once");
         };
         let remedy = match self.request.contact.coupling {
-            Coupling::Nts => "; coupling mortar takes both, or geometry initial keeps one",
+            Coupling::Nts => "; coupling mortar averages them, or geometry initial keeps one",
             Coupling::Mortar => "; geometry initial keeps one of them",
         };
         format!(

@@ -78,9 +78,9 @@ fn number_equal_names(bodies: &mut [Body]) {
     }
 }
 
-/// Returns how the part with these nodes can still move as a rigid body under its restraints alone,
-/// in words; None where it cannot move.
-pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
+/// Returns how the part with these nodes can still move as a rigid body under its restraints, and with some of its
+/// nodes `pinned`, in words; None where it cannot move.
+pub fn freedom(model: &Model, nodes: &[NodeId], pinned: &[NodeId]) -> Option<&'static str> {
     let count = nodes.len() as f64;
     let points = || nodes.iter().map(|&n| model.coordinates(n));
     let sum = points().fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
@@ -96,7 +96,7 @@ pub fn freedom(model: &Model, nodes: &[NodeId]) -> Option<&'static str> {
             Vector3::new(0.0, 1.0, (x - centre[0]) / size),
         ];
         for (restrained, motion) in model.restraints_of(n).into_iter().zip(motions) {
-            if restrained {
+            if restrained || pinned.contains(&n) {
                 gram += motion * motion.transpose();
             }
         }

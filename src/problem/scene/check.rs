@@ -1,15 +1,16 @@
 //! Checks of a scene file against its mesh: materials, restraints, contact surfaces, bodies.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use super::description::{Axis, Description};
 use super::groups::Groups;
 use super::mesh::Mesh;
 use super::surface;
-use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Restraint};
+use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Restraint, TriangleId};
 use crate::modelling::{check_iterations, check_tolerance};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
+use numbers::joined::joined;
 
 /// Checks the thickness and the number of iterations.
 ///
@@ -137,7 +138,7 @@ pub fn restrained_bodies(model: &Model) -> Result<()> {
     let (joined, alone): (Vec<&Body>, Vec<&Body>) =
         model.bodies.iter().partition(|body| body.nodes.iter().any(|n| surfaces.contains(n)));
     for body in alone {
-        if let Some(freedom) = model::freedom(model, &body.nodes) {
+        if let Some(freedom) = model::freedom(model, &body.nodes, &[]) {
             let what =
                 format!("body {:?} is restrained by no contact and can still {freedom}", body.name);
             let fix = "restrain it, or give it a contact surface";
@@ -145,9 +146,45 @@ pub fn restrained_bodies(model: &Model) -> Result<()> {
         }
     }
     let nodes: Vec<NodeId> = joined.iter().flat_map(|body| body.nodes.iter().copied()).collect();
-    if let Some(freedom) = model::freedom(model, &nodes).filter(|_| !joined.is_empty()) {
+    if let Some(freedom) = model::freedom(model, &nodes, &[]).filter(|_| !joined.is_empty()) {
         let what = format!("the bodies that contact joins can still {freedom}, all together");
         return Err(InputError::new("restraints", what, "restrain one of them"));
+    }
+    hinged_parts(model, &surfaces)
+}
+
+/// Checks that no part of a body that no contact surface touches turns about the only node that joins it.
+///
+/// # Errors
+/// Names the part, and that node.
+fn hinged_parts(model: &Model, surfaces: &HashSet<NodeId>) -> Result<()> {
+    let triangles = TriangleId::all(model.triangles.len());
+    let beside = triangles.clone().flat_map(|id| {
+        let [a, b, c] = model.triangle(id).nodes;
+        let sides = [[a, b], [b, c], [c, a]].map(|side| model.sides.beside(side)[0].triangle);
+        sides.map(|first| (first.index(), id.index()))
+    });
+    let lowest = joined(model.triangles.len(), beside);
+    let mut parts: BTreeMap<usize, BTreeSet<NodeId>> = BTreeMap::new();
+    for (id, part) in triangles.zip(lowest) {
+        parts.entry(part).or_default().extend(model.triangle(id).nodes);
+    }
+    let mut times = vec![0; model.nodes.len()];
+    parts.values().flatten().for_each(|node| times[node.index()] += 1);
+    for nodes in parts.values().filter(|nodes| nodes.iter().all(|n| !surfaces.contains(n))) {
+        let nodes: Vec<NodeId> = nodes.iter().copied().collect();
+        let joints: Vec<NodeId> = nodes.iter().copied().filter(|n| times[n.index()] > 1).collect();
+        if let [joint] = joints[..]
+            && model::freedom(model, &nodes, &joints).is_some()
+        {
+            let other = nodes.iter().find(|node| **node != joint).expect("a triangle has three");
+            let body = model.body_of(joint).map_or("", |body| &body.name);
+            let what = format!(
+                "the part of body {body:?} at node {other} hangs on node {joint} alone, and turns about it"
+            );
+            let fix = "join it along an edge, restrain it at a second node, or leave it out";
+            return Err(InputError::new("mesh, restraints", what, fix));
+        }
     }
     Ok(())
 }

@@ -113,7 +113,7 @@ fn what_restraints_leave_free() {
         for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, -2.0), (1.0, 1e7)] {
             let mut moved = model.clone();
             moved.nodes = model.nodes.iter().map(|p| p.map(|x| scale * x + shift)).collect();
-            let found = freedom(&moved, &moved.bodies[0].nodes);
+            let found = freedom(&moved, &moved.bodies[0].nodes, &[]);
             assert_eq!(found, expected, "{restraints:?}, {scale} {shift}");
         }
     }
@@ -130,7 +130,7 @@ fn restraints_beside_each_other_leave_a_body_free_to_turn() {
     }
     let mut found = |apart: f64| {
         model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
-        freedom(&model, &model.bodies[0].nodes)
+        freedom(&model, &model.bodies[0].nodes, &[])
     };
     assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate"), None]);
 }
@@ -145,6 +145,24 @@ fn a_body_that_can_move_is_refused() {
     let turns = free.restrain_node(5, &[Axis::X, Axis::Y]);
     assert_eq!(what(turns.clone()), format!("{says} rotate"));
     assert!(turns.restrain_node(6, &[Axis::Y]).build().is_ok());
+}
+
+/// A triangle on one node of a block that is held; another node of it may be held too.
+#[test]
+fn a_part_that_turns_about_the_node_it_hangs_on_is_refused() {
+    let mut mesh = MeshBuilder::default();
+    mesh.row([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]]);
+    mesh.triangles("a", [[1, 2, 3], [2, 4, 5]]);
+    let hanging = SceneBuilder::new("hinge", mesh.finish(), Plane::Stress)
+        .material("a", 1000.0, 0.25)
+        .restrain_node(1, &[Axis::X, Axis::Y])
+        .restrain_node(3, &[Axis::X]);
+    let error = hanging.clone().build().expect_err("it is refused");
+    assert_eq!(
+        error.what,
+        "the part of body \"a\" at node 4 hangs on node 2 alone, and turns about it"
+    );
+    assert!(hanging.restrain_node(4, &[Axis::Y]).build().is_ok());
 }
 
 /// On an edge of length 2 and a thickness of 0.5, half of a traction on each end; a pressure
