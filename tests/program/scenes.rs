@@ -315,6 +315,9 @@ fn triangles_of_one_body_that_lie_over_each_other() {
         push(&mut s["node"], json!([14, 0.9, -0.9, 0.0]));
         push(&mut s["node"], json!([15, 0.9, -0.8, 0.0]));
         push(&mut s["elem"], json!([19, 2, 2, 1, 1, 10, 14, 15]));
+        for n in [14, 15] {
+            push(&mut s["restraints"], json!({ "node": n, "fix": ["x", "y"] }));
+        }
     });
     says(&e, "the mesh's triangles", &["triangles 11 and 19"]);
     let mut scene = scene_json("fig1");

@@ -32,8 +32,8 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "plane-contact snapshot record fig1 --out s.json; \
-                  plane-contact snapshot verify s.json --report x.md --junit ./x.md || \
-                  plane-contact snapshot verify s.json --report x.md --junit $PWD/x.md",
+                  plane-contact snapshot verify s.json --report x --junit ./x || \
+                  plane-contact snapshot verify s.json --report x --junit $PWD/x",
         status: 2,
         contains: &["both --junit and --report write this file"],
         lacks: &["same"],
