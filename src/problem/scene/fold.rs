@@ -10,7 +10,7 @@ use base::error::{InputError, Result};
 /// along a crack are doubled.
 pub const DEPTH: f64 = 1e-9;
 
-/// Which bodies have contact between them.
+/// Which bodies the contact surfaces lie on.
 pub struct Faces {
     /// The place of each node's body.
     of_node: Vec<usize>,
@@ -32,6 +32,12 @@ impl Faces {
         Faces { of_node, sides }
     }
 
+    /// Returns whether two nodes are of two bodies on which contact surfaces lie: either may be inside the other.
+    pub fn may_overlap(&self, a: NodeId, b: NodeId) -> bool {
+        let [a, b] = [a, b].map(|n| self.of_node[n.index()]);
+        a != b && [a, b].iter().all(|body| self.sides[*body].contains(&true))
+    }
+
     /// Returns whether two nodes are of two bodies that have contact between them.
     pub fn may_meet(&self, a: NodeId, b: NodeId) -> bool {
         let [a, b] = [a, b].map(|n| self.of_node[n.index()]);
@@ -40,7 +46,7 @@ impl Faces {
     }
 }
 
-/// Checks that no triangles lie over each other but those of bodies that have contact between them.
+/// Checks that no triangles lie over each other but those of two bodies on which contact surfaces lie.
 ///
 /// # Errors
 /// Names two that do.
@@ -50,7 +56,7 @@ pub fn check(mesh: &Mesh, model: &Model) -> Result<()> {
     let [a, b] = ids.map(|id| numbers[id.index()]);
     let what = format!("triangles {} and {} lie over each other", a.min(b), a.max(b));
     let fix =
-        "remove one, or move its nodes; only bodies that have contact between them may overlap";
+        "remove one, or move its nodes; only bodies on which contact surfaces lie may overlap";
     Err(InputError::new("the mesh's triangles", what, fix))
 }
 
@@ -87,7 +93,7 @@ fn overlap(model: &Model) -> Option<[TriangleId; 2]> {
     for one in &triangles {
         crossed.retain(|other| other.high[axis] > one.low[axis]);
         let is_over =
-            |other: &&&Boxed| other.overlaps(one) && !faces.may_meet(other.node, one.node);
+            |other: &&&Boxed| other.overlaps(one) && !faces.may_overlap(other.node, one.node);
         if let Some(other) = crossed.iter().find(is_over) {
             return Some([other.id, one.id]);
         }
