@@ -138,9 +138,10 @@ pub fn check_page(asked: &Option<PathBuf>, out: &Path) -> Result<()> {
     files::check_file(out)?;
     let name = out.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let folder = out.parent().unwrap_or(Path::new(""));
-    Ok(if asked.is_none() {
-        files::check_folder(folder, &[name])?
-    })
+    if asked.is_none() {
+        files::check_folder(folder, &[name])?;
+    }
+    Ok(())
 }
 
 /// Writes a page.
