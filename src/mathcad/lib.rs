@@ -17,7 +17,7 @@
 //! |---|---|
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
-//! | `square`, [`mod@array`], [`value`] | sparse matrices, the mirror's arrays with `ORIGIN = 1`, a listing's values |
+//! | `square`, `sparse`, [`mod@array`], [`value`] | sparse matrices and their factors, the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -44,6 +44,8 @@ pub mod observe;
 pub mod run;
 pub mod settings;
 pub mod sheet;
+#[cfg(feature = "sparse")]
+pub mod sparse;
 pub mod value;
 #[cfg(feature = "files")]
 pub mod worksheet;

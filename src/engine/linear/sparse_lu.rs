@@ -1,10 +1,10 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use super::rounding;
-use faer::Par;
-use faer::sparse::linalg::solvers::{self, SymbolicLu};
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::SparseColMat;
+use faer::sparse::linalg::solvers;
 use mathcad::SparseSquare;
+use mathcad::sparse::factored;
 use nalgebra::DVector;
 
 use super::dense::DenseLu;
@@ -32,23 +32,15 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let Some(lu) = SparseLu::unjudged(matrix) else {
+        let Some((columns, factors)) = factored(matrix) else {
             return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
+        let lu = SparseLu { matrix: columns, factors };
         let motion = motion(&lu, &lu.matrix);
         if motion < DOUBTFUL * farthest(matrix.size()) {
             return Ok(lu);
         }
         judged(matrix, motion).map_or(Ok(lu), Err)
-    }
-
-    /// Factors an n x n `matrix`, however near to a singular one it is; None where a pivot is 0.
-    pub fn unjudged(matrix: &SparseSquare) -> Option<Self> {
-        let matrix = columns(matrix);
-        faer::set_global_parallelism(Par::Seq);
-        let symbolic = SymbolicLu::try_new(matrix.symbolic()).expect("a pattern fits in memory");
-        let factors = solvers::Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).ok()?;
-        Some(SparseLu { matrix, factors })
     }
 }
 
@@ -91,18 +83,4 @@ fn judged(matrix: &SparseSquare, motion: f64) -> Option<Singular> {
     }
     let moves_too_far = motion.is_nan() || motion >= farthest(n);
     moves_too_far.then(|| mechanism(&SparseSymmetric::new(n, matrix.entries())))
-}
-
-/// Returns the entries that are not 0, column by column.
-fn columns(matrix: &SparseSquare) -> SparseColMat<usize, f64> {
-    let n = matrix.size();
-    let (mut starts, mut rows, mut values) = (vec![0; n + 1], Vec::new(), Vec::new());
-    for (row, column, value) in matrix.entries() {
-        rows.push(row);
-        values.push(value);
-        starts[column + 1] = rows.len();
-    }
-    // A column without entries starts where the last one ended.
-    (0..n).for_each(|j| starts[j + 1] = starts[j + 1].max(starts[j]));
-    SparseColMat::new(SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
 }
