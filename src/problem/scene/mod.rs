@@ -81,6 +81,8 @@ pub struct Scene {
 struct Source {
     description: Description,
     mesh: Mesh,
+    /// What the mesh file has in another form, and where the mesh has slits, in sentences.
+    notes: Vec<String>,
     /// The SHA-256 of both.
     hashes: [String; 2],
 }
@@ -126,9 +128,9 @@ impl Scene {
         self.source.as_deref().map(|source| (&source.description, &source.mesh))
     }
 
-    /// Says what the mesh file has in another form than the mesh here, in sentences.
+    /// Says what the mesh file has in another form than the mesh here, and where the mesh has slits, in sentences.
     pub fn adapted(&self) -> &[String] {
-        self.source.as_deref().map_or(&[], |source| &source.mesh.adapted)
+        self.source.as_deref().map_or(&[], |source| &source.notes)
     }
 
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
@@ -140,7 +142,7 @@ impl Scene {
     fn assemble(
         name: &str,
         description: Description,
-        mut mesh: Mesh,
+        mesh: Mesh,
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
@@ -181,8 +183,7 @@ impl Scene {
         fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
-        let notes = slit::notes(&mesh, &model);
-        mesh.adapted.extend(notes);
+        let slits = slit::notes(&mesh, &model);
         Ok(Scene {
             name: name.into(),
             word: name.into(),
@@ -195,6 +196,7 @@ impl Scene {
             contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
+                notes: mesh.adapted.iter().cloned().chain(slits).collect(),
                 description,
                 mesh,
             })),

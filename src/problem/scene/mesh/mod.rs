@@ -37,7 +37,7 @@ pub struct Mesh {
     /// once, with two tags, in one of version 4.1.
     #[schemars(with = "Vec<(usize, usize, Vec<usize>, usize, Vec<usize>)>")]
     pub elements: Vec<Element>,
-    /// What a Gmsh file has in another form, and what its outline has, in sentences for people.
+    /// What a Gmsh file has in another form, in sentences for people.
     #[serde(skip)]
     pub adapted: Vec<String>,
     /// The numbers of the nodes in a file that has gaps; else empty.
