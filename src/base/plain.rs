@@ -107,12 +107,17 @@ fn of_json(words: &str) -> String {
     KINDS.iter().find_map(known).unwrap_or_else(|| words.into())
 }
 
+/// Writes a word as a shell takes it, in quotes.
+pub fn shell_quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
 /// Writes a word as a shell takes it: in quotes where it has more than letters, digits and `_./-`.
 pub fn shell_word(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_./-".contains(c);
     match !word.is_empty() && word.chars().all(is_plain) {
         true => word.into(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
+        false => shell_quoted(word),
     }
 }
 

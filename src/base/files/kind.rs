@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 
-use super::json::utf8;
+use super::read::utf8;
 
 /// The documents of JSON, each with fields that no one before it has.
 const DOCUMENTS: &[(&str, &[&str])] = &[

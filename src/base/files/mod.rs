@@ -8,7 +8,7 @@ mod read;
 mod write;
 
 pub use kind::{fields, is_json, kind_of};
-pub use read::{MOST, names, read, read_from, read_in, read_most, text};
+pub use read::{MOST, names, read, read_from, read_in, read_most, text, utf8};
 pub use write::{
     HTML, MARKDOWN, abandon, check_file, check_folder, is_same_place, rewrite, temporary_folder,
     write, write_all, write_new,

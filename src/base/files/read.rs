@@ -120,7 +120,29 @@ pub fn names(folder: &Path, extension: &str) -> io::Result<Vec<String>> {
 pub fn text(bytes: Vec<u8>) -> io::Result<String> {
     String::from_utf8(bytes).map_err(|wrong| {
         let before = &wrong.as_bytes()[..wrong.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        io::Error::new(io::ErrorKind::InvalidData, format!("line {line} is not in UTF-8"))
+        io::Error::new(io::ErrorKind::InvalidData, not_utf8(before))
     })
+}
+
+/// Returns a text in UTF-8 without its byte order mark.
+///
+/// # Errors
+/// Says in which encoding it is, or in which line it is not in UTF-8.
+pub fn utf8(text: &[u8]) -> Result<&str, String> {
+    match text {
+        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => Err("the file is in UTF-32".into()),
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [_, 0, _, 0, ..] | [0, _, 0, _, ..] => {
+            Err("the file is in UTF-16".into())
+        }
+        _ => {
+            let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+            std::str::from_utf8(text).map_err(|wrong| not_utf8(&text[..wrong.valid_up_to()]))
+        }
+    }
+}
+
+/// Says in which line a text is not in UTF-8, of which `before` is the part that is.
+fn not_utf8(before: &[u8]) -> String {
+    let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+    format!("line {line} is not in UTF-8")
 }

@@ -109,7 +109,7 @@ fn no_hyphen(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Refuses a folder that a link below the current one leads to. Whoever names an absolute path names its links.
+/// Refuses a folder that a link below the current one leads to. An absolute path may lead through links.
 fn no_link(folder: &Path) -> io::Result<()> {
     match folder.ancestors().find(|way| folder.is_relative() && way.is_symlink()) {
         Some(link) => {

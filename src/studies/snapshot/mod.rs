@@ -32,7 +32,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use base::error::{InputError, Result};
-use base::files::json;
+use base::files::{self, json};
 use base::suggestion::did_you_mean;
 use engine::Decision;
 use engine::{Request, check};
@@ -212,7 +212,7 @@ impl Snapshot {
             format: Option<u32>,
         }
         let kind = json::Kind { name: "snapshot", fix, has_values: true };
-        let head = json::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
+        let head = files::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
         if let Some(Head { format }) = head
             && format != Some(FORMAT)
         {

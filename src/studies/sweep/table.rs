@@ -12,7 +12,7 @@ use crate::sweep::{Job, Row};
 use base::choices;
 use base::error::{InputError, Result};
 use base::files::json::{Kind, read};
-use base::plain::shown;
+use base::plain::{shell_quoted, shown};
 use problem::scene::sha256;
 use report::json;
 use report::model::{Cell, Table};
@@ -99,7 +99,7 @@ const SNAKEMAKE: &str = include_str!("engines/Snakefile");
 
 /// A target is a number, as no name with a blank or a colon can be one.
 fn make(jobs: usize, names: &[String]) -> String {
-    let quoted = |name: &String| format!("'{}'", name.replace('\'', "'\\''").replace('$', "$$"));
+    let quoted = |name: &String| shell_quoted(name).replace('$', "$$");
     let words: Vec<String> = names.iter().map(quoted).collect();
     let targets: Vec<String> = (0..jobs).map(|job| job.to_string()).collect();
     format!(

@@ -6,6 +6,7 @@ use serde::de::{DeserializeOwned, Deserializer, IgnoredAny};
 use serde_json::Value;
 
 use super::kind::kind_of;
+use super::read::utf8;
 use strict::Strict;
 
 use crate::error::{InputError, Result};
@@ -96,27 +97,6 @@ fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de, Error = serde_json
         };
         InputError::new(place + &at, what, meant(error) + kind.fix)
     })
-}
-
-/// Returns a text in UTF-8 without its byte order mark.
-///
-/// # Errors
-/// Says in which encoding it is, or in which line it is not in UTF-8.
-pub fn utf8(text: &[u8]) -> Result<&str, String> {
-    match text {
-        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => Err("the file is in UTF-32".into()),
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [_, 0, _, 0, ..] | [0, _, 0, _, ..] => {
-            Err("the file is in UTF-16".into())
-        }
-        _ => {
-            let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-            std::str::from_utf8(text).map_err(|wrong| {
-                let before = &text[..wrong.valid_up_to()];
-                let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-                format!("line {line} is not in UTF-8")
-            })
-        }
-    }
 }
 
 /// Returns how many values a document has at most: each stands behind a comma or opens a list or an object.
