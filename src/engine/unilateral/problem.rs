@@ -298,8 +298,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Turns the normal of each node that rests in a corner to its force, as far as the normals of the edges: without
-    /// friction it has no other one.
+    /// Turns the normal of each node that rests in a corner to its force, as far as the normals of the edges; without
+    /// friction its force has no other direction.
     pub(super) fn along_forces(&self, config: &mut Configuration, last: &mut Iteration) {
         for i in 0..last.statuses.len() {
             let force = &mut last.solution.forces[i];

@@ -138,7 +138,9 @@ fn coupled(audit: &Audit) -> Coupled {
 }
 
 /// Returns the rows of the paper's variants, with their places.
-fn of_the_paper(rows: &[VariantRow]) -> impl Iterator<Item = (usize, &VariantRow)> + Clone {
+pub(super) fn of_the_paper(
+    rows: &[VariantRow],
+) -> impl Iterator<Item = (usize, &VariantRow)> + Clone {
     rows.iter().enumerate().filter(|(_, row)| Variant::OF_THE_PAPER.contains(&row.variant))
 }
 

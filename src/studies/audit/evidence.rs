@@ -10,6 +10,7 @@ use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use numbers::finite;
 use problem::modelling::Variant;
+use report::layout::first_line;
 use report::model::Cell;
 
 /// What is said in place of a figure that inputs of the same meaning change.
@@ -110,9 +111,12 @@ impl<V> Evidence<V> {
         if self.by_rounding { BY_ROUNDING.into() } else { self.number.into() }
     }
 
-    /// Returns whether another input leads to another number.
-    pub fn moves_number(&self, other: &Self) -> bool {
-        moves(self.number, other.number, 1.0)
+    /// Returns whether another input leads to another verdict or number.
+    pub fn differs(&self, other: &Self) -> bool
+    where
+        V: PartialEq,
+    {
+        self.verdict != other.verdict || moves(self.number, other.number, 1.0)
     }
 }
 
@@ -142,8 +146,7 @@ impl NoFigures {
     /// Returns the reason in one line, without what it has in common with others.
     pub fn in_short(&self) -> &str {
         let why = self.failure().unwrap_or(BY_ROUNDING);
-        let first = why.lines().next().unwrap_or_default();
-        first.trim_start_matches("the published algorithm fails as printed: ")
+        first_line(why).trim_start_matches("the published algorithm fails as printed: ")
     }
 }
 

@@ -4,15 +4,14 @@
 use crate::audit::claims::table as claims;
 use crate::audit::claims::{JudgedClaim, Scope, Verdict};
 use crate::audit::conclusion::words as conclusion;
-use crate::audit::conclusion::{Conclusion, Coupled, NearRun};
+use crate::audit::conclusion::{Conclusion, Coupled, NearRun, of_the_paper};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::variants::{End, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
 use engine::BodySummary;
-use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::layout::{counted, listed};
+use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
 use report::numbers::{or_dash, percent, significant, with_unit};
 use report::tables::UNDERESTIMATE;
@@ -84,8 +83,9 @@ fn runs(audit: &Audit, scene: &Scene) -> Table {
     let bodies: Vec<&str> = scene.model.bodies.iter().map(|body| body.name.as_str()).collect();
     let stress =
         format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
-    let variants = audit.variants.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant));
-    let rows = variants.map(run).chain(audit.equilibrium.as_ref().map(equilibrium));
+    let rows = of_the_paper(&audit.variants)
+        .map(|(_, row)| run(row))
+        .chain(audit.equilibrium.as_ref().map(equilibrium));
     Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
 }
 
@@ -142,7 +142,7 @@ fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
 fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
     let said = |row: &VariantRow| match &row.end {
         End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
-            if Variant::OF_THE_PAPER.contains(&row.variant) && found.depth > 0.0 =>
+            if found.depth > 0.0 =>
         {
             let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
             let status = if found.in_contact { "in contact" } else { "not in contact" };
@@ -157,7 +157,7 @@ fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
         }
         End::Result { .. } | End::Failure { .. } => None,
     };
-    audit.variants.iter().filter_map(said).collect()
+    of_the_paper(&audit.variants).filter_map(|(_, row)| said(row)).collect()
 }
 
 /// The statements by verdict, in a row for each scope.
@@ -186,8 +186,7 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Report {
     let prices = match prices {
         Ok(prices) => prices,
         Err(why) => {
-            return report
-                .note(format!("Not measured here: {}", why.lines().next().unwrap_or_default()));
+            return report.note(format!("Not measured here: {}", first_line(why)));
         }
     };
     if let Some(why) = prices::unsound(prices) {

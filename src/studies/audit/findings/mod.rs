@@ -114,7 +114,7 @@ pub type Evidence = super::evidence::Evidence<Verdict>;
 
 impl Measured for Evidence {
     fn moves(&self, other: &Self) -> bool {
-        self.verdict != other.verdict || self.moves_number(other)
+        self.differs(other)
     }
 
     fn by_rounding(self) -> Self {
