@@ -63,7 +63,10 @@ pub struct RunArgs {
 
 impl RunArgs {
     /// Returns what is asked of a scene.
-    pub fn request(&self, scene: &Scene) -> Request {
+    ///
+    /// # Errors
+    /// Those of [`ModelArgs::request`].
+    pub fn request(&self, scene: &Scene) -> Result<Request> {
         self.method.request(scene, self.variant)
     }
 }
@@ -81,9 +84,12 @@ pub struct MethodArgs {
 
 impl MethodArgs {
     /// Returns what is asked of a variant of a scene, of the scene's own where none is given.
-    pub fn request(&self, scene: &Scene, variant: Option<Variant>) -> Request {
-        let request = self.model.request(scene, variant, &self.reading);
-        request.arithmetic(self.arithmetic.into())
+    ///
+    /// # Errors
+    /// Those of [`ModelArgs::request`].
+    pub fn request(&self, scene: &Scene, variant: Option<Variant>) -> Result<Request> {
+        let request = self.model.request(scene, variant, &self.reading)?;
+        Ok(request.arithmetic(self.arithmetic.into()))
     }
 }
 
@@ -115,12 +121,22 @@ pub struct ModelArgs {
 
 impl ModelArgs {
     /// Asks for what is given, and for the rest what `scene` has.
+    ///
+    /// # Errors
+    /// Neither says anything of friction, which is part of what `unilateral` solves.
     pub fn request(
         &self,
         scene: &Scene,
         variant: Option<Variant>,
         reading: &ReadingArg,
-    ) -> Request {
+    ) -> Result<Request> {
+        let variant = variant.unwrap_or(scene.variant);
+        if variant == Variant::Unilateral && scene.friction_is_missing && self.friction.is_none() {
+            let what = "nothing is said of friction between the surfaces";
+            let fix = "add \"friction\": 0, a coefficient such as \"friction\": 0.3, or \"friction\": \"stick\" \
+                       (nothing slides) to the scene's contact, or give --friction";
+            return Err(InputError::new("contact.friction", what, fix).into());
+        }
         let contact = ContactModel {
             coupling: self.coupling.unwrap_or(scene.contact.coupling),
             friction: self.friction.unwrap_or(scene.contact.friction),
@@ -128,10 +144,7 @@ impl ModelArgs {
             load_steps: self.load_steps.map_or(scene.contact.load_steps, |n| n as usize),
             status: self.status.unwrap_or(scene.contact.status),
         };
-        Request::new(scene)
-            .contact(contact)
-            .variant(variant.unwrap_or(scene.variant))
-            .reading(reading.reading)
+        Ok(Request::new(scene).contact(contact).variant(variant).reading(reading.reading))
     }
 }
 

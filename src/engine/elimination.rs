@@ -19,7 +19,7 @@ use smallvec::{SmallVec, smallvec};
 
 use numbers::scalar::Scalar;
 use paper::door::NodeToSegment;
-use problem::model::{Dof, NodeId, Restraint};
+use problem::model::{Dof, Hold, Model, NodeId, Restraint, crossing};
 
 /// The constraint that binds the displacements of a contact node to the target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,6 +68,26 @@ impl<T: Scalar> Constraint<T> {
             Motion::Both([x, y]) => vec![([one, zero], x, self), ([zero, one], y, self)],
         }
     }
+}
+
+/// Returns the constraints of what no degree of freedom alone holds ([`Model::oblique`]), at a part of their
+/// displacements.
+pub fn support_constraints(model: &Model, part: f64) -> Vec<Constraint> {
+    let mut of_node: BTreeMap<NodeId, Vec<&Hold>> = BTreeMap::new();
+    model.oblique().for_each(|(_, hold)| of_node.entry(hold.node).or_default().push(hold));
+    let motion = |holds: &[&Hold]| match holds {
+        [a, b] => {
+            let given = [a, b].map(|hold| part * hold.displacement);
+            Motion::Both(crossing([a.direction, b.direction], given).expect("they are two"))
+        }
+        holds => Motion::Along(holds[0].direction, part * holds[0].displacement),
+    };
+    let constraint = |(node, holds): (NodeId, Vec<&Hold>)| Constraint {
+        node,
+        masters: Vec::new(),
+        motion: motion(&holds),
+    };
+    of_node.into_iter().map(constraint).collect()
 }
 
 impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {

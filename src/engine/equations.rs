@@ -10,7 +10,7 @@ use super::error::{Error, SingularMatrix};
 use super::request::Request;
 use super::sparse::takes_sparse;
 use super::stiffness::Stiffness;
-use super::support::{support, supports};
+use super::support::{passed, reactions, support, supports};
 use crate::linear::{Precision, Singular, Solved};
 use mathcad::SparseSquare;
 use mathcad::array::Table;
@@ -62,6 +62,8 @@ pub(super) struct Increment<T> {
     pub residual: f64,
     /// The sum of what holds the body to which contact passes its force, force.
     pub support: [T; 2],
+    /// What contact adds to the forces on restraints, by degree of freedom, force.
+    pub passed: DVector<T>,
 }
 
 impl<'a, T: Precision> Equations<'a, T> {
@@ -172,6 +174,12 @@ impl<'a, T: Precision> Equations<'a, T> {
         self.stiffness.times(u) - &self.load
     }
 
+    /// Returns the forces of the restraints by degree of freedom, force, from the [`Self::reaction`] and from
+    /// what contact adds to it there.
+    pub fn reactions(&self, reaction: &DVector<f64>, passed: &DVector<T>) -> DVector<f64> {
+        reactions(self.model, &self.restraints, reaction + passed.map(T::to_f64))
+    }
+
     fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Increment<T> {
         let mut wanted = self.supports.clone();
         let bound = constraints.iter().flat_map(|constraint| constraint.node.dofs());
@@ -179,7 +187,8 @@ impl<'a, T: Precision> Equations<'a, T> {
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
         let support = support(self.model, &self.restraints, constraints, &force, &load);
-        Increment { residual, support, u }
+        let passed = passed(&self.restraints, constraints, &force);
+        Increment { residual, support, passed, u }
     }
 
     /// Returns the error of a singular matrix; `dof` maps a column to a degree of freedom.

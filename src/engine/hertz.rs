@@ -21,7 +21,7 @@ use problem::modelling::Coupling;
 /// The allowed departure of gaps from the parabola, over its height at the edge of contact.
 const PARABOLA: f64 = 0.05;
 
-/// The half width over the relative radius beyond which the theory does not apply.
+/// The half width over a radius, of both surfaces or relative, beyond which the theory does not apply.
 const SHALLOW: f64 = 0.3;
 
 /// The least number of nodes in the half width that show its curve.
@@ -42,8 +42,8 @@ pub struct Hertz {
 
 impl Hertz {
     /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None
-    /// where the surfaces form no parabola there, the contact is too wide for the theory, or too
-    /// few nodes lie in it.
+    /// where the surfaces form no parabola there, the contact is too wide for the theory, as that of a pin in a hole
+    /// of its size, or too few nodes lie in it.
     pub fn from_solution(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
@@ -63,13 +63,35 @@ impl Hertz {
             half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
         }
         let contact = Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre };
-        (half_width < SHALLOW * radius && contact.fits(&gaps, first.gap)).then_some(contact)
+        let is_shallow =
+            half_width < SHALLOW * radius && contact.turn(model, &gaps, &pairings) < 2.0 * SHALLOW;
+        (is_shallow && contact.fits(&gaps, first.gap)).then_some(contact)
     }
 
     /// Returns the pressure at distance `arc` along the contact surface, stress.
     pub fn pressure(&self, arc: f64) -> f64 {
         let s = (arc - self.centre) / self.half_width;
         self.peak * (1.0 - s * s).max(0.0).sqrt()
+    }
+
+    /// Returns the angle by which the surface that turns more does so within the contact: its width over its radius.
+    fn turn(&self, model: &Model, gaps: &[Gap], pairings: &[Option<Pairing>]) -> f64 {
+        let within = gaps.iter().filter(|g| (g.arc - self.centre).abs() <= self.half_width);
+        let entries: Vec<usize> = within.map(|gap| gap.entry).collect();
+        let place = |entry: &usize| model.coordinates(model.contact.nodes[*entry]);
+        let along: Vec<[f64; 2]> = entries
+            .windows(2)
+            .map(|ends| [0, 1].map(|d| place(&ends[1])[d] - place(&ends[0])[d]))
+            .collect();
+        let normals = entries.iter().filter_map(|entry| Some(pairings[*entry].as_ref()?.normal));
+        let turns = |directions: &[[f64; 2]]| {
+            let angle = |pair: &[[f64; 2]]| {
+                let ([ax, ay], [bx, by]) = (pair[0], pair[1]);
+                (ax * by - ay * bx).atan2(ax * bx + ay * by).abs()
+            };
+            directions.windows(2).map(angle).sum::<f64>()
+        };
+        turns(&along).max(turns(&normals.collect::<Vec<_>>()))
     }
 
     fn fits(&self, gaps: &[Gap], least: f64) -> bool {

@@ -29,11 +29,11 @@ mod unilateral;
 pub use assessment::{Assessment, SolutionDistance};
 pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
-pub use elimination::{Constraint, Elimination, Motion};
+pub use elimination::{Constraint, Elimination, Motion, support_constraints};
 pub use hertz::Hertz;
 pub use quantities::{
-    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleState, TriangleValues,
-    summaries,
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleState,
+    TriangleValues, summaries,
 };
 pub use range::{beyond_range, locking};
 pub use request::Request;

@@ -58,6 +58,7 @@ pub(super) fn published<T: Precision>(
         surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
         u: DVector::from_element(model.dofs(), T::zero()),
         support: [T::zero(), T::zero()],
+        passed: DVector::from_element(model.dofs(), T::zero()),
         visited: Vec::new(),
     };
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
@@ -67,8 +68,10 @@ pub(super) fn published<T: Precision>(
         steps.push(step);
     }
     let in_contact = steps.last().expect("a request has an iteration").statuses();
+    let reaction = run.equations.reaction(&run.u).map(T::to_f64);
     Ok(Solution {
-        contact: run.contact(&in_contact)?,
+        contact: run.contact(&in_contact, &reaction)?,
+        reactions: run.equations.reactions(&reaction, &run.passed),
         elements: run.equations.stiffness.states(&run.u),
         factored: run.visited.len(),
         digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
@@ -160,6 +163,8 @@ struct Run<'a, T> {
     u: DVector<T>,
     /// The sum of what holds the body to which contact passes its force so far, force.
     support: [T; 2],
+    /// What contact adds to the forces on restraints so far, by degree of freedom, force.
+    passed: DVector<T>,
     /// The contact states visited, each with its solution and the last iteration that visited it.
     /// The load of an iteration is always the same, so a state that returns has the same matrix and
     /// the same solution, and its matrix is not factored again.
@@ -281,10 +286,14 @@ impl<T: Precision> Run<'_, T> {
     /// Advances from one shape to the next.
     fn advance(&mut self, solved: &Increment<T>) {
         match self.equations.request.schedule() {
-            Schedule::Total => (self.u, self.support) = (solved.u.clone(), solved.support),
+            Schedule::Total => {
+                (self.u, self.support) = (solved.u.clone(), solved.support);
+                self.passed.clone_from(&solved.passed);
+            }
             Schedule::Stepped => {
                 self.u += &solved.u;
                 self.support = [0, 1].map(|d| self.support[d] + solved.support[d]);
+                self.passed += &solved.passed;
             }
         }
     }
@@ -337,14 +346,17 @@ impl<T: Precision> Run<'_, T> {
     }
 
     /// Returns the contact surface at the end.
-    fn contact(&self, in_contact: &[bool]) -> Result<Vec<ContactNode>, InputError> {
+    fn contact(
+        &self,
+        in_contact: &[bool],
+        reaction: &DVector<f64>,
+    ) -> Result<Vec<ContactNode>, InputError> {
         if !self.equations.model.has_contact() {
             return Ok(Vec::new());
         }
         let surfaces = Surfaces::new(self.equations.model)?;
         let shape = numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
-        let reaction = self.equations.reaction(&self.u).map(T::to_f64);
         let eliminated = self.equations.request.variant != Variant::Printed;
         let traction = Traction {
             model: self.equations.model,
@@ -354,7 +366,7 @@ impl<T: Precision> Run<'_, T> {
             measured_in: &shape,
             in_contact,
             statuses: None,
-            forces: &reactions(self.equations.model, &pairings, &reaction, eliminated),
+            forces: &reactions(self.equations.model, &pairings, reaction, eliminated),
         };
         Ok(traction.nodes())
     }

@@ -58,7 +58,8 @@ pub struct ReducedState<'a> {
 
 impl Reduction {
     /// Reduces the stiffness of a model to the nodes of its surfaces, or those about the least gaps of
-    /// `pairings`; None where these do not hold what is left, and without contact.
+    /// `pairings`; None where these do not hold what is left, without contact, and where a restraint follows no
+    /// axis or displaces its node, as inner nodes that are held stay where they are here.
     pub fn new(stiffness: &Stiffness, model: &Model, pairings: &[Option<Pairing>]) -> Option<Self> {
         let nodes = nodes(model, pairings);
         let mut place = vec![None; model.nodes.len()];
@@ -72,7 +73,7 @@ impl Reduction {
         let free: Vec<Dof> = model.all_dofs().filter(|dof| is_free[dof.index()]).collect();
         let is_kept = |e: &usize| place[free[*e].node().index()].is_some();
         let last: Vec<usize> = (0..free.len()).filter(is_kept).collect();
-        if last.is_empty() {
+        if last.is_empty() || model.oblique().next().is_some() {
             return None;
         }
         let kept: Vec<Dof> = last.iter().map(|e| free[*e]).collect();

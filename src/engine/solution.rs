@@ -375,6 +375,8 @@ pub struct Solution {
     pub steps: Vec<Step>,
     /// The displacements by degree of freedom, length.
     pub u: DVector<f64>,
+    /// The force of the restraints on each degree of freedom, 0 where nothing holds its node, force.
+    pub reactions: DVector<f64>,
     /// The stresses and strains of each triangle.
     pub elements: Vec<State>,
     /// The contact surface at the end: the nodes that face the target, in order.
@@ -446,11 +448,12 @@ impl Solution {
     }
 
     /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has
-    /// contact and a load: an audit result under `printed`, which couples nothing (finding K1).
+    /// contact, and a load or a displaced node: an audit result under `printed`, which couples nothing (finding K1).
     pub fn transmits_nothing(&self) -> bool {
         let [fx, fy] = self.model.total_load();
         let load = fx.hypot(fy);
-        let is_loaded = self.model.target().is_some() && load > 0.0;
+        let is_displaced = self.model.oblique().any(|(_, hold)| hold.displacement != 0.0);
+        let is_loaded = self.model.target().is_some() && (load > 0.0 || is_displaced);
         is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
     }
 
@@ -461,7 +464,12 @@ impl Solution {
 
     /// Returns the displacement of each node, length.
     pub fn displacements(&self) -> Vec<[f64; 2]> {
-        self.model.node_ids().map(|node| node.components(&self.u)).collect()
+        self.by_node(&self.u)
+    }
+
+    /// Returns the components at each node of a vector by degree of freedom.
+    pub fn by_node(&self, of: &DVector<f64>) -> Vec<[f64; 2]> {
+        self.model.node_ids().map(|node| node.components(of)).collect()
     }
 }
 

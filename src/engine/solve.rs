@@ -9,6 +9,7 @@ use crate::linear::{ScalarName, Solver};
 use base::error::InputError;
 use base::limits;
 use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
+use paper::door;
 use paper::listings::Which;
 use problem::element::State;
 use problem::modelling::{Friction, Variant, check_iterations, check_tolerance};
@@ -76,6 +77,7 @@ pub fn check(request: &Request) -> Result<(), InputError> {
     match request.variant {
         Variant::Unilateral => check_unilateral(request)?,
         Variant::Printed | Variant::Tied | Variant::Stepped => {
+            door::check_restraints(&model)?;
             in_scalar!(request.arithmetic.scalar, check_published(request, &model))?;
         }
     }

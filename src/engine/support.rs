@@ -1,11 +1,13 @@
 //! The force that contact passes from one body to the other, from what holds the body that receives
 //! it: the forces on its restraints, some of them through constraints, and its own load.
 
+use std::collections::{BTreeSet, HashMap};
+
 use nalgebra::DVector;
 
 use super::elimination::{Constraint, Motion, sum};
 use numbers::scalar::Scalar;
-use problem::model::{Body, Dof, Model, Restraint};
+use problem::model::{Body, Dof, Hold, Model, NodeId, Restraint, Support};
 
 /// Returns the body to which contact passes its force: the target, or the contact body where the
 /// load acts on the target alone; None without contact.
@@ -45,6 +47,54 @@ pub fn support<T: Scalar>(
     total
 }
 
+/// Returns what contact adds to the forces on the restraints of both bodies, by degree of freedom, force: a
+/// restrained target node passes its part of a contact node's force on.
+pub fn passed<T: Scalar>(
+    restraints: &[Restraint],
+    constraints: &[Constraint<T>],
+    force: &DVector<T>,
+) -> DVector<T> {
+    let mut all = DVector::from_element(restraints.len(), T::zero());
+    for constraint in constraints {
+        let own = constraint_force(constraint, restraints, force);
+        let masters = constraint.masters.iter();
+        for (dof, weight) in masters.flat_map(|(node, w)| node.dofs().map(|dof| (dof, *w))) {
+            if !restraints[dof.index()].is_free() {
+                all[dof.index()] += weight * own[dof.direction()];
+            }
+        }
+    }
+    all
+}
+
+/// Returns the forces of the restraints alone by degree of freedom, force, from the forces on them.
+pub fn reactions(model: &Model, restraints: &[Restraint], mut force: DVector<f64>) -> DVector<f64> {
+    let mut held: Vec<bool> = restraints.iter().map(|restraint| !restraint.is_free()).collect();
+    oblique(model, restraints).for_each(|dof| held[dof.index()] = true);
+    model.dropped.iter().flat_map(|node| node.dofs()).for_each(|dof| held[dof.index()] = false);
+    force.iter_mut().zip(held).filter(|(_, held)| !held).for_each(|(force, _)| *force = 0.0);
+    force
+}
+
+/// Returns the sum of the forces of each restraint of the scene along x and y, force.
+pub fn reactions_of_supports(model: &Model, reactions: &DVector<f64>) -> Vec<[f64; 2]> {
+    let mut of_node: HashMap<NodeId, Vec<[f64; 2]>> = HashMap::new();
+    let holds = model.supports.iter().flat_map(|support| &support.holds);
+    holds.for_each(|hold| of_node.entry(hold.node).or_default().push(hold.direction));
+    // The force on a node that is held along two directions is one along each of them.
+    let along = |hold: &Hold| {
+        let (force, [x, y]) = (hold.node.components(reactions), hold.direction);
+        let other = of_node[&hold.node].iter().find(|other| **other != hold.direction);
+        let normal = other.map_or([x, y], |other| [-other[1], other[0]]);
+        let size = (normal[0] * force[0] + normal[1] * force[1]) / (normal[0] * x + normal[1] * y);
+        [size * x, size * y]
+    };
+    let sum = |support: &Support| {
+        support.holds.iter().map(along).fold([0.0; 2], |[x, y], of| [x + of[0], y + of[1]])
+    };
+    model.supports.iter().map(sum).collect()
+}
+
 /// Returns the contact force on a constrained node, force.
 fn constraint_force<T: Scalar>(
     constraint: &Constraint<T>,
@@ -78,7 +128,19 @@ pub(super) fn support_force<T: Scalar>(
             total[dof.direction()] += load[dof.index()];
         }
     }
+    for dof in
+        oblique(model, restraints).filter(|dof| receiver(model).is_some_and(|b| b.has(dof.node())))
+    {
+        total[dof.direction()] += force[dof.index()];
+    }
     total
+}
+
+/// Returns the degrees of freedom of the nodes that are held along no axis, or displaced, without those that
+/// `restraints` hold.
+fn oblique<'a>(model: &'a Model, restraints: &'a [Restraint]) -> impl Iterator<Item = Dof> + 'a {
+    let nodes: BTreeSet<NodeId> = model.oblique().map(|(_, hold)| hold.node).collect();
+    nodes.into_iter().flat_map(NodeId::dofs).filter(|dof| restraints[dof.index()].is_free())
 }
 
 /// Returns whether each degree of freedom is one of the receiver that the run restrains.
@@ -86,6 +148,7 @@ pub(super) fn supports(model: &Model, restraints: &[Restraint]) -> Vec<bool> {
     let mut supports = vec![false; model.dofs()];
     let of_receiver = receiver(model).into_iter().flat_map(dofs);
     of_receiver.for_each(|dof| supports[dof.index()] = !restraints[dof.index()].is_free());
+    oblique(model, restraints).for_each(|dof| supports[dof.index()] = true);
     supports
 }
 

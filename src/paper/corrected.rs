@@ -152,8 +152,9 @@ pub struct Ending {
 /// Checks that the programs can be asked for a model.
 ///
 /// # Errors
-/// It has no contact surfaces, or a contact node is listed twice.
+/// It has no contact surfaces, a contact node is listed twice, or S cannot say what holds it.
 pub fn check(model: &Model) -> Result<(), InputError> {
+    door::check_restraints(model)?;
     let nodes = &model.contact.nodes;
     if nodes.is_empty() {
         let fix = "name a scene with contact";

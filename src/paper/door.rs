@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::mirror::{self, Failure, Km, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt};
 use base::error::InputError;
+use base::plain::six_digits;
 use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use problem::element;
@@ -58,6 +59,22 @@ fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
         let what = format!("what a metre is in the unit of length, {unit:?}, is not known");
         InputError::new("reading R8", what, "give units.length of the scene as m, cm, mm or um")
     })
+}
+
+/// Checks that the paper's S can say what holds a model: along an axis, at 0.
+///
+/// # Errors
+/// Names a restraint that holds a node along another direction, or displaces it.
+pub fn check_restraints(model: &Model) -> Result<(), InputError> {
+    let Some((name, hold)) = model.oblique().next() else { return Ok(()) };
+    let ([x, y], by) = (hold.direction.map(six_digits), six_digits(hold.displacement));
+    let what = format!(
+        "restraint {name:?} holds node {} along [{x}, {y}] at {by}; Km restrains by S, which is 1 or 0 for x and \
+         for y (lines 7 and 8), so that it holds nodes along these at 0 alone",
+        hold.node
+    );
+    let fix = "ask for unilateral, or restrain x and y";
+    Err(InputError::new("restraints", what, fix))
 }
 
 /// Returns the paper's tables of a model. Each number passes through `number`; `Ae` and `B` are

@@ -6,7 +6,8 @@ use serde_json::{Value as Json, json};
 use super::model::{Cell, Table};
 use super::numbers::quantity as with_its_unit;
 use engine::quantities::{
-    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
+    Unit, Value,
 };
 use problem::scene::Units;
 
@@ -110,7 +111,7 @@ pub fn node_array(
 }
 
 /// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is
-/// nowhere known. Of a node where it is not known a number is 0, and a state -1.
+/// nowhere known. Of a node where it is not known a number is NaN, and a state -1.
 pub fn contact_array(
     quantity: &Quantity<ContactNode>,
     contact: &[ContactNode],
@@ -121,7 +122,11 @@ pub fn contact_array(
     let known: Vec<_> = contact.iter().filter_map(known).collect();
     let unknown = match (quantity.value)(contact.first()?) {
         Value::State(..) => -1.0,
-        _ => 0.0,
+        Value::Unknown
+        | Value::Count(_)
+        | Value::Number(_)
+        | Value::Components(_)
+        | Value::Words(_) => f64::NAN,
     };
     let mut values = vec![unknown; count];
     known.iter().for_each(|(node, value)| values[node.index()] = *value);
@@ -199,6 +204,7 @@ pub fn page() -> String {
         .to_string()
         + &section("An iteration (`iterations`)", IterationRow::QUANTITIES)
         + &section("A body (`bodies`)", BodySummary::QUANTITIES)
+        + &section("A restraint (`reactions`)", SupportForce::QUANTITIES)
         + &section("A node", NodeFields::QUANTITIES)
         + &section("A triangle (`elements`)", TriangleValues::QUANTITIES)
         + &section("A contact node (`contact`)", ContactNode::QUANTITIES)

@@ -12,7 +12,7 @@ use engine::linear::Arithmetic;
 use engine::plan::Plan;
 use engine::{
     Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Solution,
-    TriangleValues,
+    SupportForce, TriangleValues,
 };
 use numbers::finite;
 use numbers::scalar::rational;
@@ -88,6 +88,9 @@ pub struct ResultFile {
     pub iterations: Vec<IterationRow>,
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
+    /// What each restraint carries, in the order of the scene file.
+    #[serde(default)]
+    pub reactions: Vec<SupportForce>,
     /// The contact nodes that face the target at the end, in order along the contact surface.
     pub contact: Vec<ContactNode>,
     /// Hertz's contact, where his theory applies.
@@ -184,6 +187,7 @@ impl ResultFile {
             transmits_nothing: solution.transmits_nothing(),
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
+            reactions: SupportForce::all(solution),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
             error_estimates: assessment

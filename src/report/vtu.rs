@@ -33,11 +33,11 @@ type About<'a> = (&'a str, &'a str);
 /// Writes the mesh of `drawing`, the quantities of its nodes, contact nodes and triangles, and the body
 /// of each triangle. Every number reads back to the same bits.
 ///
-/// Of a node that is none of the contact surface's a state is -1 and a number 0.
+/// Of a node that is none of the contact surface's a state is -1 and a number NaN, which viewers leave blank.
 ///
 /// # Panics
 ///
-/// If a result is not finite.
+/// If a result is infinite.
 pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> Vec<u8> {
     let scene = &solution.request.scene;
     let units = &scene.units;
@@ -127,10 +127,15 @@ struct Arrays {
 
 impl Arrays {
     fn results(&mut self, place: &'static str, data: &[Array], count: usize) -> Element {
-        // The tensor that a viewer takes first.
-        let tensor = data.iter().find(|array| array.components == 9);
-        let element = tensor.map_or(Element::new(place), |tensor| {
-            Element::new(place).set("Tensors", tensor.name.clone())
+        // What a viewer takes first.
+        let first = |components: usize| data.iter().find(|array| array.components == components);
+        let stress = data.iter().find(|array| array.name == "von_mises_stress");
+        let active = [("Scalars", stress), ("Vectors", first(2)), ("Tensors", first(9))];
+        let element = active.into_iter().fold(Element::new(place), |element, (kind, array)| {
+            match array {
+                Some(array) => element.set(kind, array.name.clone()),
+                None => element,
+            }
         });
         data.iter().fold(element, |element, array| {
             let Array { name, components, values, .. } = array;
@@ -157,7 +162,7 @@ impl Arrays {
     /// warp by three.
     fn floats(&mut self, Array { name, unit, components, values }: &Array) -> Element {
         assert!(
-            values.iter().all(|value| value.is_finite()),
+            !values.iter().any(|value| value.is_infinite()),
             "{name}: a file for a viewer needs finite numbers"
         );
         let third: &[f64] = if *components == 2 { &[0.0] } else { &[] };

@@ -131,7 +131,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
 /// The scene or an option is at fault, or the run does not fit in memory.
 fn request(args: &Args) -> Result<Request> {
     let scene = args.changes.change(Scene::open(&args.scene)?)?;
-    let request = edited(args, args.run.request(&scene))?;
+    let request = edited(args, args.run.request(&scene)?)?;
     engine::check(&request)?;
     if args.check_rounding && request.variant != Variant::Unilateral {
         let what = format!("{} prints bounds on rounding as it is", request.variant);

@@ -72,9 +72,11 @@ impl Writing {
 
     fn axis(&self, axis: Axis) -> Axis {
         match (axis, self.turns % 2) {
-            (axis, 0) => axis,
+            (axis @ (Axis::X | Axis::Y), 0) => axis,
             (Axis::X, _) => Axis::Y,
             (Axis::Y, _) => Axis::X,
+            (Axis::Direction(vector), _) => Axis::Direction(self.vector(vector)),
+            (of_edges @ (Axis::Normal | Axis::Tangent), _) => of_edges,
         }
     }
 }

@@ -82,10 +82,8 @@ fn corners(model: &Model) -> Vec<NodeId> {
     let outline: Vec<TriangleSide> = sides.filter_map(|ends| model.sides.boundary(ends)).collect();
     let going: BTreeMap<NodeId, TriangleSide> =
         outline.iter().map(|side| (side.nodes[0], *side)).collect();
-    let is_fixed = |side: TriangleSide| {
-        let [a, b] = side.nodes.map(|node| model.restraints_of(node));
-        a == [true; 2] && b == [true; 2]
-    };
+    let held = model.held_directions();
+    let is_fixed = |side: TriangleSide| side.nodes.iter().all(|node| held[node.index()] == 2);
     let corner = |coming: &TriangleSide| {
         let [before, node] = coming.nodes;
         let after = *going.get(&node)?;
@@ -125,7 +123,10 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     }
     let force = Stiffness::new(model, |x| x).times(&solution.u);
     let idle = IDLE * force.amax();
-    let kind = |dof: Dof| match (model.is_restrained(dof), applied[dof.index()] != 0.0) {
+    let mut held: Vec<bool> = model.all_dofs().map(|dof| model.is_restrained(dof)).collect();
+    let oblique = model.oblique().flat_map(|(_, hold)| hold.node.dofs());
+    oblique.for_each(|dof| held[dof.index()] = true);
+    let kind = |dof: Dof| match (held[dof.index()], applied[dof.index()] != 0.0) {
         (true, _) => Kind::Held,
         (false, true) => Kind::Loaded,
         (false, false) => Kind::Free,

@@ -52,8 +52,11 @@ pub fn plan(model: &Model, variant: Variant) -> Vec<BodyPlan> {
 fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> BodyPlan {
     let dofs = body.nodes.iter().flat_map(|n| n.dofs());
     let free: Vec<Dof> = dofs.filter(|dof| !model.is_restrained(*dof)).collect();
-    let loaded = free.iter().any(|dof| model.load[dof.index()] != 0.0);
-    let idle = match (free.is_empty(), loaded, in_contact) {
+    let oblique = model.oblique().map(|(_, hold)| hold).filter(|hold| body.has(hold.node));
+    let loaded = free.iter().any(|dof| model.load[dof.index()] != 0.0)
+        || oblique.clone().any(|hold| hold.displacement != 0.0);
+    let free = free.len() - oblique.count();
+    let idle = match (free == 0, loaded, in_contact) {
         (true, ..) => Some(Idle::Restrained),
         (_, true, _) => None,
         (_, _, false) => Some(Idle::NoLoadNoContact),
@@ -63,7 +66,7 @@ fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> Bo
         name: body.name.clone(),
         nodes: body.nodes.len(),
         triangles: body.triangles.len(),
-        free: free.len(),
+        free,
         size: size(model, body),
         in_contact,
         idle,

@@ -6,6 +6,7 @@
 //! struct          lives on               one value of the struct for
 //! IterationRow    an iteration           each iteration
 //! BodySummary     a body                 each body, at the end
+//! SupportForce    a restraint            each restraint of the scene, at the end
 //! NodeFields      a node                 all nodes, at the end
 //! TriangleValues  a triangle             each triangle, at the end
 //! ContactNode     a contact node         each contact node that faces the target, at the end
@@ -23,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::{ContactPlace, Status};
 use crate::solution::{Cycle, Solution};
 use base::choices;
-use places::{BodyPlace, IterationPlace};
+use places::{BodyPlace, IterationPlace, SupportPlace};
 pub use places::{TriangleState, summaries};
 use problem::model::{NodeId, TriangleId};
 use problem::scene::Units;
@@ -157,12 +158,27 @@ quantities! {
 }
 
 quantities! {
+    /// What a restraint of the scene carries.
+    SupportForce from at: &SupportPlace<'_> {
+        restraint: String = at.support.name.clone(), "restraint" [] None,
+            "What it holds, as the scene says: the name of a group, or a node.";
+        nodes: usize = at.nodes(), "nodes" [] None,
+            "The number of nodes that it holds along a direction along which none before it does.";
+        reaction: [f64; 2] = at.force, "reaction" ["R_x", "R_y"] Force,
+            "The sum of its forces on these nodes along x and y.";
+    }
+}
+
+quantities! {
     /// The values at the nodes, in order.
     NodeFields from solution: &Solution {
         nodes: Vec<[f64; 2]> = solution.model.nodes.clone(), "" ["x", "y"] Length,
             "The coordinates of each node in the undeformed shape.";
         u: Vec<[f64; 2]> = solution.displacements(), "displacement" ["u_x", "u_y"] Length,
             "The displacement of each node along x and y.";
+        reaction: Vec<[f64; 2]> = solution.by_node(&solution.reactions),
+            "reaction" ["R_x", "R_y"] Force,
+            "The force of the restraints on each node along x and y, 0 where nothing holds it.";
     }
 }
 

@@ -1,11 +1,14 @@
 //! What quantities live on: the places of a solution whose values the table computes.
 
-use super::{BodySummary, IterationRow, NodeFields, TriangleValues};
+use std::collections::HashSet;
+
+use super::{BodySummary, IterationRow, NodeFields, SupportForce, TriangleValues};
 use crate::solution::{Solution, Step};
+use crate::support::reactions_of_supports;
 use numbers::finite;
 use numbers::largest::{Largest, largest};
 use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
-use problem::model::{Body, Model, TriangleId};
+use problem::model::{Body, Model, Support, TriangleId};
 
 /// An iteration of a run whose whole load has the size `load`, force.
 pub(crate) struct IterationPlace<'a> {
@@ -75,6 +78,28 @@ impl BodyPlace<'_> {
 
     pub(super) fn max_von_mises_strain(&self) -> f64 {
         self.states().map(|state| state.von_mises_strain).fold(0.0, f64::max)
+    }
+}
+
+/// A restraint of the scene, and the sum of its forces, force.
+pub(crate) struct SupportPlace<'a> {
+    pub(super) support: &'a Support,
+    pub(super) force: [f64; 2],
+}
+
+impl SupportPlace<'_> {
+    /// Returns the number of nodes that it holds.
+    pub(super) fn nodes(&self) -> usize {
+        self.support.holds.iter().map(|hold| hold.node).collect::<HashSet<_>>().len()
+    }
+}
+
+impl SupportForce {
+    /// Returns what each restraint of a solution's scene carries.
+    pub fn all(solution: &Solution) -> Vec<Self> {
+        let forces = reactions_of_supports(&solution.model, &solution.reactions);
+        let places = solution.model.supports.iter().zip(forces);
+        places.map(|(support, force)| Self::compute(&SupportPlace { support, force })).collect()
     }
 }
 

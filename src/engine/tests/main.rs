@@ -19,4 +19,5 @@ mod searched;
 mod solvers;
 mod status;
 mod stiffness;
+mod supports;
 mod systems;

@@ -78,7 +78,7 @@ impl<'a> Condensed<'a> {
             known.then(|| (DVector::from(forces), solution.u))
         };
         let (at_rest, _) = solved(search, &constraints)?;
-        let unloaded = problem.setting(0.0 * &setting.load, setting.before, None);
+        let unloaded = problem.setting(0.0, setting.before, None);
         let unloaded = StateSearch { setting: &unloaded, ..*search };
         let size = at_rest.len();
         let mut stiffness = DMatrix::zeros(size, size);

@@ -92,7 +92,7 @@ pub(super) fn uniqueness(
 
 /// Returns the setting of a step that was taken.
 pub(super) fn setting<'a>(problem: &Problem, step: &'a TakenStep) -> Setting<'a> {
-    problem.setting(problem.load(step.to), &step.before, None)
+    problem.setting(step.to, &step.before, None)
 }
 
 /// Returns a node that can move without work: with the contacts that carry nothing opened, nothing

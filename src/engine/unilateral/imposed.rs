@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{ContactForce, add, contact_forces};
-use super::problem::{Configuration, Outcome, Setting, StateSearch, StateSolution};
+use super::problem::{Configuration, Outcome, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
@@ -25,21 +25,21 @@ impl StateSearch<'_> {
         statuses: &[Status],
         constraints: &[Constraint],
     ) -> Result<Outcome, Error> {
-        let Setting { load, .. } = self.setting;
         if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
             && let Some(solved) = self.solved(statuses, &bodies)?
         {
             return Ok(Outcome::Solved(solved));
         }
-        match HeldBodies::whole(self.problem, load, constraints) {
+        match HeldBodies::whole(self.problem, self.setting, constraints) {
             Ok(bodies) => {
                 let solved = self.solved(statuses, &bodies)?;
                 Ok(Outcome::Solved(solved.expect("the whole equations have a solution")))
             }
             Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
-                let load = t.load(&self.problem.model.free_part(load));
-                let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
+                let load = self.problem.model.free_part(&self.setting.load);
+                let load = t.load(&(load - self.problem.stiffness.times(t.shift())));
+                let motion = SparseCholesky::new(soft).ok().map(|k| t.expand(&k.solve(&load)));
                 Ok(Outcome::Free { dof: t.dof(singular.column), motion })
             }
         }

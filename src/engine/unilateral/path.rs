@@ -13,7 +13,7 @@ use crate::error::{Cause, Error, NoEquilibrium};
 use crate::solution::{
     self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
-use crate::support::{support_force, transmitted_force};
+use crate::support::{reactions, support_force, transmitted_force};
 
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;
@@ -319,7 +319,7 @@ impl<'a> Run<'a> {
     /// Goes to the load `to` in one step by a search.
     fn step(&mut self, from: &Point, to: f64, search: Search<'a>) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
-        let setting = self.problem.setting(load.clone(), &from.u, from.statuses.as_deref());
+        let setting = self.problem.setting(to, &from.u, from.statuses.as_deref());
         search(self.problem, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
         })
@@ -329,7 +329,7 @@ impl<'a> Run<'a> {
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let mut last = self.taken.pop().expect("a path has a step");
-        let setting = self.problem.setting(load.clone(), &last.before, None);
+        let setting = self.problem.setting(to, &last.before, None);
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
@@ -369,10 +369,13 @@ impl<'a> Run<'a> {
         let Equilibrium { config, last, shape_change, springs, .. } = end;
         let facets = problem.coarse_facets();
         let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
+        let of_contact = load_of(&config.pairings, &last.solution.forces, last.solution.u.len());
+        let force = problem.stiffness.times(&last.solution.u) - &setting.load - of_contact;
         Solution {
             request: problem.request.clone(),
             model: problem.model.clone(),
             contact: contact(problem, &config, &last),
+            reactions: reactions(problem.model, problem.model.restraints(), force),
             elements: problem.stiffness.states(&last.solution.u),
             factored,
             steps,

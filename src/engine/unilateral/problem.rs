@@ -62,7 +62,9 @@ pub(super) struct Problem<'a> {
 pub(super) struct Setting<'a> {
     /// The load by degree of freedom, restrained ones included, force.
     pub(super) load: DVector<f64>,
-    /// The same on the contact surfaces; None where states are not looked for on these.
+    /// The part of the path that is applied; whole numbers end stages.
+    pub(super) part: f64,
+    /// The load on the contact surfaces; None where states are not looked for on these.
     pub(super) reduced: Option<ReducedLoad>,
     /// Whether solutions are refined until they solve the equations of the whole bodies.
     pub(super) whole: bool,
@@ -209,15 +211,16 @@ impl<'a> Problem<'a> {
         if self.friction > 0.0 { self.model.load_after(part) } else { &self.model.load * part }
     }
 
-    /// Returns the setting of a search on the contact surfaces.
+    /// Returns the setting of a search on the contact surfaces at a part of the path.
     pub(super) fn setting<'s>(
         &self,
-        load: DVector<f64>,
+        part: f64,
         before: &'s DVector<f64>,
         statuses: Option<&'s [Status]>,
     ) -> Setting<'s> {
+        let load = self.load(part);
         let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
-        Setting { load, reduced, whole: false, before, statuses }
+        Setting { load, part, reduced, whole: false, before, statuses }
     }
 
     pub(super) fn search<'s>(
@@ -355,7 +358,7 @@ impl<'a> Problem<'a> {
     pub(super) fn is_held_initially(&self, config: &Configuration) -> bool {
         let statuses = self.closed_within(config, &self.initial_gaps(config), self.closed);
         let before = DVector::zeros(self.model.dofs());
-        let setting = self.setting(before.clone(), &before, None);
+        let setting = self.setting(0.0, &before, None);
         rigid::holds(self.model, &self.search(config, &setting).constraints(&statuses))
     }
 

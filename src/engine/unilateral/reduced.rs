@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::problem::{Problem, Setting};
-use crate::elimination::{Constraint, Elimination};
+use crate::elimination::{Constraint, Elimination, support_constraints};
 use crate::linear::{Singular, SparseCholesky};
 use crate::reduction::{ReducedLoad, ReducedState};
 use crate::refinement::refined;
@@ -52,10 +52,13 @@ impl<'a> HeldBodies<'a> {
     /// The matrix is singular.
     pub(super) fn whole(
         problem: &'a Problem<'a>,
-        load: &'a DVector<f64>,
+        setting: &'a Setting<'a>,
         constraints: &[Constraint],
     ) -> Result<Self, Unheld> {
-        let t = Elimination::closing(problem.model.restraints(), constraints);
+        let load = &setting.load;
+        let supports = support_constraints(problem.model, setting.part.min(1.0));
+        let all: Vec<Constraint> = constraints.iter().cloned().chain(supports).collect();
+        let t = Elimination::closing(problem.model.restraints(), &all);
         match SparseCholesky::new(problem.stiffness.reduced(&t)) {
             Ok(factors) => Ok(HeldBodies::Whole { problem, t, load, factors: Box::new(factors) }),
             Err(singular) => Err(Unheld { t, singular }),

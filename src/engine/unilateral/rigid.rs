@@ -7,7 +7,7 @@ use super::forces::tangent;
 use super::nonnegative::least;
 use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
-use problem::model::{Dof, Model, NodeId};
+use problem::model::{Dof, Hold, Model, NodeId};
 
 /// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
 const FREE: f64 = 1e-12;
@@ -299,6 +299,10 @@ impl<'a> RigidMotions<'a> {
         let mut gram = DMatrix::zeros(self.count(), self.count());
         for dof in self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof)) {
             let row = self.along(dof);
+            gram += &row * row.transpose();
+        }
+        for (_, Hold { node, direction, .. }) in self.model.oblique() {
+            let row = self.motion(*node, *direction);
             gram += &row * row.transpose();
         }
         gram

@@ -108,8 +108,7 @@ impl Problem<'_> {
                 return Ok(Equilibrium { last, ..found });
             }
         }
-        let (load, statuses) = (setting.load.clone(), Some(&found.last.statuses[..]));
-        let again = self.setting(load, setting.before, statuses);
+        let again = self.setting(setting.part, setting.before, Some(&found.last.statuses));
         self.equilibrium(&Setting { whole: true, ..again }, watch)
     }
 

@@ -203,7 +203,7 @@ impl Problem<'_> {
     fn turned(&self, body: usize, centre: [f64; 2]) -> Option<&'static str> {
         let (load, body) = (self.load(1.0), &self.model.bodies[body]);
         let (mut moment, mut outwards, mut forces, mut farthest) = (0.0, 0.0, 0.0, 0.0_f64);
-        let mut held = 0;
+        let (mut held, directions) = (0, self.model.held_directions());
         for node in self.model.node_ids().filter(|node| body.has(*node)) {
             let ([x, y], [fx, fy]) = (self.model.coordinates(node), node.components(&load));
             let [rx, ry] = [x - centre[0], y - centre[1]];
@@ -211,7 +211,7 @@ impl Problem<'_> {
             outwards += rx * fx + ry * fy;
             forces += fx.hypot(fy);
             farthest = farthest.max(rx.hypot(ry));
-            held += usize::from(node.dofs().into_iter().any(|dof| self.model.is_restrained(dof)));
+            held += usize::from(directions[node.index()] > 0);
         }
         let rounding = forces * farthest * BALANCED;
         if moment.abs() > rounding {
@@ -328,7 +328,7 @@ impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
         let constraints = self.constraints(statuses);
-        let held = HeldBodies::whole(self.problem, &self.setting.load, &constraints);
+        let held = HeldBodies::whole(self.problem, self.setting, &constraints);
         held.err().map(|Unheld { t, singular }| t.dof(singular.column).node())
     }
 }

@@ -8,6 +8,7 @@ mod bounds;
 mod force;
 mod ids;
 mod sides;
+mod support;
 
 use serde::Serialize;
 use std::collections::HashSet;
@@ -19,6 +20,7 @@ pub use bounds::Bounds;
 pub use force::Force;
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
 pub use sides::{Sides, TriangleSide, unordered};
+pub use support::{Hold, Support, crossing};
 
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;
@@ -123,6 +125,8 @@ pub struct Model {
     pub edges: Vec<Edge>,
     /// What holds each degree of freedom.
     pub(crate) restraints: Vec<Restraint>,
+    /// The restraints of the scene, in order, each with what it alone holds.
+    pub supports: Vec<Support>,
     /// The nodes that belong to no triangle, ascending: no equation has them, and both of their degrees
     /// of freedom count as fixed.
     pub dropped: Vec<NodeId>,
@@ -220,9 +224,26 @@ impl Model {
         node.dofs().map(|dof| self.is_restrained(dof))
     }
 
+    /// Returns what no degree of freedom alone holds, which the paper's S cannot say, each with the name of its
+    /// restraint: a direction that is no axis, or a displacement other than 0.
+    pub fn oblique(&self) -> impl Iterator<Item = (&str, &Hold)> + Clone {
+        let supports = self.supports.iter();
+        let holds = supports.flat_map(|own| own.holds.iter().map(|hold| (&*own.name, hold)));
+        holds.filter(|(_, hold)| hold.dof().is_none())
+    }
+
+    /// Returns the number of directions, 0 to 2, along which each node is held.
+    pub fn held_directions(&self) -> Vec<usize> {
+        let count = |node| self.restraints_of(node).into_iter().filter(|held| *held).count();
+        let mut held: Vec<usize> = self.node_ids().map(count).collect();
+        self.oblique().for_each(|(_, hold)| held[hold.node.index()] += 1);
+        held
+    }
+
     /// Returns the number of degrees of freedom that are not restrained.
     pub fn free_dofs(&self) -> usize {
-        self.restraints.iter().filter(|restraint| restraint.is_free()).count()
+        let free = self.restraints.iter().filter(|restraint| restraint.is_free()).count();
+        free - self.oblique().count()
     }
 
     /// Returns the load by degree of freedom, restrained ones included, force, computed in T from

@@ -88,15 +88,24 @@ impl SceneBuilder {
     }
 
     /// Restrains all nodes of a group in the directions `fix`.
-    pub fn restrain(mut self, group: impl Into<GroupRef>, fix: &[Axis]) -> Self {
-        let restraint = Restraint { on: Some(group.into()), node: None, fix: fix.to_vec() };
-        self.description.restraints.push(restraint);
-        self
+    pub fn restrain(self, group: impl Into<GroupRef>, fix: &[Axis]) -> Self {
+        let on = Some(group.into());
+        self.restraint(Restraint { on, fix: fix.to_vec(), ..Restraint::default() })
     }
 
     /// Restrains the node with number `node` in the directions `fix`.
-    pub fn restrain_node(mut self, node: usize, fix: &[Axis]) -> Self {
-        let restraint = Restraint { on: None, node: Some(node), fix: fix.to_vec() };
+    pub fn restrain_node(self, node: usize, fix: &[Axis]) -> Self {
+        self.restraint(Restraint { node: Some(node), fix: fix.to_vec(), ..Restraint::default() })
+    }
+
+    /// Gives all nodes of a group a displacement along a direction, length.
+    pub fn displace(self, group: impl Into<GroupRef>, along: Axis, by: f64) -> Self {
+        let (on, fix, displacement) = (Some(group.into()), vec![along], vec![by]);
+        self.restraint(Restraint { on, fix, displacement, ..Restraint::default() })
+    }
+
+    /// Adds a restraint of any kind.
+    pub fn restraint(mut self, restraint: Restraint) -> Self {
         self.description.restraints.push(restraint);
         self
     }

@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use super::description::{Axis, Description};
+use super::description::Description;
 use super::groups::Groups;
 use super::mesh::Mesh;
 use super::surface;
-use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Restraint, TriangleId};
+use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, TriangleId};
 use crate::modelling::{check_iterations, check_tolerance};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
@@ -59,44 +59,6 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
     found.collect()
 }
 
-/// Returns what holds each degree of freedom.
-///
-/// # Errors
-/// A restraint names no place or two, or a node or group that does not exist.
-pub fn restraints(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec<Restraint>> {
-    let mut restraints = vec![Restraint::Free; 2 * mesh.nodes.len()];
-    let mut restrain = |n: usize, axis: &Axis| {
-        let [x, y] = NodeId::from_number(n).dofs();
-        restraints[if *axis == Axis::X { x } else { y }.index()] = Restraint::Fixed;
-    };
-    // Many restraints may name one group, which has many nodes.
-    let mut done = HashSet::new();
-    for (k, restraint) in file.restraints.iter().enumerate() {
-        let place = format!("restraints[{k}]");
-        if restraint.fix.is_empty() {
-            let what = "a restraint that fixes no direction";
-            return Err(InputError::new(format!("{place}.fix"), what, "name \"x\", \"y\" or both"));
-        }
-        match (&restraint.on, restraint.node) {
-            (Some(on), None) => {
-                for axis in restraint.fix.iter().filter(|axis| done.insert((on, **axis))) {
-                    let nodes = groups.nodes(on, &format!("{place}.on"))?;
-                    nodes.into_iter().for_each(|n| restrain(n, axis));
-                }
-            }
-            (None, Some(n)) => {
-                mesh.check_node(n, &format!("{place}.node"))?;
-                restraint.fix.iter().for_each(|axis| restrain(n, axis));
-            }
-            (Some(_), Some(_)) | (None, None) => {
-                let what = "a restraint is {on, fix} or {node, fix}";
-                return Err(InputError::new(place, what, "give exactly one of on and node"));
-            }
-        }
-    }
-    Ok(restraints)
-}
-
 /// Returns the two contact surfaces and their tolerance; empty where the scene has no contact.
 ///
 /// # Errors
@@ -125,6 +87,23 @@ pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Conta
         nodes: nodes.into_iter().map(NodeId::from_number).collect(),
         target: target.iter().map(|number| place[number]).collect(),
         tolerance: contact.tolerance,
+    })
+}
+
+/// Checks that what an axis alone does not hold is no node of a contact surface.
+///
+/// # Errors
+/// Names the restraint and the node.
+pub fn supports(mesh: &Mesh, model: &Model) -> Result<()> {
+    let surfaces = model.surface_nodes();
+    let held = model.oblique().find(|(_, hold)| surfaces.contains(&hold.node));
+    held.map_or(Ok(()), |(name, hold)| {
+        let node = mesh.named(&[hold.node.number()]);
+        let what = format!(
+            "node {node} is on a contact surface, and {name} holds it along no axis, or at another displacement than 0"
+        );
+        let fix = "end the restraint beside the surface, or hold that node along x or y";
+        Err(InputError::new("restraints", what, fix))
     })
 }
 

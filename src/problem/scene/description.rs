@@ -44,7 +44,7 @@ pub struct Description {
     pub units: Units,
     /// The materials of the groups of triangles, by the group's name.
     pub materials: Materials,
-    /// The displacements that are restrained to 0.
+    /// The displacements that are given, most of them 0.
     #[serde(default, skip_serializing_if = "is_default")]
     pub restraints: Vec<Restraint>,
     /// The pressures, tractions and forces on the mesh.
@@ -164,28 +164,43 @@ impl Serialize for Materials {
     }
 }
 
-/// Displacements restrained to 0: those of a group's nodes, or of one node.
-#[derive(Clone, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
+/// Restrained displacements: those of a group's nodes, or of one node.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Restraint {
-    /// A physical group, all of whose nodes are restrained; None where `node` is named.
+    /// A physical group, all of whose nodes are restrained; None where a node is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<GroupRef>,
-    /// A node, by its number in the mesh file; None where `on` names a group.
+    /// A node, by its number in the mesh file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<usize>,
-    /// The axes along which nothing moves.
+    /// The coordinates of a node, to a millionth of the mesh's size, length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<[f64; 2]>,
+    /// The directions along which displacements are given.
     pub fix: Vec<Axis>,
+    /// The displacement along each of `fix`, length; 0 where there is none. It grows with the load of the
+    /// first stage.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub displacement: Vec<f64>,
 }
 
-/// An axis of the plane.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq, Hash, JsonSchema)]
+/// A direction in the plane.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// To the right.
     X,
     /// Upwards.
     Y,
+    /// Out of the body, normal to each edge of a group.
+    #[serde(rename = "n")]
+    Normal,
+    /// Along each edge of a group, with the body on the left.
+    #[serde(rename = "t")]
+    Tangent,
+    /// That of a vector of any length.
+    Direction([f64; 2]),
 }
 
 /// A load, and when it acts.
@@ -282,6 +297,9 @@ pub struct Contact {
     /// The friction between the surfaces under `unilateral`: a coefficient, or "stick".
     #[serde(default, skip_serializing_if = "is_default")]
     pub friction: Friction,
+    /// Whether a scene file that is to run under `unilateral` says nothing of friction.
+    #[serde(skip)]
+    pub friction_is_missing: bool,
     /// The shape in which `unilateral` measures contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
@@ -302,6 +320,7 @@ impl Contact {
             tolerance,
             coupling: Coupling::default(),
             friction: Friction::default(),
+            friction_is_missing: false,
             geometry: Geometry::default(),
             load_steps: LOAD_STEPS,
             status: StatusRule::default(),

@@ -3,12 +3,13 @@
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
+use crate::modelling::{Coupling, Variant};
 use base::error::Result;
 use base::files::json;
 
@@ -16,12 +17,37 @@ use base::files::json;
 pub const SCENE: json::Kind =
     json::Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: false };
 
-/// Parses a scene file, with the source of its mesh still in it.
+/// Parses a scene file, with the source of its mesh still in it. Where it names no variant, it asks for contact as
+/// it is, which mortar couples.
 ///
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    json::read(text, &SCENE)
+    let mut description: Description = json::read(text, &SCENE)?;
+    let is_unilateral = match description.variant {
+        None | Some(Variant::Unilateral) => true,
+        Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
+    };
+    let stated: Stated = json::read(text, &SCENE)?;
+    if let (Some(contact), Some(stated)) = (&mut description.contact, stated.contact) {
+        contact.friction_is_missing = is_unilateral && stated.friction.is_none();
+        if description.variant.is_none() && stated.coupling.is_none() {
+            contact.coupling = Coupling::Mortar;
+        }
+    }
+    Ok(description)
+}
+
+/// What a scene file says of contact, whatever it says.
+#[derive(Deserialize)]
+struct Stated {
+    contact: Option<StatedContact>,
+}
+
+#[derive(Deserialize)]
+struct StatedContact {
+    friction: Option<IgnoredAny>,
+    coupling: Option<IgnoredAny>,
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line

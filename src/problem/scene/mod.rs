@@ -23,6 +23,7 @@ mod scene_file;
 mod schema;
 mod slit;
 mod source;
+mod support;
 pub mod surface;
 pub mod symmetry;
 
@@ -46,7 +47,7 @@ pub use scene_file::SceneFile;
 pub use schema::schema;
 pub use surface::Surface;
 
-use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
+use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Variant};
 use base::error::Result;
 use base::limits::check_steps;
@@ -72,6 +73,8 @@ pub struct Scene {
     pub variant: Variant,
     /// The model of contact beyond what the paper prints.
     pub contact: ContactModel,
+    /// Whether it is to run under `unilateral` and says nothing of friction.
+    pub friction_is_missing: bool,
     /// The description and mesh from which it was built; None for half a scene.
     source: Option<Arc<Source>>,
 }
@@ -151,9 +154,6 @@ impl Scene {
         let materials = check::materials(&mesh, &physical, &description)?;
         let kinds = &description.materials.0;
         let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
-        let mut restraints = check::restraints(&mesh, &physical, &description)?;
-        let of_dropped = dropped.iter().flat_map(|n| n.dofs());
-        of_dropped.for_each(|dof| restraints[dof.index()] = model::Restraint::Fixed);
         let mut triangles = Vec::with_capacity(materials.len());
         triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| {
             let Material { e, nu } = kinds[*kind as usize].1;
@@ -162,6 +162,12 @@ impl Scene {
         let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
+        let supports = support::supports(&mesh, &physical, &sides, &description.restraints)?;
+        let mut restraints = vec![model::Restraint::Free; 2 * mesh.nodes.len()];
+        let fixed = supports.iter().flat_map(|support| &support.holds).filter_map(Hold::dof);
+        fixed
+            .chain(dropped.iter().flat_map(|n| n.dofs()))
+            .for_each(|dof| restraints[dof.index()] = model::Restraint::Fixed);
         let mut model = Model {
             plane: description.plane,
             thickness: description.thickness,
@@ -177,8 +183,10 @@ impl Scene {
             triangles,
             sides,
             restraints,
+            supports,
             dropped,
         };
+        check::supports(&mesh, &model)?;
         check::restrained_bodies(&model)?;
         fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
@@ -194,6 +202,10 @@ impl Scene {
             // A scene of one's own asks for contact as it is, not for the paper's algorithm.
             variant: description.variant.unwrap_or(Variant::Unilateral),
             contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
+            friction_is_missing: description
+                .contact
+                .as_ref()
+                .is_some_and(|c| c.friction_is_missing),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes: mesh.adapted.iter().cloned().chain(slits).collect(),

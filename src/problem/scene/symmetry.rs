@@ -11,8 +11,8 @@ use nalgebra::DVector;
 
 use super::Scene;
 use crate::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Restraint, Row, Sides,
-    Triangle, TriangleId, unordered,
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Hold, Model, NodeId, Restraint, Row,
+    Sides, Support, Triangle, TriangleId, unordered,
 };
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
@@ -60,6 +60,7 @@ pub fn half(scene: &Scene) -> Option<Half> {
         iterations: scene.iterations,
         variant: scene.variant,
         contact: scene.contact,
+        friction_is_missing: scene.friction_is_missing,
         source: None,
     };
     Some(Half { scene, nodes, triangles, at: mirror.at })
@@ -169,7 +170,9 @@ impl<'a> Mirror<'a> {
                 (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
             })
         };
-        model.node_ids().all(same_restraints) && model.stages.iter().all(same_load)
+        model.oblique().next().is_none()
+            && model.node_ids().all(same_restraints)
+            && model.stages.iter().all(same_load)
     }
 }
 
@@ -208,6 +211,7 @@ impl<'a> Restriction<'a> {
             triangles,
             edges: edges.collect(),
             restraints: self.dofs().map(|dof| self.restraint(dof)).collect(),
+            supports: whole.supports.iter().map(|support| self.support(support)).collect(),
             forces: NodeId::all(self.nodes.len()).map(force).collect(),
             load,
             stages: whole.stages.iter().map(|stage| self.load(stage)).collect(),
@@ -234,6 +238,12 @@ impl<'a> Restriction<'a> {
             Restraint::Free if dof.direction() == 0 && self.on_line(dof) => Restraint::Fixed,
             own => own,
         }
+    }
+
+    fn support(&self, whole: &Support) -> Support {
+        let own = |hold: &Hold| Some(Hold { node: *self.number.get(&hold.node)?, ..*hold });
+        let holds = whole.holds.iter().filter_map(own).collect();
+        Support { name: whole.name.clone(), holds }
     }
 
     /// Returns the half of a load: of a force on the line half along it and none across it, force.

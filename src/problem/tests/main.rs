@@ -7,4 +7,5 @@ mod gmsh;
 mod models;
 mod scene_builder;
 mod schema;
+mod supports;
 mod tree;

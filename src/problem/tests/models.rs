@@ -114,7 +114,8 @@ fn what_restraints_leave_free() {
             let mut moved = model.clone();
             moved.nodes = model.nodes.iter().map(|p| p.map(|x| scale * x + shift)).collect();
             let found = freedom(&moved, &moved.bodies[0].nodes, &[]);
-            assert_eq!(found, expected, "{restraints:?}, {scale} {shift}");
+            let kind = found.as_deref().and_then(|found| found.split(" about").next());
+            assert_eq!(kind, expected, "{restraints:?}, {scale} {shift}: {found:?}");
         }
     }
 }
@@ -132,7 +133,7 @@ fn restraints_beside_each_other_leave_a_body_free_to_turn() {
         model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
         freedom(&model, &model.bodies[0].nodes, &[])
     };
-    assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate"), None]);
+    assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate about 1e-6, 0".into()), None]);
 }
 
 #[test]
@@ -143,7 +144,7 @@ fn a_body_that_can_move_is_refused() {
     assert_eq!(what(free.clone()), format!("{says} move in x"));
     assert_eq!(what(free.clone().restrain("bottom 1", &[Axis::X])), format!("{says} move in y"));
     let turns = free.restrain_node(5, &[Axis::X, Axis::Y]);
-    assert_eq!(what(turns.clone()), format!("{says} rotate"));
+    assert!(what(turns.clone()).starts_with(&format!("{says} rotate about ")));
     assert!(turns.restrain_node(6, &[Axis::Y]).build().is_ok());
 }
 

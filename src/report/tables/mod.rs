@@ -16,7 +16,7 @@ use crate::model::Report;
 use crate::numbers::{short, with_unit};
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
-use engine::{Assessment, BodySummary, Solution, beyond_range};
+use engine::{Assessment, BodySummary, Solution, SupportForce, beyond_range};
 use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::{ContactModel, Variant};
@@ -33,6 +33,7 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
         .then(contact_set(solution))
         .then(equilibrium.map_or(Report::default(), |found| equilibrium::lines(solution, found)))
         .then(bodies(solution, &assessment.bodies))
+        .then(reactions(solution))
         .then(contact_surface(solution))
 }
 
@@ -140,6 +141,24 @@ fn bodies(solution: &Solution, bodies: &[BodySummary]) -> Report {
     let table = quantities::table(bodies, BodySummary::QUANTITIES, &solution.request.scene.units);
     let beyond = beyond_range(&solution.model, &solution.elements, &solution.u);
     Report::default().table("Bodies", table).notes(beyond.map(|what| format!("NOTE: {what}")))
+}
+
+/// Lists what each restraint carries, and compares their sum with the loads.
+fn reactions(solution: &Solution) -> Report {
+    let rows = SupportForce::all(solution);
+    if rows.is_empty() {
+        return Report::default();
+    }
+    let units = &solution.request.scene.units;
+    let table = quantities::table(&rows, SupportForce::QUANTITIES, units);
+    let vector = |[x, y]: [f64; 2]| with_unit(&format!("{}, {}", short(x), short(y)), &units.force);
+    let sum = rows.iter().fold([0.0; 2], |[x, y], row| [x + row.reaction[0], y + row.reaction[1]]);
+    let load = solution.model.total_load();
+    Report::default().table("Reactions", table).line(format!(
+        "Sum of the reactions {}; of the loads {}",
+        vector(sum),
+        vector(load)
+    ))
 }
 
 /// Lists the nodes in contact at the end.

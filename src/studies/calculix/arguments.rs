@@ -48,7 +48,7 @@ impl DeckArgs {
     /// The run that is compared.
     pub fn solve(&self, scene: &Path) -> Result<Solution> {
         let scene = Scene::open(scene)?;
-        let request = self.model.request(&scene, self.variant, &self.reading);
+        let request = self.model.request(&scene, self.variant, &self.reading)?;
         if self.contact == ContactKind::Equation {
             Contact::check_equations(request.variant)?;
         }

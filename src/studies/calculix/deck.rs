@@ -22,10 +22,11 @@ const STICK_SLOPE: f64 = 0.1;
 /// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String> {
     let model = problem.model;
+    let own = Equation::of_supports(model);
     let contact = match problem.contact {
-        Contact::Equations(equations, _) => equation_cards(model, equations),
-        Contact::Pair(_) if !model.has_contact() => String::new(),
-        Contact::Pair(pair) => pair_cards(model, pair)?,
+        Contact::Equations(equations, _) => equation_cards(model, &[&own[..], equations].concat()),
+        Contact::Pair(_) if !model.has_contact() => equation_cards(model, &own),
+        Contact::Pair(pair) => equation_cards(model, &own) + &pair_cards(model, pair)?,
     };
     let before = heading(problem) + &nodes(model) + &elements(model);
     Ok(before + &contact + &restraints(model) + &step(problem))

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use base::choices;
 use base::error::{InputError, Result};
 use engine::Detail;
-use engine::{Constraint, Motion, Solution, Step};
+use engine::{Constraint, Motion, Solution, Step, support_constraints};
 use paper::mirror::Schedule;
 use problem::model::{Dof, Edge, Model, NodeId};
 use problem::modelling::{Friction, Variant};
@@ -148,6 +148,12 @@ impl Equation {
     pub fn of_step(model: &Model, step: &Step) -> Vec<Equation> {
         let of = |constraint: &Constraint| Equation::of_constraint(model, constraint);
         step.constraints.iter().flat_map(of).collect()
+    }
+
+    /// Returns the equations of what no degree of freedom alone holds.
+    pub fn of_supports(model: &Model) -> Vec<Equation> {
+        let constraints = support_constraints(model, 1.0);
+        constraints.iter().flat_map(|held| Equation::of_constraint(model, held)).collect()
     }
 
     /// The equations of a constraint: one along its normal, or one in each direction in which its

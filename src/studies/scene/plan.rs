@@ -33,7 +33,7 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
-    let plan = Plan::new(&args.run.request(&scene))?;
+    let plan = Plan::new(&args.run.request(&scene)?)?;
     if args.tables.json {
         return print(&report::json(&scene, &plan));
     }

@@ -13,6 +13,7 @@ use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use engine::options::Options;
 use engine::{
     Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
+    support_constraints,
 };
 use numbers::scalar::{Bounded, Scalar};
 use paper::door;
@@ -112,8 +113,12 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     run.facts.insert(Quantity::Cnt.into(), json!(contact));
     run.facts.insert(Quantity::Trg.into(), json!(target));
     let restrained = model.all_dofs().filter(|dof| model.is_restrained(*dof));
-    let restrained: Vec<String> =
-        restrained.map(|dof| format!("{}{}", dof.node(), dof.axis())).collect();
+    let oblique = model.oblique().map(|(_, hold)| {
+        let [x, y] = hold.direction;
+        format!("{} along {x}, {y}: {}", hold.node, hold.displacement)
+    });
+    let restrained = restrained.map(|dof| format!("{}{}", dof.node(), dof.axis()));
+    let restrained: Vec<String> = restrained.chain(oblique).collect();
     run.facts.insert(Quantity::Restrained.into(), json!(restrained));
     let given = Rounded { bound: Some(0.0), floor: 0.0 };
     run.numbers.insert(
@@ -253,7 +258,9 @@ impl Recorded<'_> {
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
             (Detail::Unilateral(_), _) => {
-                let t = Elimination::closing(model.restraints(), &step.constraints);
+                let own = support_constraints(model, 1.0);
+                let all = step.constraints.iter().cloned().chain(own).collect::<Vec<_>>();
+                let t = Elimination::closing(model.restraints(), &all);
                 stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
             }
         }
@@ -337,11 +344,14 @@ fn end(
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains, error(|errors| errors.strain));
     set(Quantity::VonMisesStrain, strains);
+    let held = model.held_directions();
+    let restrained = model.node_ids().filter(|node| held[node.index()] > 0);
     let force = stiffness.times(&solution.u) - &model.load;
-    let restrained = model.node_ids().filter(|node| model.restraints_of(*node) != [false; 2]);
     let reactions = restrained.map(|node| {
-        let (of_node, restrained) = (node.components(&force), model.restraints_of(node));
-        (node.number(), [0, 1].map(|d| if restrained[d] { of_node[d] } else { 0.0 }))
+        let (of_node, axes) = (node.components(&force), model.restraints_of(node));
+        // Of a node that is held along another direction both components count.
+        let is_oblique = axes.iter().filter(|held| **held).count() < held[node.index()];
+        (node.number(), [0, 1].map(|d| if axes[d] || is_oblique { of_node[d] } else { 0.0 }))
     });
     set(Quantity::Reactions, Numbers::rows(&units.force, reactions, error(|errors| errors.force)));
     let nodes = || solution.contact.iter();

@@ -72,6 +72,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
     let model = request.model()?;
     check_size(&scene, &model)?;
+    door::check_restraints(&model)?;
     if let Some(n) = model.dropped.first() {
         let what =
             format!("node {n} belongs to no triangle: Km as printed is singular (finding K4)");

@@ -64,7 +64,7 @@ pub fn run(args: &Args) -> Result<()> {
             false => args.variant.iter().copied().map(Some).collect(),
         };
         let requests = variants.into_iter().map(|variant| args.method.request(&scene, variant));
-        let requests: Vec<_> = requests.collect();
+        let requests = requests.collect::<Result<Vec<_>>>()?;
         let mut snapshot =
             waiting("recording", || Snapshot::record(&scene, &requests, Bounds::Computed))?;
         if !args.only.is_empty() {

@@ -1,0 +1,291 @@
+//! What the restraints of a scene file hold on its mesh.
+//!
+//! ```text
+//!   {"on": "slope", "fix": ["n"]}      the normal of an edge; at a node between two, their mean by length,
+//!        ^ n                           or both where they turn by more than that of a circle of twelve edges
+//!   -----+-----o____  edges
+//! ```
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use super::description::{Axis, Restraint};
+use super::groups::{GroupRef, Groups};
+use super::mesh::Mesh;
+use crate::model::{Bounds, Hold, NodeId, Sides, Support, crossing};
+use base::error::{InputError, Result};
+use base::plain::six_digits;
+
+/// The sine of the angle up to which two directions are one, as coordinates are rounded, and the one from which
+/// they are two: between these a node would be held twice along what was meant to be one direction.
+const SAME: f64 = 1e-9;
+const TWO: f64 = 0.05;
+
+/// The cosine of the angle between edges beyond which they meet in a corner: that of a circle of twelve edges.
+const CORNER: f64 = 0.866;
+
+/// How far a node may be from the coordinates that name it, over the larger side of the mesh.
+const NEAR: f64 = 1e-6;
+
+/// Returns what each restraint holds, in order, and no restraint before it does.
+///
+/// # Errors
+/// A restraint names no place or several, or a node or a group that does not exist; a direction or a displacement
+/// is missing or no number; two restraints displace a node along one direction by different amounts.
+pub fn supports(
+    mesh: &Mesh,
+    groups: &Groups,
+    sides: &Sides,
+    restraints: &[Restraint],
+) -> Result<Vec<Support>> {
+    let mut held = Held { mesh, of_node: HashMap::new() };
+    // Many restraints may name one group, which has many nodes.
+    let mut done = HashSet::new();
+    let mut supports = Vec::with_capacity(restraints.len());
+    for (k, restraint) in restraints.iter().enumerate() {
+        let place = format!("restraints[{k}]");
+        let displacements = displacements(restraint, &place)?;
+        let (name, site) = site(mesh, groups, restraint, &place)?;
+        let mut holds = Vec::new();
+        for (axis, displacement) in restraint.fix.iter().zip(displacements) {
+            if !done.insert(format!("{name} {axis:?} {displacement:e}")) {
+                continue;
+            }
+            for (node, direction) in directions(mesh, groups, sides, &site, *axis, &place)? {
+                let hold = Hold { node, direction, displacement };
+                if held.is_new(&hold, k)? {
+                    holds.push(hold);
+                }
+            }
+        }
+        supports.push(Support { name, holds });
+    }
+    Ok(supports)
+}
+
+/// Where a restraint acts.
+enum Site<'a> {
+    Group(&'a GroupRef),
+    Node(usize),
+}
+
+/// Returns the name of a restraint's place, and that place.
+fn site<'a>(
+    mesh: &Mesh,
+    groups: &Groups,
+    restraint: &'a Restraint,
+    place: &str,
+) -> Result<(String, Site<'a>)> {
+    match (&restraint.on, restraint.node, restraint.at) {
+        (Some(on), None, None) => {
+            groups.nodes(on, &format!("{place}.on"))?;
+            Ok((on.text(), Site::Group(on)))
+        }
+        (None, Some(n), None) => {
+            mesh.check_node(n, &format!("{place}.node"))?;
+            Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
+        }
+        (None, None, Some(at)) => {
+            let n = node_at(mesh, at, &format!("{place}.at"))?;
+            Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
+        }
+        _ => {
+            let what = "a restraint is {on, fix}, {node, fix} or {at, fix}";
+            Err(InputError::new(place, what, "give exactly one of on, node and at"))
+        }
+    }
+}
+
+/// Returns the number of the node at a place.
+fn node_at(mesh: &Mesh, [x, y]: [f64; 2], place: &str) -> Result<usize> {
+    let points: Vec<[f64; 2]> = mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect();
+    let near = NEAR * Bounds::around(points.iter()).larger_side();
+    let distance = |n: &usize| (points[n - 1][0] - x).hypot(points[n - 1][1] - y);
+    let nearest = (1..=points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let all: Vec<usize> = (1..=points.len()).filter(|n| distance(n) <= near).collect();
+    match (&all[..], nearest) {
+        ([n], _) => Ok(*n),
+        ([], Some(nearest)) => {
+            let [nx, ny] = points[nearest - 1].map(six_digits);
+            let what = format!(
+                "no node is at {}, {} to within {}: the nearest, node {}, is at {nx}, {ny}",
+                six_digits(x),
+                six_digits(y),
+                six_digits(near),
+                mesh.named(&[nearest])
+            );
+            Err(InputError::new(place, what, "give the coordinates of a node of the mesh"))
+        }
+        _ => {
+            let what = format!("nodes {} are all at this place", mesh.named(&all));
+            Err(InputError::new(place, what, "name one of them by its number"))
+        }
+    }
+}
+
+/// Returns the displacement along each direction of a restraint, length.
+fn displacements(restraint: &Restraint, place: &str) -> Result<Vec<f64>> {
+    let Restraint { fix, displacement, .. } = restraint;
+    if fix.is_empty() {
+        let what = "a restraint that fixes no direction";
+        let fix = "name \"x\", \"y\", \"n\", \"t\" or {\"direction\": [1, 1]}";
+        return Err(InputError::new(format!("{place}.fix"), what, fix));
+    }
+    if displacement.is_empty() {
+        return Ok(vec![0.0; fix.len()]);
+    }
+    let place = format!("{place}.displacement");
+    if displacement.len() != fix.len() {
+        let what = format!("{} displacements for {} directions", displacement.len(), fix.len());
+        return Err(InputError::new(place, what, "give one for each of fix"));
+    }
+    match displacement.iter().find(|x| !x.is_finite()) {
+        // 0 − 0 is no displacement either.
+        None => Ok(displacement.iter().map(|x| x + 0.0).collect()),
+        Some(x) => Err(InputError::new(place, format!("{x} is not finite"), "give a length")),
+    }
+}
+
+/// Returns the nodes that a restraint holds along an axis, ascending, each with its direction, of length 1.
+fn directions(
+    mesh: &Mesh,
+    groups: &Groups,
+    sides: &Sides,
+    site: &Site,
+    axis: Axis,
+    place: &str,
+) -> Result<Vec<(NodeId, [f64; 2])>> {
+    let vector = match axis {
+        Axis::X => [1.0, 0.0],
+        Axis::Y => [0.0, 1.0],
+        Axis::Direction(vector) => unit(vector).ok_or_else(|| {
+            let what = format!("the direction [{}, {}] has no length", vector[0], vector[1]);
+            InputError::new(format!("{place}.fix"), what, "give one such as [1, 1]")
+        })?,
+        Axis::Normal | Axis::Tangent => {
+            let Site::Group(on) = site else {
+                let what = "a node has neither normal nor tangent";
+                let fix = "name a group of edges, or give {\"direction\": [1, 1]}";
+                return Err(InputError::new(format!("{place}.fix"), what, fix));
+            };
+            let along = |[nx, ny]: [f64; 2]| match axis {
+                Axis::Tangent => [-ny, nx],
+                Axis::X | Axis::Y | Axis::Direction(_) | Axis::Normal => [nx, ny],
+            };
+            let normals = normals(mesh, groups, sides, on, place)?;
+            let each = |(node, own): (NodeId, Vec<[f64; 2]>)| {
+                own.into_iter().map(move |normal| (node, along(normal)))
+            };
+            return Ok(normals.into_iter().flat_map(each).collect());
+        }
+    };
+    let nodes = match site {
+        Site::Group(on) => groups.nodes(on, &format!("{place}.on"))?.into_iter().collect(),
+        Site::Node(n) => vec![*n],
+    };
+    Ok(nodes.into_iter().map(|n| (NodeId::from_number(n), vector)).collect())
+}
+
+/// Returns the outward normals of the nodes of a group of edges, of length 1: their mean by the lengths of the
+/// edges, or those of all edges where these meet in a corner.
+fn normals(
+    mesh: &Mesh,
+    groups: &Groups,
+    sides: &Sides,
+    on: &GroupRef,
+    place: &str,
+) -> Result<BTreeMap<NodeId, Vec<[f64; 2]>>> {
+    let place = format!("{place}.on");
+    let mut across: BTreeMap<NodeId, Vec<[f64; 2]>> = BTreeMap::new();
+    for edge in groups.members(1, on, &place)? {
+        let ends = [edge.nodes[0], edge.nodes[1]];
+        let [side] = sides.beside(ends.map(NodeId::from_number)) else {
+            let number = edge.number;
+            let what = format!("edge {number} (nodes {}) has no outer side", mesh.named(&ends));
+            return Err(InputError::new(place, what, "name outer edges of a body"));
+        };
+        let [[ax, ay, _], [bx, by, _]] = side.nodes.map(|node| mesh.nodes[node.index()].xyz);
+        side.nodes.iter().for_each(|n| across.entry(*n).or_default().push([by - ay, ax - bx]));
+    }
+    let own = |edges: Vec<[f64; 2]>| {
+        let each: Vec<[f64; 2]> = edges.iter().filter_map(|edge| unit(*edge)).collect();
+        let turns = |n: &[f64; 2]| n[0] * each[0][0] + n[1] * each[0][1] < CORNER;
+        if each.iter().any(turns) {
+            return each;
+        }
+        let sum = edges.iter().fold([0.0; 2], |s, e| [s[0] + e[0], s[1] + e[1]]);
+        unit(sum).into_iter().collect()
+    };
+    Ok(across.into_iter().map(|(node, edges)| (node, own(edges))).collect())
+}
+
+/// Returns a vector at length 1, along an axis where it is so to rounding; None where it has no length.
+fn unit([x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    let length = x.hypot(y);
+    let part = |x: f64| if (x / length).abs() < SAME { 0.0 } else { x / length };
+    (length > 0.0 && length.is_finite()).then(|| match [part(x), part(y)] {
+        [x, 0.0] => [x.signum(), 0.0],
+        [0.0, y] => [0.0, y.signum()],
+        both => both,
+    })
+}
+
+/// The directions along which nodes are held so far.
+struct Held<'a> {
+    mesh: &'a Mesh,
+    /// Those of each node, at most two, each with the restraint that holds it.
+    of_node: HashMap<NodeId, Vec<(Hold, usize)>>,
+}
+
+impl Held<'_> {
+    /// Returns whether restraint `k` holds what those before it do not, and keeps it then.
+    ///
+    /// # Errors
+    /// They displace the node by another amount along that direction, or hold it along nearly the same one.
+    fn is_new(&mut self, hold: &Hold, k: usize) -> Result<bool> {
+        let before = self.of_node.entry(hold.node).or_default();
+        let [x, y] = hold.direction;
+        let sine = |other: &Hold| (x * other.direction[1] - y * other.direction[0]).abs();
+        let near = before.iter().find(|(other, _)| sine(other) < TWO);
+        let already = match (near, &before[..]) {
+            (Some((other, _)), _) if sine(other) <= SAME => {
+                let along = x * other.direction[0] + y * other.direction[1];
+                along.signum() * other.displacement
+            }
+            (_, [(a, _), (b, _)]) => {
+                let given = [a.displacement, b.displacement];
+                let [u, v] = crossing([a.direction, b.direction], given).expect("they are two");
+                x * u + y * v
+            }
+            (Some((other, first)), _) => {
+                let degrees = sine(other).asin().to_degrees();
+                let what = format!(
+                    "restraints[{first}] and restraints[{k}] hold node {} along directions {} degrees apart",
+                    self.mesh.named(&[hold.node.number()]),
+                    six_digits(degrees)
+                );
+                let fix = "hold it along one of them, or put both curves in one group";
+                return Err(InputError::new(format!("restraints[{k}]"), what, fix));
+            }
+            (None, _) => {
+                before.push((*hold, k));
+                return Ok(true);
+            }
+        };
+        let sizes = before.iter().map(|(other, _)| other.displacement.abs());
+        let size = sizes.fold(hold.displacement.abs(), f64::max);
+        if (already - hold.displacement).abs() <= SAME * size {
+            return Ok(false);
+        }
+        let first = before[0].1;
+        let what = format!(
+            "node {} is displaced by {} along [{}, {}], and by {} as restraints[{first}] has it",
+            self.mesh.named(&[hold.node.number()]),
+            six_digits(hold.displacement),
+            six_digits(x),
+            six_digits(y),
+            six_digits(already)
+        );
+        let fix = "give one displacement of the node along each direction";
+        Err(InputError::new(format!("restraints[{k}]"), what, fix))
+    }
+}
