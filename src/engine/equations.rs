@@ -217,6 +217,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         {
             return Some(why);
         }
+        // Of surfaces that cannot be paired no node faces the target.
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
         let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
         let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;

@@ -8,7 +8,7 @@ use super::problem::{Configuration, Outcome, Setting, StateSearch, StateSolution
 use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
-use crate::error::{Cause, Error, NoEquilibrium};
+use crate::error::{Cause, NoEquilibrium};
 use crate::linear::SparseCholesky;
 use problem::model::Dof;
 
@@ -24,7 +24,7 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         constraints: &[Constraint],
-    ) -> Result<Outcome, Error> {
+    ) -> Result<Outcome, NoEquilibrium> {
         let Setting { load, .. } = self.setting;
         if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
             && let Some(solved) = self.solved(statuses, &bodies)?
@@ -51,7 +51,7 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         bodies: &HeldBodies,
-    ) -> Result<Option<StateSolution>, Error> {
+    ) -> Result<Option<StateSolution>, NoEquilibrium> {
         let none = DVector::zeros(self.setting.load.len());
         let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
         let mut reaction = bodies.reaction(&u);

@@ -152,10 +152,11 @@ impl<'a> Run<'a> {
                     self.take(&rest, 0.0, &closed);
                     Ok((Start::Closed, Point::after(0.0, closed)))
                 }
-                Err(_) => {
+                Err(Error::Equilibrium(_)) => {
                     self.steps.clear();
                     Ok((Start::Overlapping, rest))
                 }
+                Err(other) => Err(other),
             },
             Err(several) => {
                 // Where nothing holds the load, the start does not matter.
@@ -172,7 +173,8 @@ impl<'a> Run<'a> {
                         let pressed = (Start::Pressed, Point::after(FIRST, held));
                         is_only.then_some(pressed).ok_or(several.into())
                     }
-                    Ok(_) | Err(_) => Err(several.into()),
+                    Ok(_) | Err(Error::Equilibrium(_)) => Err(several.into()),
+                    Err(other) => Err(other),
                 }
             }
         }
@@ -210,18 +212,20 @@ impl<'a> Run<'a> {
                     target.halvings -= 1;
                     Some((at.load + target.to) / 2.0)
                 }
+                // The whole way is taken, or its error is dealt with below.
                 Ok(_) | Err(_) => None,
             };
             if let Some(to) = middle {
                 let first = Target { to, ends_step: false, whole: None, ..*target };
                 let (from, iterations) = (at.clone(), self.steps.split_off(before[0]));
+                // The only error that comes here says that none was found.
                 target.whole = Some(Undivided { from, found: found.ok(), iterations, before });
                 ahead.push(first);
                 continue;
             }
 
-            // Where the first part of a step is not found, the whole step counts; where one of the path is not,
-            // that on springs.
+            // Whatever stops the first part of a step, the whole step counts, which was found; where one of the path
+            // is not, that on springs.
             let (from, found) = match found {
                 Ok(found) => (at, found),
                 Err(why) => match self.undivided(&mut ahead) {

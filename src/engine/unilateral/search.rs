@@ -374,11 +374,13 @@ impl StateSearch<'_> {
         statuses.iter_mut().find(slides).map(|status| *status = Status::Stick).is_some()
     }
 
-    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
+    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not, as where
+    /// they leave a body free or their friction jams.
     pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
         let constraints = self.constraints(statuses);
-        let Ok(Outcome::Solved(solution)) = self.solve(statuses, &constraints) else {
-            return None;
+        let solution = match self.solve(statuses, &constraints) {
+            Ok(Outcome::Solved(solution)) => solution,
+            Ok(Outcome::Free { .. }) | Err(NoEquilibrium { .. }) => return None,
         };
         let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted(&iteration, false);
