@@ -95,7 +95,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             })
         };
         let stiffness = Stiffness::new(model, number);
-        let equations = Equations {
+        Ok(Equations {
             request,
             model,
             sheet,
@@ -107,8 +107,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             load,
             f,
             share,
-        };
-        Ok(equations)
+        })
     }
 
     /// Solves A(c)·u = f in iteration `k`.

@@ -53,7 +53,24 @@ fn uses(block: &[Statement], used: &mut [bool]) {
                 used[*function] = true;
                 own.push(*name);
             }
-            _ => {}
+            Kind::Number(_)
+            | Kind::Text(_)
+            | Kind::Entry { .. }
+            | Kind::Group(_)
+            | Kind::Array { .. }
+            | Kind::Magnitude(_)
+            | Kind::Negative(_)
+            | Kind::Not(_)
+            | Kind::Transpose(_)
+            | Kind::Column(..)
+            | Kind::Power(..)
+            | Kind::Arithmetic(..)
+            | Kind::Compare(..)
+            | Kind::Chain(..)
+            | Kind::All(_)
+            | Kind::Any(_)
+            | Kind::If(_)
+            | Kind::Program(_) => {}
         }
         expr.parts().into_iter().for_each(|part| expression(part, own, used));
         own.truncate(depth);
@@ -66,9 +83,10 @@ fn uses(block: &[Statement], used: &mut [bool]) {
 
 /// Hands over the names that programs within an expression write to.
 fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
-    match &expr.kind {
-        Kind::Program(block) => drop(survey(block, written)),
-        _ => expr.parts().into_iter().for_each(|part| within(part, written)),
+    if let Kind::Program(block) = &expr.kind {
+        survey(block, written);
+    } else {
+        expr.parts().into_iter().for_each(|part| within(part, written));
     }
 }
 
@@ -227,7 +245,15 @@ impl<'a> Reader<'a> {
             | Step::Spread { .. }
             | Step::Evaluate { .. }
             | Step::Return { .. } => Ok((parameters, Some(body))),
-            _ => self.refuse(line, "found a block behind `:=`, expected it indented below"),
+            Step::For { .. }
+            | Step::While { .. }
+            | Step::If { .. }
+            | Step::Otherwise { .. }
+            | Step::Try { .. }
+            | Step::Break
+            | Step::Continue => {
+                self.refuse(line, "found a block behind `:=`, expected it indented below")
+            }
         }
     }
 
@@ -264,17 +290,13 @@ impl<'a> Reader<'a> {
             .map_err(|complaint| self.error(line, complaint))?;
         self.check_depth(line, &statement)?;
         self.next += 1;
-        match &mut statement.step {
-            Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
-                *body = self.block(line.level + 1)?
-            }
-            Step::Otherwise { body } if body.is_empty() => *body = self.block(line.level + 1)?,
-            Step::Try { body, fallback } => {
-                *body = self.block(line.level + 1)?;
+        for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
+            if k > 0 {
                 self.on_error(line)?;
-                *fallback = self.block(line.level + 1)?;
             }
-            _ => {}
+            if body.is_empty() {
+                *body = self.block(line.level + 1)?;
+            }
         }
         Ok(statement)
     }

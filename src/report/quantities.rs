@@ -121,7 +121,11 @@ pub fn contact_array(
     let known: Vec<_> = contact.iter().filter_map(known).collect();
     let unknown = match (quantity.value)(contact.first()?) {
         Value::State(..) => -1.0,
-        _ => 0.0,
+        Value::Unknown
+        | Value::Count(_)
+        | Value::Number(_)
+        | Value::Components(_)
+        | Value::Words(_) => 0.0,
     };
     let mut values = vec![unknown; count];
     known.iter().for_each(|(node, value)| values[node.index()] = *value);

@@ -74,25 +74,22 @@ impl Precision for f64 {
     }
 }
 
-impl Precision for f32 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        own(a, b, by)
-    }
+/// Solves in a scalar by elimination of our own alone.
+macro_rules! by_own_elimination {
+    ($($scalar:ty),+) => {$(
+        impl Precision for $scalar {
+            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+                own(a, b, by)
+            }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        own_symmetric(a, b)
-    }
+            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+                own_symmetric(a, b)
+            }
+        }
+    )+};
 }
 
-impl Precision for F64x2 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        own(a, b, by)
-    }
-
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        own_symmetric(a, b)
-    }
-}
+by_own_elimination!(f32, F64x2);
 
 impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error

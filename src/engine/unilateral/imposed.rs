@@ -45,6 +45,18 @@ impl StateSearch<'_> {
         }
     }
 
+    /// Solves for the displacements and forces under imposed statuses; None where statuses leave a body free, or their friction jams.
+    pub(super) fn solved_state(
+        &self,
+        statuses: &[Status],
+        constraints: &[Constraint],
+    ) -> Option<StateSolution> {
+        match self.solve(statuses, constraints) {
+            Ok(Outcome::Solved(solution)) => Some(solution),
+            Ok(Outcome::Free { .. }) | Err(NoEquilibrium { .. }) => None,
+        }
+    }
+
     /// Adds the forces of contact, and what friction does, to the bodies' own displacements; None where the
     /// equations of the surfaces do not serve.
     fn solved(

@@ -374,14 +374,10 @@ impl StateSearch<'_> {
         statuses.iter_mut().find(slides).map(|status| *status = Status::Stick).is_some()
     }
 
-    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not, as where
-    /// they leave a body free or their friction jams.
+    /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
     pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
         let constraints = self.constraints(statuses);
-        let solution = match self.solve(statuses, &constraints) {
-            Ok(Outcome::Solved(solution)) => solution,
-            Ok(Outcome::Free { .. }) | Err(NoEquilibrium { .. }) => return None,
-        };
+        let solution = self.solved_state(statuses, &constraints)?;
         let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted(&iteration, false);
         (wanted == iteration.statuses).then_some(iteration.solution)

@@ -293,6 +293,7 @@ impl Translator<'_> {
             Kind::Call(name, _) => {
                 matches!(self.listing.names.name(*name), "rows" | "min" | "max")
             }
+            // Operations on arrays serve numbers too.
             _ => false,
         }
     }
@@ -430,7 +431,24 @@ impl Translator<'_> {
         let own = match &expr.kind {
             Kind::Read(reference) => reference.row.is_some(),
             Kind::Arithmetic(operation, ..) => *operation == Operation::Divide,
-            _ => false,
+            Kind::Entry { .. } | Kind::Column(..) => true,
+            Kind::Number(_)
+            | Kind::Text(_)
+            | Kind::Group(_)
+            | Kind::Array { .. }
+            | Kind::Magnitude(_)
+            | Kind::Negative(_)
+            | Kind::Not(_)
+            | Kind::Transpose(_)
+            | Kind::Power(..)
+            | Kind::Compare(..)
+            | Kind::Chain(..)
+            | Kind::All(_)
+            | Kind::Any(_)
+            | Kind::Call(..)
+            | Kind::If(_)
+            | Kind::Series { .. }
+            | Kind::Program(_) => false,
         };
         own || expr.parts().into_iter().any(|part| self.can_fail(part))
     }
