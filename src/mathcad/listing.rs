@@ -45,32 +45,19 @@ pub const ON_ERROR: &str = "on error";
 /// Marks the names that statements read or call; the variable of a series is its own.
 fn uses(block: &[Statement], used: &mut [bool]) {
     fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut [bool]) {
+        use Kind::*;
         let depth = own.len();
         match &expr.kind {
-            Kind::Read(reference) => used[reference.name] |= !own.contains(&reference.name),
-            Kind::Call(name, _) => used[*name] = true,
-            Kind::Series { function, name, .. } => {
+            Read(reference) => used[reference.name] |= !own.contains(&reference.name),
+            Call(name, _) => used[*name] = true,
+            Series { function, name, .. } => {
                 used[*function] = true;
                 own.push(*name);
             }
-            Kind::Number(_)
-            | Kind::Text(_)
-            | Kind::Entry { .. }
-            | Kind::Group(_)
-            | Kind::Array { .. }
-            | Kind::Magnitude(_)
-            | Kind::Negative(_)
-            | Kind::Not(_)
-            | Kind::Transpose(_)
-            | Kind::Column(..)
-            | Kind::Power(..)
-            | Kind::Arithmetic(..)
-            | Kind::Compare(..)
-            | Kind::Chain(..)
-            | Kind::All(_)
-            | Kind::Any(_)
-            | Kind::If(_)
-            | Kind::Program(_) => {}
+            Entry { .. } | Array { .. } => {}
+            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
+            | Column(..) | Power(..) | Arithmetic(..) | Compare(..) | Chain(..) | All(_)
+            | Any(_) | If(_) | Program(_) => {}
         }
         expr.parts().into_iter().for_each(|part| expression(part, own, used));
         own.truncate(depth);

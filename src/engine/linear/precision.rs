@@ -83,7 +83,8 @@ macro_rules! by_own_elimination {
             }
 
             fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-                own_symmetric(a, b)
+                let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
+                Ok(Solved { residual: a.residual(&x, b), x })
             }
         }
     )+};
@@ -192,11 +193,6 @@ fn own<T: Precision>(a: &SparseSquare<T>, b: &DVector<T>, by: Solver) -> Outcome
         }
         Solver::SparseLu | Solver::SparseCholesky => T::solve_symmetric(&symmetric, b),
     }
-}
-
-fn own_symmetric<T: Scalar + Field>(a: &SparseSymmetric<T>, b: &DVector<T>) -> Outcome<T> {
-    let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
-    Ok(Solved { residual: a.residual(&x, b), x })
 }
 
 fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {

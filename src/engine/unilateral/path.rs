@@ -309,15 +309,8 @@ impl<'a> Run<'a> {
         if !self.keeps_all {
             self.taken.clear();
         }
-        let Equilibrium { config, last, .. } = found;
-        self.taken.push(TakenStep {
-            to,
-            is_first: from.statuses.is_none(),
-            before: from.u.clone(),
-            config: config.clone(),
-            statuses: last.statuses.clone(),
-            u: last.solution.u.clone(),
-        });
+        let is_first = from.statuses.is_none();
+        self.taken.push(TakenStep::new(to, is_first, from.u.clone(), found));
     }
 
     /// Goes to the load `to` in one step by a search.
@@ -332,7 +325,7 @@ impl<'a> Run<'a> {
     /// Solves the last contact state, at the load `to`, on the whole bodies.
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
-        let mut last = self.taken.pop().expect("a path has a step");
+        let last = self.taken.pop().expect("a path has a step");
         let setting = self.problem.setting(load.clone(), &last.before, None);
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
@@ -343,10 +336,7 @@ impl<'a> Run<'a> {
         if let Some(last) = self.steps.last_mut() {
             *last = step(self.problem, (k, to), &load, &end.config, &end.last);
         }
-        last.config = end.config.clone();
-        last.statuses = end.last.statuses.clone();
-        last.u = end.last.solution.u.clone();
-        self.taken.push(last);
+        self.taken.push(TakenStep::new(last.to, last.is_first, last.before, &end));
         Ok(end)
     }
 

@@ -428,27 +428,15 @@ impl Translator<'_> {
 
     /// Returns whether an expression has subscripts or divides.
     fn can_fail(&self, expr: &Expr) -> bool {
+        use Kind::*;
         let own = match &expr.kind {
-            Kind::Read(reference) => reference.row.is_some(),
-            Kind::Arithmetic(operation, ..) => *operation == Operation::Divide,
-            Kind::Entry { .. } | Kind::Column(..) => true,
-            Kind::Number(_)
-            | Kind::Text(_)
-            | Kind::Group(_)
-            | Kind::Array { .. }
-            | Kind::Magnitude(_)
-            | Kind::Negative(_)
-            | Kind::Not(_)
-            | Kind::Transpose(_)
-            | Kind::Power(..)
-            | Kind::Compare(..)
-            | Kind::Chain(..)
-            | Kind::All(_)
-            | Kind::Any(_)
-            | Kind::Call(..)
-            | Kind::If(_)
-            | Kind::Series { .. }
-            | Kind::Program(_) => false,
+            Read(reference) => reference.row.is_some(),
+            Arithmetic(operation, ..) => *operation == Operation::Divide,
+            Entry { .. } | Column(..) => true,
+            Array { .. } | Series { .. } => false,
+            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
+            | Power(..) | Compare(..) | Chain(..) | All(_) | Any(_) | Call(..) | If(_)
+            | Program(_) => false,
         };
         own || expr.parts().into_iter().any(|part| self.can_fail(part))
     }

@@ -39,23 +39,18 @@ impl Errors {
         (setting, solution): (Setting, &Solution),
         (best, truth): (Setting, &Solution),
     ) -> Self {
+        use Setting::{Coupling, Half, Iterations, Own, Refined, Status, Tolerance};
         match (setting, best) {
-            (Setting::Refined(coarse), Setting::Refined(fine)) => {
+            (Refined(coarse), Refined(fine)) => {
                 let solution = prolonged(solution.clone(), &meshes[coarse..fine], truth);
                 Errors::new(&solution, truth)
             }
-            (Setting::Half, Setting::Own) => {
+            (Half, Own) => {
                 let half = symmetry::half(scene).expect("its half was run");
                 Errors::new(solution, &restricted(truth, &half, solution))
             }
             (
-                Setting::Own
-                | Setting::Tolerance(_)
-                | Setting::Iterations(_)
-                | Setting::Status(_)
-                | Setting::Coupling(_)
-                | Setting::Refined(_)
-                | Setting::Half,
+                Own | Tolerance(_) | Iterations(_) | Status(_) | Coupling(_) | Refined(_) | Half,
                 _,
             ) => Errors::new(solution, truth),
         }
