@@ -1,10 +1,11 @@
 //! The command line.
 #![forbid(unsafe_code)]
 
+use std::io;
 use std::num::NonZero;
 use std::process::ExitCode;
-use std::sync::{Arc, Barrier};
-use std::thread::Builder;
+use std::sync::mpsc::channel;
+use std::thread::{Builder, available_parallelism};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -56,11 +57,7 @@ struct Cli {
 const STACK: usize = 1 << 21;
 
 fn main() -> ExitCode {
-    let pool = rayon::ThreadPoolBuilder::new().stack_size(STACK);
-    let _ = match can_start_threads() {
-        true => pool.build_global(),
-        false => pool.num_threads(1).use_current_thread().build_global(),
-    };
+    start_pool();
     #[cfg(unix)]
     heed_signals();
     // Every command that prints JSON has this option.
@@ -77,6 +74,7 @@ fn main() -> ExitCode {
                 return exit_code(Err(not_utf8()), json);
             }
             if json {
+                // The error itself counts, not that its JSON could not be printed.
                 let _ = commands::print(&failure(&usage(&why)));
             }
             commands::print_stderr(&rendered(&why));
@@ -94,17 +92,30 @@ fn main() -> ExitCode {
     exit_code(command.run().map_err(named_by_option), json)
 }
 
-/// Returns whether the system starts as many threads as there are processors, and one more, which signals wait for.
-fn can_start_threads() -> bool {
-    let count = std::thread::available_parallelism().map_or(1, NonZero::get) + 1;
-    let all = Arc::new(Barrier::new(count + 1));
-    let start = |all: Arc<Barrier>| Builder::new().stack_size(STACK).spawn(move || all.wait());
-    let started: Vec<_> = (0..count).map_while(|_| start(all.clone()).ok()).collect();
-    if started.len() < count {
-        return false; // Those that wait end with the process.
-    }
-    all.wait();
-    started.into_iter().all(|thread| thread.join().is_ok())
+/// Starts the threads of the pool, one for each processor unless RAYON_NUM_THREADS says otherwise. Where the system
+/// does not start so many, this thread alone is the pool: rayon, which fails then, builds no second one.
+fn start_pool() {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|count| count.parse().ok());
+    let count = asked.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get);
+    let start = |_| {
+        let (give, given) = channel::<rayon::ThreadBuilder>();
+        let work = move || given.iter().for_each(rayon::ThreadBuilder::run);
+        Builder::new().stack_size(STACK).spawn(work).map(|_| give)
+    };
+    let pool = rayon::ThreadPoolBuilder::new();
+    let built = match (0..count).map(start).collect::<io::Result<Vec<_>>>() {
+        Ok(started) => {
+            let mut started = started.into_iter();
+            let hand_over = move |work| {
+                let thread = started.next().expect("one was started for each");
+                thread.send(work).map_err(|_| io::ErrorKind::BrokenPipe.into())
+            };
+            pool.num_threads(count).spawn_handler(hand_over).build_global()
+        }
+        // Those that were started end, as nothing is given to them.
+        Err(_) => pool.num_threads(1).use_current_thread().build_global(),
+    };
+    built.expect("nothing used the pool before");
 }
 
 /// Returns a line for each exit status.
@@ -141,6 +152,7 @@ fn exit_code(result: Result<ExitStatus, Error>, json: bool) -> ExitCode {
         Ok(status) => status.into(),
         Err(error) => {
             if json {
+                // As above.
                 let _ = commands::print(&failure(&error));
             }
             commands::report_error(&error).into()
@@ -155,13 +167,17 @@ fn exit_code(result: Result<ExitStatus, Error>, json: bool) -> ExitCode {
 fn heed_signals() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
     use signal_hook::{flag, iterator::Signals, low_level::emulate_default_handler};
+    // Where one of these cannot be had, signals end the process at once.
     let _ = flag::register(SIGXFSZ, Default::default());
     let ending =
         [SIGHUP, SIGINT, SIGQUIT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-    let Ok(mut signals) = Signals::new(ending) else { return };
     let end = |signal| files::abandon(|| emulate_default_handler(signal).unwrap_or_default());
-    let thread = Builder::new().stack_size(STACK);
-    let _ = thread.spawn(move || signals.forever().for_each(end));
+    let (give, given) = channel::<Signals>();
+    let wait = move || given.iter().for_each(|mut signals| signals.forever().for_each(end));
+    // No signal is caught before there is a thread that waits for it.
+    if Builder::new().stack_size(STACK).spawn(wait).is_ok() {
+        let _ = Signals::new(ending).map(|signals| give.send(signals));
+    }
 }
 
 /// Returns whether a signal is ignored from the start, as SIGINT is in the background of a shell's

@@ -66,6 +66,7 @@ impl Running {
 fn kill(id: u32) {
     use rustix::process::{Pid, Signal, kill_process_group};
     let id = i32::try_from(id).ok().and_then(Pid::from_raw);
+    // One that has ended by itself cannot be killed.
     let _ = id.map(|id| kill_process_group(id, Signal::KILL));
 }
 

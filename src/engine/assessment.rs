@@ -3,8 +3,6 @@
 
 use std::borrow::Cow;
 
-use nalgebra::DVector;
-
 use super::distance::{Distance, distance};
 use super::error::Error;
 use super::estimates::{Estimates, Perturbed};
@@ -25,9 +23,9 @@ pub struct Assessment<'a> {
     /// measured.
     pub rounding: Option<Perturbed>,
     /// The largest difference of a displacement component from a path of half as many steps of the
-    /// load, length: what is left of the size of the steps. None without a path, where there is none
-    /// such to compare with, and where estimates are left out.
-    pub path_change: Option<f64>,
+    /// load, length: what is left of the size of the steps; or why that path has no end. None without a
+    /// path, where it says nothing, and where estimates are left out.
+    pub path_change: Option<Result<f64, Error>>,
     /// Hertz's contact for the load of the solution; None where his theory does not apply.
     pub hertz: Option<Hertz>,
     /// The comparison with the reference solution, or why there is none; None without contact.
@@ -151,17 +149,20 @@ fn others<'a>(solution: &'a Solution) -> [Option<OtherSolution<'a>>; 2] {
 /// Returns the largest difference of displacements at the end of a path of half as many steps from those
 /// of a solution, length; None where it says nothing of the size of the steps, as the first of them brings
 /// the bodies into contact.
-fn change(half: Option<DVector<f64>>, solution: &Solution) -> Option<f64> {
+fn change(
+    half: Option<Result<Solution, Error>>,
+    solution: &Solution,
+) -> Option<Result<f64, Error>> {
     let path = solution.equilibrium.as_ref()?.path.as_ref()?;
     let counts = !matches!(path.start, Start::Loose | Start::Overlapping);
-    half.filter(|_| counts).map(|u| (u - &solution.u).amax())
+    half.filter(|_| counts).map(|half| Ok((half?.u - &solution.u).amax()))
 }
 
-/// Follows the path of a request's load in half as many steps; returns the displacements at its end.
-fn half_as_many_steps(request: &Request) -> Option<DVector<f64>> {
+/// Follows the path of a request's load in half as many steps; None where these are no whole number.
+fn half_as_many_steps(request: &Request) -> Option<Result<Solution, Error>> {
     let ContactModel { friction, load_steps, .. } = request.contact;
     let has_path = request.variant == Variant::Unilateral && friction != Friction::NONE;
     let steps = Some(load_steps / 2).filter(|_| has_path && load_steps % 2 == 0)?;
     let contact = ContactModel { load_steps: steps, ..request.contact };
-    Some(solve(&request.clone().contact(contact), &mut |_| ()).ok()?.u)
+    Some(solve(&request.clone().contact(contact), &mut |_| ()))
 }

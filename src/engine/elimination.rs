@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 use smallvec::{SmallVec, smallvec};
 
+use crate::linear::negligible;
 use numbers::scalar::Scalar;
 use paper::door::NodeToSegment;
 use problem::model::{Dof, Hold, Model, NodeId, Restraint, crossing};
@@ -109,10 +110,6 @@ pub struct Elimination<T = f64> {
     free: Vec<Dof>,
 }
 
-/// The factor of an equation, over 1 of the contact node's own, below which a constraint does not
-/// depend on it: rounding.
-const NEGLIGIBLE: f64 = 1e-10;
-
 impl<T: Scalar> Elimination<T> {
     /// Builds T and s under `constraints`, among them eq. (1). A component of a contact node that is
     /// restrained stays so and is not constrained; `restraints` are by degree of freedom.
@@ -181,7 +178,7 @@ impl<T: Scalar> Elimination<T> {
         }
         let size = |factor: &T| Scalar::abs(*factor).to_f64();
         let (&pivot, &factor) = row.iter().max_by(|a, b| size(a.1).total_cmp(&size(b.1)))?;
-        if size(&factor) <= NEGLIGIBLE {
+        if size(&factor) <= negligible(T::EPSILON) {
             return None;
         }
         row.remove(&pivot);

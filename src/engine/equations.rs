@@ -97,7 +97,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             })
         };
         let stiffness = Stiffness::new(model, number);
-        let equations = Equations {
+        Ok(Equations {
             request,
             model,
             sheet,
@@ -109,8 +109,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             load,
             f,
             share,
-        };
-        Ok(equations)
+        })
     }
 
     /// Solves A(c)·u = f in iteration `k`.
@@ -226,6 +225,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         {
             return Some(why);
         }
+        // Of surfaces that cannot be paired no node faces the target.
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
         let gaps = pairings.iter().flatten().map(|pairing| pairing.gap);
         let gap = gaps.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;

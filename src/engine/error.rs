@@ -54,6 +54,23 @@ impl Error {
         }
     }
 
+    /// Returns what a run found; None where the published algorithm fails, or no equilibrium is found.
+    ///
+    /// # Errors
+    /// The input is at fault.
+    pub fn found<T>(result: Result<T>) -> Result<Option<T>, InputError> {
+        match result {
+            Ok(found) => Ok(Some(found)),
+            Err(Error::Input(why)) => Err(why),
+            Err(
+                Error::Listing(_)
+                | Error::Execution(_)
+                | Error::Singular(_)
+                | Error::Equilibrium(_),
+            ) => Ok(None),
+        }
+    }
+
     /// Returns the exit status of the process, which reports the cause.
     pub fn exit_status(&self) -> ExitStatus {
         match self {

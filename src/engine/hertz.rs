@@ -46,6 +46,7 @@ impl Hertz {
     /// of its size, or too few nodes lie in it.
     pub fn from_solution(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
+        // Surfaces that cannot be paired form no parabola either.
         let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contact::Pairing;
 use super::elimination::{Constraint, Elimination};
-use super::refinement::{CONTRACTION, REFINED, refine};
+use super::refinement::{corrected, refine};
 use super::stiffness::Stiffness;
 use crate::linear::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
 use problem::model::{Dof, Model, NodeId, Restraint};
@@ -197,25 +197,24 @@ impl<'a> ReducedState<'a> {
         (reduced, more): (&ReducedLoad, &DVector<f64>),
     ) -> Option<(DVector<f64>, f64)> {
         let reduction = self.reduction;
-        let (mut u, _) = self.displacements(reduced, more)?;
-        let mut before = f64::INFINITY;
-        loop {
-            let mut rest = load - stiffness.times(&u);
+        let (u, _) = self.displacements(reduced, more)?;
+        let rest = |u: &DVector<f64>| {
+            let mut rest = load - stiffness.times(u);
             (0..rest.len()).filter(|e| !reduction.is_free[*e]).for_each(|e| rest[e] = 0.0);
             // The forces that keep constraints do no work.
             let left = self.t.load(&reduction.part(&rest));
             let mut inside = rest.clone();
             reduction.kept.iter().for_each(|dof| inside[dof.index()] = 0.0);
             let left = DVector::from_vec(vec![left.amax(), inside.amax()]);
-            let error = backward_error(&left, reduction.whole_norm, &u, load);
-            if error <= REFINED || error.is_nan() || error > CONTRACTION * before {
-                return (error <= ENOUGH).then_some((u, error));
-            }
-            before = error;
-            let rest = reduction.eliminated(&rest);
+            (rest, backward_error(&left, reduction.whole_norm, u, load))
+        };
+        let correction = |rest: &DVector<f64>| {
+            let rest = reduction.eliminated(rest);
             let q = self.factors.solve(&self.t.load(&rest.kept));
-            u += reduction.expand(&rest, &self.t.motion(&q));
-        }
+            reduction.expand(&rest, &self.t.motion(&q))
+        };
+        let (u, error) = corrected(u, rest, correction);
+        (error <= ENOUGH).then_some((u, error))
     }
 
     /// Returns K u − f under a load by degree of freedom, force; 0 but on the kept nodes.

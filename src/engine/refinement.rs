@@ -7,30 +7,42 @@ use super::stiffness::Stiffness;
 use crate::linear::{Factors, Normed, backward_error};
 
 /// The relative residual at which refinement ends.
-pub(super) const REFINED: f64 = 4.0 * f64::EPSILON;
+const REFINED: f64 = 4.0 * f64::EPSILON;
 
 /// The part of its residual to which a step of refinement must bring the next one.
-pub(super) const CONTRACTION: f64 = 0.2;
+const CONTRACTION: f64 = 0.2;
 
-/// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`, and refines as long as that
-/// brings more; returns q and its relative residual.
+/// Corrects x as long as that brings more: `rest` returns its residual and the relative size of that, `correction`
+/// what a residual adds to x. Returns x and the relative size of its residual.
+pub(super) fn corrected(
+    mut x: DVector<f64>,
+    rest: impl Fn(&DVector<f64>) -> (DVector<f64>, f64),
+    correction: impl Fn(&DVector<f64>) -> DVector<f64>,
+) -> (DVector<f64>, f64) {
+    let mut before = f64::INFINITY;
+    loop {
+        let (rest, error) = rest(&x);
+        if error <= REFINED || error.is_nan() || error > CONTRACTION * before {
+            return (x, error);
+        }
+        before = error;
+        x += correction(&rest);
+    }
+}
+
+/// Solves A q = `f`, where `times` multiplies by A, whose norm is `norm`; returns q and its relative residual.
 pub(super) fn refine(
     factors: &dyn Factors,
     times: impl Fn(&DVector<f64>) -> DVector<f64>,
     norm: f64,
     f: &DVector<f64>,
 ) -> (DVector<f64>, f64) {
-    let mut q = factors.solve(f);
-    let mut before = f64::INFINITY;
-    loop {
-        let rest = f - times(&q);
-        let error = backward_error(&rest, norm, &q, f);
-        if error <= REFINED || error.is_nan() || error > CONTRACTION * before {
-            return (q, error);
-        }
-        before = error;
-        q += factors.solve(&rest);
-    }
+    let rest = |q: &DVector<f64>| {
+        let rest = f - times(q);
+        let error = backward_error(&rest, norm, q, f);
+        (rest, error)
+    };
+    corrected(factors.solve(f), rest, |rest| factors.solve(rest))
 }
 
 /// Solves Tᵀ K T q = `f` in the same way, with K as the triangles add it up.

@@ -427,6 +427,29 @@ pub struct Equilibrium {
 }
 
 impl Solution {
+    /// Returns a solution of the same model with other displacements, by degree of freedom, length, and the states
+    /// of each triangle. What was known of its own displacements alone, their digits and their error, is not kept;
+    /// the contact surface, the reactions and the steps stay those of this solution.
+    #[must_use]
+    pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
+        let Solution { request, model, steps, reactions, contact, factored, equilibrium, .. } =
+            self.clone();
+        let (digits, error_bound) = (None, None);
+        Solution {
+            request,
+            model,
+            steps,
+            u,
+            reactions,
+            elements,
+            contact,
+            factored,
+            digits,
+            error_bound,
+            equilibrium,
+        }
+    }
+
     /// Returns whether other equilibria than the one that was found are known.
     pub fn has_others(&self) -> bool {
         self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())

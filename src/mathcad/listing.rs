@@ -45,15 +45,19 @@ pub const ON_ERROR: &str = "on error";
 /// Marks the names that statements read or call; the variable of a series is its own.
 fn uses(block: &[Statement], used: &mut [bool]) {
     fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut [bool]) {
+        use Kind::*;
         let depth = own.len();
         match &expr.kind {
-            Kind::Read(reference) => used[reference.name] |= !own.contains(&reference.name),
-            Kind::Call(name, _) => used[*name] = true,
-            Kind::Series { function, name, .. } => {
+            Read(reference) => used[reference.name] |= !own.contains(&reference.name),
+            Call(name, _) => used[*name] = true,
+            Series { function, name, .. } => {
                 used[*function] = true;
                 own.push(*name);
             }
-            _ => {}
+            Entry { .. } | Array { .. } => {}
+            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
+            | Column(..) | Power(..) | Arithmetic(..) | Compare(..) | Chain(..) | All(_)
+            | Any(_) | If(_) | Program(_) => {}
         }
         expr.parts().into_iter().for_each(|part| expression(part, own, used));
         own.truncate(depth);
@@ -66,9 +70,10 @@ fn uses(block: &[Statement], used: &mut [bool]) {
 
 /// Hands over the names that programs within an expression write to.
 fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
-    match &expr.kind {
-        Kind::Program(block) => drop(survey(block, written)),
-        _ => expr.parts().into_iter().for_each(|part| within(part, written)),
+    if let Kind::Program(block) = &expr.kind {
+        survey(block, written);
+    } else {
+        expr.parts().into_iter().for_each(|part| within(part, written));
     }
 }
 
@@ -227,7 +232,15 @@ impl<'a> Reader<'a> {
             | Step::Spread { .. }
             | Step::Evaluate { .. }
             | Step::Return { .. } => Ok((parameters, Some(body))),
-            _ => self.refuse(line, "found a block behind `:=`, expected it indented below"),
+            Step::For { .. }
+            | Step::While { .. }
+            | Step::If { .. }
+            | Step::Otherwise { .. }
+            | Step::Try { .. }
+            | Step::Break
+            | Step::Continue => {
+                self.refuse(line, "found a block behind `:=`, expected it indented below")
+            }
         }
     }
 
@@ -264,17 +277,13 @@ impl<'a> Reader<'a> {
             .map_err(|complaint| self.error(line, complaint))?;
         self.check_depth(line, &statement)?;
         self.next += 1;
-        match &mut statement.step {
-            Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
-                *body = self.block(line.level + 1)?
-            }
-            Step::Otherwise { body } if body.is_empty() => *body = self.block(line.level + 1)?,
-            Step::Try { body, fallback } => {
-                *body = self.block(line.level + 1)?;
+        for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
+            if k > 0 {
                 self.on_error(line)?;
-                *fallback = self.block(line.level + 1)?;
             }
-            _ => {}
+            if body.is_empty() {
+                *body = self.block(line.level + 1)?;
+            }
         }
         Ok(statement)
     }

@@ -204,16 +204,10 @@ impl<'t> Parser<'t> {
         let mut block = vec![];
         loop {
             let mut statement = self.statement()?;
-            match &mut statement.step {
-                Step::For { body, .. } | Step::While { body, .. } | Step::If { body, .. } => {
+            for body in statement.step.blocks_mut() {
+                if body.is_empty() {
                     *body = self.inner()?;
                 }
-                Step::Otherwise { body } if body.is_empty() => *body = self.inner()?,
-                Step::Try { body, fallback } => {
-                    *body = self.inner()?;
-                    *fallback = self.inner()?;
-                }
-                _ => {}
             }
             block.push(statement);
             if self.takes("}") {

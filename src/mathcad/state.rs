@@ -250,7 +250,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let (more, shared) = match value {
             Value::Array(array) => (array.missing(i, j), Rc::strong_count(array) > 1),
             Value::Nested(nested) => (nested.grid().missing(i, j), true),
-            _ => unreachable!("no array but these"),
+            Value::Number(_) | Value::Text(_) => unreachable!("it became an array above"),
         };
         let held = rows * cols;
         let copied = if shared { held } else { 0 };

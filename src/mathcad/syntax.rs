@@ -270,10 +270,10 @@ impl Statement {
 
     /// Returns the condition that decides whether the statement is executed, if it has one.
     pub fn condition(&self) -> Option<&Expr> {
-        match &self.step {
-            Step::If { condition, .. } => Some(condition),
-            _ => self.guard.as_ref(),
+        if let Step::If { condition, .. } = &self.step {
+            return Some(condition);
         }
+        self.guard.as_ref()
     }
 
     /// Returns how deep statements stand below it, itself included.
@@ -292,7 +292,29 @@ impl Step {
             | Step::If { body, .. }
             | Step::Otherwise { body } => vec![body],
             Step::Try { body, fallback } => vec![body, fallback],
-            _ => vec![],
+            Step::Assign { .. }
+            | Step::Spread { .. }
+            | Step::Evaluate { .. }
+            | Step::Return { .. }
+            | Step::Break
+            | Step::Continue => vec![],
+        }
+    }
+
+    /// Returns the same to be written.
+    pub fn blocks_mut(&mut self) -> Vec<&mut Vec<Statement>> {
+        match self {
+            Step::For { body, .. }
+            | Step::While { body, .. }
+            | Step::If { body, .. }
+            | Step::Otherwise { body } => vec![body],
+            Step::Try { body, fallback } => vec![body, fallback],
+            Step::Assign { .. }
+            | Step::Spread { .. }
+            | Step::Evaluate { .. }
+            | Step::Return { .. }
+            | Step::Break
+            | Step::Continue => vec![],
         }
     }
 
@@ -304,7 +326,14 @@ impl Step {
             }
             Step::Assign { target, .. } => vec![target.name],
             Step::Spread { to: Spread::Names { names, .. }, .. } => names.clone(),
-            _ => vec![],
+            Step::While { .. }
+            | Step::If { .. }
+            | Step::Otherwise { .. }
+            | Step::Try { .. }
+            | Step::Evaluate { .. }
+            | Step::Return { .. }
+            | Step::Break
+            | Step::Continue => vec![],
         }
     }
 }
@@ -380,10 +409,8 @@ impl Expr {
         if limit == 0 {
             return 0;
         }
-        let own = match &self.kind {
-            Kind::Program(block) => block.iter().map(Statement::levels).max().unwrap_or(0),
-            _ => 0,
-        };
+        let program: &[Statement] = if let Kind::Program(block) = &self.kind { block } else { &[] };
+        let own = program.iter().map(Statement::levels).max().unwrap_or(0);
         let inside = self.parts().into_iter().map(|part| part.depth(limit - 1)).max();
         1 + own + inside.unwrap_or(0)
     }

@@ -185,7 +185,7 @@ impl Value {
     pub fn depth(&self) -> usize {
         match self {
             Value::Nested(v) => v.depth,
-            _ => 0,
+            Value::Number(_) | Value::Array(_) | Value::Text(_) => 0,
         }
     }
 
@@ -211,7 +211,7 @@ impl Value {
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(x) => Some(*x),
-            _ => None,
+            Value::Array(_) | Value::Nested(_) | Value::Text(_) => None,
         }
     }
 

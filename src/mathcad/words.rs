@@ -64,7 +64,13 @@ pub fn is_of(message: &str, cause: &Cause) -> Option<bool> {
         Cause::Singular => Kind::Singular,
         Cause::Domain { .. } => Kind::Domain,
         Cause::Kind { .. } => Kind::Type,
-        _ => return Some(false),
+        Cause::Unsupported { .. }
+        | Cause::Function { .. }
+        | Cause::NoValue
+        | Cause::Range { .. }
+        | Cause::OutsideLoop
+        | Cause::Complex { .. }
+        | Cause::Limit { .. } => return Some(false),
     };
     Some(*kind == own)
 }

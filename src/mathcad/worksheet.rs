@@ -188,7 +188,7 @@ impl Execution<'_> {
         }
         let value = match outcome {
             Outcome::Value(value) => Some(value),
-            _ => None,
+            Outcome::Defined | Outcome::Failed(_) | Outcome::Unsupported(_) => None,
         };
         ExecutedRegion {
             id: region.id.clone(),

@@ -196,7 +196,10 @@ impl ResultFile {
                 .map(|estimates| estimates.errors.clone()),
             rounding: assessment.rounding.clone(),
             equilibrium: solution.equilibrium.clone(),
-            path_change: assessment.path_change,
+            path_change: assessment
+                .path_change
+                .as_ref()
+                .and_then(|change| change.as_ref().ok().copied()),
             distance: assessment.measure().map(|measured| measured.distance.clone()),
             distance_from_equilibrium: match &assessment.equilibrium {
                 Some(Ok(measured)) => Some(measured.distance.clone()),

@@ -131,12 +131,11 @@ impl Arrays {
         let first = |components: usize| data.iter().find(|array| array.components == components);
         let stress = data.iter().find(|array| array.name == "von_mises_stress");
         let active = [("Scalars", stress), ("Vectors", first(2)), ("Tensors", first(9))];
-        let element = active.into_iter().fold(Element::new(place), |element, (kind, array)| {
-            match array {
+        let element =
+            active.into_iter().fold(Element::new(place), |element, (kind, array)| match array {
                 Some(array) => element.set(kind, array.name.clone()),
                 None => element,
-            }
-        });
+            });
         data.iter().fold(element, |element, array| {
             let Array { name, components, values, .. } = array;
             assert_eq!(

@@ -47,11 +47,12 @@ pub fn abandon(last: impl FnOnce()) {
     let _none_starts = child::end_all();
     let temporary = temporary();
     for path in temporary.iter() {
+        // What cannot be removed is left: the process ends.
         let is_left = |_: &usize| {
             let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
             path.exists()
         };
-        let _ = (0..TRIES).take_while(is_left).count();
+        let _tried = (0..TRIES).take_while(is_left).count();
     }
     last();
 }

@@ -240,7 +240,7 @@ fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     match (edge.side(c) >= zero, edge.side(q) > zero) {
         (true, false) => 1,
         (false, true) => -1,
-        _ => 0,
+        (true, true) | (false, false) => 0,
     }
 }
 

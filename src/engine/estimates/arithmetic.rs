@@ -66,6 +66,7 @@ pub fn certain(solution: Solution) -> (Solution, Certainty) {
         Ok(again) if again.error_bound.is_some_and(f64::is_finite) => {
             (again, Certainty::InDoubleDouble)
         }
+        // A run that rounding may lead elsewhere, or to a failure, shows nothing of this one.
         Ok(_) | Err(_) => (solution, Certainty::Unknown),
     }
 }
@@ -179,7 +180,7 @@ fn error(solution: &Solution, u: &DVector<Bounded>) -> f64 {
     (0..u.len()).map(error).fold(0.0, f64::max)
 }
 
-/// Repeats the run with a bound on each displacement.
+/// Repeats the run with a bound on each displacement; None where it fails, as nothing is known then.
 fn bounded_run(solution: &Solution) -> Option<Solution> {
     let own = solution.request.arithmetic;
     let arithmetic = Arithmetic {

@@ -62,7 +62,8 @@ impl Cholesky {
             supernodal_flop_ratio_threshold: SupernodalThreshold(BY_SUPERNODES),
             ..CholeskySymbolicParams::default()
         };
-        let symbolic = factorize_symbolic_cholesky(matrix.pattern(), side, order, params).ok()?;
+        let symbolic = factorize_symbolic_cholesky(matrix.pattern(), side, order, params);
+        let symbolic = symbolic.expect("a pattern fits in memory");
         let mut values = vec![0.0; symbolic.len_val()];
         // One thread: faster for plane problems, and faer's bits depend on the number of threads.
         let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
@@ -70,6 +71,7 @@ impl Cholesky {
         let a = SparseColMatRef::new(matrix.pattern(), matrix.values());
         let (regularization, stack) = (LltRegularization::default(), MemStack::new(&mut memory));
         let params = Default::default();
+        // The one error is a pivot that is not positive.
         symbolic
             .factorize_numeric_llt(&mut values, a, side, regularization, Par::Seq, stack, params)
             .ok()?;

@@ -19,9 +19,7 @@ use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::symmetric::SparseSymmetric;
 use mathcad::SparseSquare;
-use numbers::scalar::{
-    Bounded, BoundedDouble, Exact, F64x2, Field, Rounded, Scalar, WithBound, scope,
-};
+use numbers::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
 
 /// A solution of linear equations.
 #[derive(Clone, Debug)]
@@ -74,25 +72,23 @@ impl Precision for f64 {
     }
 }
 
-impl Precision for f32 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        own(a, b, by)
-    }
+/// Solves in a scalar by elimination of our own alone.
+macro_rules! by_own_elimination {
+    ($($scalar:ty),+) => {$(
+        impl Precision for $scalar {
+            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+                own(a, b, by)
+            }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        own_symmetric(a, b)
-    }
+            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+                let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
+                Ok(Solved { residual: a.residual(&x, b), x })
+            }
+        }
+    )+};
 }
 
-impl Precision for F64x2 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        own(a, b, by)
-    }
-
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        own_symmetric(a, b)
-    }
-}
+by_own_elimination!(f32, F64x2);
 
 impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
@@ -195,11 +191,6 @@ fn own<T: Precision>(a: &SparseSquare<T>, b: &DVector<T>, by: Solver) -> Outcome
         }
         Solver::SparseLu | Solver::SparseCholesky => T::solve_symmetric(&symmetric, b),
     }
-}
-
-fn own_symmetric<T: Scalar + Field>(a: &SparseSymmetric<T>, b: &DVector<T>) -> Outcome<T> {
-    let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
-    Ok(Solved { residual: a.residual(&x, b), x })
 }
 
 fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {

@@ -7,17 +7,16 @@ use super::error_bound::inverse_norm;
 use super::factors::{Factors, Normed, Singular};
 use super::symmetric::SparseSymmetric;
 
-/// Beyond this over the scalar's epsilon (5e14 in f64), the displacements under a load of the size
-/// of the stiffness mean a singular matrix; both are scaled to a unit diagonal.
-const UNBOUNDED: f64 = 0.1;
+/// Displacements beyond this (5e14) under a load of the size of the stiffness mean a singular matrix; both are
+/// scaled to a unit diagonal.
+const UNBOUNDED: f64 = 0.1 / f64::EPSILON;
 
 /// Where every pivot is large and one trial load moves less than this part of what means a singular
 /// matrix, no other load is tried.
 const SMALL_PART: f64 = 1e-5;
 
-/// What is added to a unit diagonal to see how a singular matrix moves, in units of the scalar's
-/// epsilon (1e-10 in f64).
-const SHIFT: f64 = 1e-10 / f64::EPSILON;
+/// What is added to a unit diagonal to see how a singular matrix moves.
+const SHIFT: f64 = 1e-10;
 
 /// A symmetric positive definite matrix and its Cholesky factors.
 pub struct SparseCholesky {
@@ -42,12 +41,12 @@ impl SparseCholesky {
         let Some((column, size)) = probe(&cholesky.factors, &diagonal) else {
             return Ok(cholesky);
         };
-        let small = SMALL_PART * UNBOUNDED / f64::EPSILON;
+        let small = SMALL_PART * UNBOUNDED;
         if size < small && cholesky.factors.has_large_pivots(&diagonal) {
             return Ok(cholesky);
         }
         match size.max(largest_motion(&cholesky, &diagonal)) {
-            size if size.is_finite() && size < UNBOUNDED / f64::EPSILON => Ok(cholesky),
+            size if size.is_finite() && size < UNBOUNDED => Ok(cholesky),
             size => Err(Singular { column, pivot: 1.0 / size }),
         }
     }
@@ -128,7 +127,7 @@ pub(super) fn mechanism(matrix: &SparseSymmetric) -> Singular {
     if let Some(column) = diagonal.iter().position(|d| d.is_nan() || *d <= 0.0) {
         return Singular { column, pivot: diagonal[column] };
     }
-    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT * f64::EPSILON));
+    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT));
     let shifted = shifted.and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }

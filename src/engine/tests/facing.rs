@@ -1,10 +1,11 @@
 //! Which nodes pull, and where rounding decides which edge is faced.
 
 use engine::contact::{ContactNode, Surfaces, pulling};
+use engine::{Request, solve};
 use numbers::scalar::{Bounded, Scalar};
 use problem::model::NodeId;
 use problem::modelling::ContactModel;
-use problem::scene::Axis;
+use problem::scene::{Axis, Scene};
 
 use testing::bodies::{Bodies, Writing};
 
@@ -12,16 +13,13 @@ use testing::bodies::{Bodies, Writing};
 /// a node in contact whose force is known.
 #[test]
 fn nodes_pull_by_more_than_rounding() {
+    let scene = Scene::open("fig1").unwrap();
+    let solution = solve(&Request::new(&scene), &mut |_| ()).unwrap();
     let node = |k: usize, force: Option<f64>, in_contact: bool| ContactNode {
         node: NodeId::new(k),
-        arc: 0.0,
         in_contact,
-        gap: 0.0,
-        status: None,
         force,
-        pressure: None,
-        shear: None,
-        friction_needed: None,
+        ..solution.contact[0].clone()
     };
     for largest in [1e3, -1e3, 1e-3, -1e-3] {
         let part = |part: f64| Some(part * largest.abs());

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::forces::{contact_forces, tangent};
 use super::lemke::complementary;
-use super::problem::{Outcome, StateSearch};
+use super::problem::StateSearch;
 use crate::contact::{Pairing, Sense, Status};
 use crate::elimination::{Constraint, Motion};
 
@@ -68,9 +68,7 @@ impl<'a> Condensed<'a> {
         let facing = || entries.iter().filter_map(|i| Some((pairings[*i].as_ref()?, held[*i])));
         let constraints = search.constraints(&held);
         let solved = |search: &StateSearch, constraints: &[Constraint]| {
-            let Ok(Outcome::Solved(solution)) = search.solve(&held, constraints) else {
-                return None;
-            };
+            let solution = search.solved_state(&held, constraints)?;
             let forces = contact_forces(problem.model, pairings, &held, &solution.reaction);
             let of_entry = |i: &usize| parts(held[*i], [forces[*i].normal, forces[*i].tangent]);
             let known = entries.iter().all(|i| !forces[*i].undetermined);

@@ -43,6 +43,15 @@ pub(super) struct TakenStep {
     pub(super) u: DVector<f64>,
 }
 
+impl TakenStep {
+    /// Returns the step to a load from the displacements `before`, length.
+    pub(super) fn new(to: f64, is_first: bool, before: DVector<f64>, found: &Equilibrium) -> Self {
+        let Equilibrium { config, last, .. } = found;
+        let (statuses, u) = (last.statuses.clone(), last.solution.u.clone());
+        TakenStep { to, is_first, before, config: config.clone(), statuses, u }
+    }
+}
+
 /// Returns what is known of equilibria beside those of the steps that were `taken`, of which the last led to
 /// `found`: of small problems in every step, else in the last one alone.
 pub(super) fn uniqueness(

@@ -30,13 +30,8 @@ pub(super) struct ContactForce {
     pub(super) tangent: f64,
 }
 
-/// A closed contact node and the forces that are not known of it.
-#[derive(Clone, Copy)]
-struct Contact<'a> {
-    pairing: &'a Pairing,
-    /// Whether the tangential force is a reaction; otherwise it is part of `friction`.
-    sticks: bool,
-}
+/// A closed contact node, and whether it sticks: its tangential force is a reaction then, else part of `friction`.
+type Contact<'a> = (&'a Pairing, bool);
 
 /// Returns the tangent of a pairing: its normal turned left.
 pub(super) fn tangent(pairing: &Pairing) -> [f64; 2] {
@@ -55,7 +50,7 @@ pub(super) fn contact_forces(
     let (mut rest, mut hard) = (reaction.clone(), Vec::new());
     for (i, status) in statuses.iter().enumerate().filter(|(_, status)| status.is_closed()) {
         let Some(pairing) = &pairings[i] else { continue };
-        let contact = Contact { pairing, sticks: *status == Status::Stick };
+        let contact = (pairing, *status == Status::Stick);
         match direct(model, contact, reaction) {
             Some(force) => {
                 add(pairing, force, -1.0, &mut rest);
@@ -86,8 +81,11 @@ pub(super) fn add(pairing: &Pairing, force: ContactForce, factor: f64, load: &mu
 }
 
 /// Returns the forces on a contact node from its own equations; None where restraints take them.
-fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<ContactForce> {
-    let Contact { pairing, sticks } = contact;
+fn direct(
+    model: &Model,
+    (pairing, sticks): Contact,
+    reaction: &DVector<f64>,
+) -> Option<ContactForce> {
     let ([nx, ny], [rx, ry]) = (pairing.normal, pairing.node.components(reaction));
     let along = |n: f64, r: f64| {
         (!sticks && n.abs() >= STEEP)
@@ -106,38 +104,35 @@ fn direct(model: &Model, contact: Contact, reaction: &DVector<f64>) -> Option<Co
 
 /// Returns the forces of contacts from all equations in which they occur, by least squares.
 fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<ContactForce> {
-    let columns: Vec<(usize, ContactForce)> = (0..contacts.len())
-        .flat_map(|i| {
-            let tangent = ContactForce { tangent: 1.0, ..ContactForce::default() };
-            let tangent = contacts[i].sticks.then_some((i, tangent));
-            [Some((i, ContactForce { normal: 1.0, ..ContactForce::default() })), tangent]
-                .into_iter()
-                .flatten()
-        })
-        .collect();
-    let nodes = contacts.iter().flat_map(|contact| contact.pairing.nodes());
+    let none = ContactForce::default();
+    let units = [ContactForce { normal: 1.0, ..none }, ContactForce { tangent: 1.0, ..none }];
+    let of_contact = |(i, (_, sticks)): (usize, &Contact)| {
+        units.into_iter().take(1 + usize::from(*sticks)).map(move |unit| (i, unit))
+    };
+    let columns: Vec<(usize, ContactForce)> =
+        contacts.iter().enumerate().flat_map(of_contact).collect();
+    let nodes = contacts.iter().flat_map(|(pairing, _)| pairing.nodes());
     let equations: BTreeSet<Dof> =
         nodes.flat_map(NodeId::dofs).filter(|dof| !model.is_restrained(*dof)).collect();
     let equations: Vec<Dof> = equations.into_iter().collect();
     let mut matrix = DMatrix::zeros(equations.len().max(columns.len()), columns.len());
     let mut load = DVector::zeros(rest.len());
     for (column, (i, unit)) in columns.iter().enumerate() {
-        add(contacts[*i].pairing, *unit, 1.0, &mut load);
+        add(contacts[*i].0, *unit, 1.0, &mut load);
         for (row, dof) in equations.iter().enumerate() {
             matrix[(row, column)] = load[dof.index()];
         }
-        add(contacts[*i].pairing, *unit, -1.0, &mut load);
+        add(contacts[*i].0, *unit, -1.0, &mut load);
     }
     let right = DVector::from_fn(matrix.nrows(), |row, _| {
         equations.get(row).map_or(0.0, |dof| rest[dof.index()])
     });
     let svd = matrix.svd(true, true);
-    let limit = UNDETERMINED;
     let v = svd.v_t.as_ref().expect("V was asked for").transpose();
     let free: Vec<usize> =
-        (0..columns.len()).filter(|&k| svd.singular_values[k] <= limit).collect();
-    let value = svd.solve(&right, limit).expect("U and V were asked for");
-    let mut forces = vec![ContactForce::default(); contacts.len()];
+        (0..columns.len()).filter(|&k| svd.singular_values[k] <= UNDETERMINED).collect();
+    let value = svd.solve(&right, UNDETERMINED).expect("U and V were asked for");
+    let mut forces = vec![none; contacts.len()];
     for (column, (i, unit)) in columns.iter().enumerate() {
         let open = free.iter().any(|&k| v[(column, k)].abs() > UNDETERMINED.sqrt());
         forces[*i].undetermined |= open;

@@ -8,7 +8,7 @@ use super::problem::{Configuration, Outcome, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
-use crate::error::{Cause, Error, NoEquilibrium};
+use crate::error::{Cause, NoEquilibrium};
 use crate::linear::SparseCholesky;
 use problem::model::Dof;
 
@@ -24,7 +24,7 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         constraints: &[Constraint],
-    ) -> Result<Outcome, Error> {
+    ) -> Result<Outcome, NoEquilibrium> {
         if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
             && let Some(solved) = self.solved(statuses, &bodies)?
         {
@@ -45,13 +45,25 @@ impl StateSearch<'_> {
         }
     }
 
+    /// Solves for the displacements and forces under imposed statuses; None where statuses leave a body free, or their friction jams.
+    pub(super) fn solved_state(
+        &self,
+        statuses: &[Status],
+        constraints: &[Constraint],
+    ) -> Option<StateSolution> {
+        match self.solve(statuses, constraints) {
+            Ok(Outcome::Solved(solution)) => Some(solution),
+            Ok(Outcome::Free { .. }) | Err(NoEquilibrium { .. }) => None,
+        }
+    }
+
     /// Adds the forces of contact, and what friction does, to the bodies' own displacements; None where the
     /// equations of the surfaces do not serve.
     fn solved(
         &self,
         statuses: &[Status],
         bodies: &HeldBodies,
-    ) -> Result<Option<StateSolution>, Error> {
+    ) -> Result<Option<StateSolution>, NoEquilibrium> {
         let none = DVector::zeros(self.setting.load.len());
         let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
         let mut reaction = bodies.reaction(&u);

@@ -152,10 +152,11 @@ impl<'a> Run<'a> {
                     self.take(&rest, 0.0, &closed);
                     Ok((Start::Closed, Point::after(0.0, closed)))
                 }
-                Err(_) => {
+                Err(Error::Equilibrium(_)) => {
                     self.steps.clear();
                     Ok((Start::Overlapping, rest))
                 }
+                Err(other) => Err(other),
             },
             Err(several) => {
                 // Where nothing holds the load, the start does not matter.
@@ -172,7 +173,8 @@ impl<'a> Run<'a> {
                         let pressed = (Start::Pressed, Point::after(FIRST, held));
                         is_only.then_some(pressed).ok_or(several.into())
                     }
-                    Ok(_) | Err(_) => Err(several.into()),
+                    Ok(_) | Err(Error::Equilibrium(_)) => Err(several.into()),
+                    Err(other) => Err(other),
                 }
             }
         }
@@ -210,18 +212,20 @@ impl<'a> Run<'a> {
                     target.halvings -= 1;
                     Some((at.load + target.to) / 2.0)
                 }
+                // The whole way is taken, or its error is dealt with below.
                 Ok(_) | Err(_) => None,
             };
             if let Some(to) = middle {
                 let first = Target { to, ends_step: false, whole: None, ..*target };
                 let (from, iterations) = (at.clone(), self.steps.split_off(before[0]));
+                // The only error that comes here says that none was found.
                 target.whole = Some(Undivided { from, found: found.ok(), iterations, before });
                 ahead.push(first);
                 continue;
             }
 
-            // Where the first part of a step is not found, the whole step counts; where one of the path is not,
-            // that on springs.
+            // Whatever stops the first part of a step, the whole step counts, which was found; where one of the path
+            // is not, that on springs.
             let (from, found) = match found {
                 Ok(found) => (at, found),
                 Err(why) => match self.undivided(&mut ahead) {
@@ -305,15 +309,8 @@ impl<'a> Run<'a> {
         if !self.keeps_all {
             self.taken.clear();
         }
-        let Equilibrium { config, last, .. } = found;
-        self.taken.push(TakenStep {
-            to,
-            is_first: from.statuses.is_none(),
-            before: from.u.clone(),
-            config: config.clone(),
-            statuses: last.statuses.clone(),
-            u: last.solution.u.clone(),
-        });
+        let is_first = from.statuses.is_none();
+        self.taken.push(TakenStep::new(to, is_first, from.u.clone(), found));
     }
 
     /// Goes to the load `to` in one step by a search.
@@ -328,7 +325,7 @@ impl<'a> Run<'a> {
     /// Solves the last contact state, at the load `to`, on the whole bodies.
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
-        let mut last = self.taken.pop().expect("a path has a step");
+        let last = self.taken.pop().expect("a path has a step");
         let setting = self.problem.setting(to, &last.before, None);
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
@@ -339,10 +336,7 @@ impl<'a> Run<'a> {
         if let Some(last) = self.steps.last_mut() {
             *last = step(self.problem, (k, to), &load, &end.config, &end.last);
         }
-        last.config = end.config.clone();
-        last.statuses = end.last.statuses.clone();
-        last.u = end.last.solution.u.clone();
-        self.taken.push(last);
+        self.taken.push(TakenStep::new(last.to, last.is_first, last.before, &end));
         Ok(end)
     }
 

@@ -376,9 +376,7 @@ impl StateSearch<'_> {
     /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
     pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
         let constraints = self.constraints(statuses);
-        let Ok(Outcome::Solved(solution)) = self.solve(statuses, &constraints) else {
-            return None;
-        };
+        let solution = self.solved_state(statuses, &constraints)?;
         let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted(&iteration, false);
         (wanted == iteration.statuses).then_some(iteration.solution)

@@ -293,6 +293,7 @@ impl Translator<'_> {
             Kind::Call(name, _) => {
                 matches!(self.listing.names.name(*name), "rows" | "min" | "max")
             }
+            // Operations on arrays serve numbers too.
             _ => false,
         }
     }
@@ -427,10 +428,15 @@ impl Translator<'_> {
 
     /// Returns whether an expression has subscripts or divides.
     fn can_fail(&self, expr: &Expr) -> bool {
+        use Kind::*;
         let own = match &expr.kind {
-            Kind::Read(reference) => reference.row.is_some(),
-            Kind::Arithmetic(operation, ..) => *operation == Operation::Divide,
-            _ => false,
+            Read(reference) => reference.row.is_some(),
+            Arithmetic(operation, ..) => *operation == Operation::Divide,
+            Entry { .. } | Column(..) => true,
+            Array { .. } | Series { .. } => false,
+            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
+            | Power(..) | Compare(..) | Chain(..) | All(_) | Any(_) | Call(..) | If(_)
+            | Program(_) => false,
         };
         own || expr.parts().into_iter().any(|part| self.can_fail(part))
     }

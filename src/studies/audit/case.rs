@@ -39,8 +39,8 @@ struct Unilateral {
     run: OnceLock<Result<Solution, Error>>,
     sticking: OnceLock<Result<Solution, Error>>,
     least_friction: OnceLock<bool>,
-    reference: OnceLock<Option<Solution>>,
-    equilibrium: OnceLock<Option<Solution>>,
+    reference: OnceLock<Result<Solution, Error>>,
+    equilibrium: OnceLock<Result<Solution, Error>>,
 }
 
 impl Case {
@@ -173,6 +173,7 @@ impl Case {
         };
         let sticks = |part: f64| {
             let friction = Friction::new(part * least).expect("a coefficient that is not negative");
+            // A run that fails confirms nothing.
             let run = self.rubbing(friction).ok();
             let apart = run.map(|run| distance(&run, sticking).displacement_relative);
             !moves(apart, Some(0.0), 1.0)
@@ -209,7 +210,7 @@ impl Case {
     pub fn prepare(&self) {
         self.equivalents().par_iter().chain([self]).for_each(|case| {
             Variant::ALL.par_iter().for_each(|variant| {
-                let _ = case.run(*variant);
+                let _kept_for_later = case.run(*variant);
             });
             // The others may be one of those runs.
             case.model().target().map(|_| (case.finer(), case.equilibrium(), case.sticking()));
@@ -217,22 +218,43 @@ impl Case {
         self.model().target().map(|_| self.is_least_friction());
     }
 
-    /// The reference solution; nothing without contact, and where it does not run.
+    /// The reference solution; nothing without contact, and where [`Case::unsolved`] says why.
     pub fn reference(&self) -> Option<&Solution> {
-        self.model().target()?;
-        let run = || solve(&self.base.reference(), &mut |_| ()).ok();
-        self.unilateral.reference.get_or_init(run).as_ref()
+        self.solved_reference()?.ok()
     }
 
     /// The equilibrium under the scene's own friction, which variants are measured against; nothing
-    /// without contact, and where it does not run.
+    /// without contact, and where [`Case::unsolved`] says why.
     pub fn equilibrium(&self) -> Option<&Solution> {
+        self.solved_equilibrium()?.ok()
+    }
+
+    fn solved_reference(&self) -> Option<Result<&Solution, &Error>> {
         self.model().target()?;
-        if self.request(Variant::Unilateral).is_same_equilibrium(&self.base.equilibrium()) {
-            return self.run(Variant::Unilateral).ok();
+        let run = || solve(&self.base.reference(), &mut |_| ());
+        Some(self.unilateral.reference.get_or_init(run).as_ref())
+    }
+
+    fn solved_equilibrium(&self) -> Option<Result<&Solution, &Error>> {
+        self.model().target()?;
+        let wanted = self.base.equilibrium();
+        if self.request(Variant::Unilateral).is_same_equilibrium(&wanted) {
+            return Some(self.run(Variant::Unilateral));
         }
-        let run = || solve(&self.base.equilibrium(), &mut |_| ()).ok();
-        self.unilateral.equilibrium.get_or_init(run).as_ref()
+        let run = || solve(&wanted, &mut |_| ());
+        Some(self.unilateral.equilibrium.get_or_init(run).as_ref())
+    }
+
+    /// Why there is no equilibrium, or no reference solution, to compare with.
+    pub fn unsolved(&self) -> Vec<String> {
+        let found = [
+            ("equilibrium under the scene's own friction", self.solved_equilibrium()),
+            ("reference solution", self.solved_reference()),
+        ];
+        let why = |(what, found): (_, Option<Result<_, &Error>>)| {
+            Some(format!("no {what} to compare with: {}", found?.err()?))
+        };
+        found.into_iter().filter_map(why).collect()
     }
 
     /// The scene's variant where it is one of the paper's, else the first of those.

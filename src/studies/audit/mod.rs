@@ -53,6 +53,8 @@ pub struct Audit {
     pub equilibrium: Option<Compared>,
     /// The reference solution; nothing without contact, and where it does not run.
     pub reference: Option<Compared>,
+    /// Why one of these two, or both, are missing on a scene with contact.
+    pub unsolved: Vec<String>,
     /// The contact under other coefficients of friction.
     pub friction: Vec<FrictionContact>,
 }
@@ -128,6 +130,7 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
         variants,
         equilibrium,
         reference,
+        unsolved: case.unsolved(),
         friction,
     }
 }

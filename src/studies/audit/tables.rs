@@ -130,6 +130,7 @@ fn variants(audit: &Audit) -> Report {
         .variants
         .iter()
         .filter_map(|row| Some(format!("{}: {}", row.variant, row.end.failure()?.in_short())));
+    let notes = notes.chain(audit.unsolved.iter().cloned());
     let report = Report::default().table("3. Variants side by side", table).notes(notes);
     if audit.friction.is_empty() {
         return report;
@@ -264,6 +265,8 @@ pub struct Document<'a> {
     variants: &'a [VariantRow],
     equilibrium: &'a Option<Compared>,
     reference: &'a Option<Compared>,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    unsolved: &'a [String],
     friction: &'a [FrictionContact],
 }
 
@@ -299,6 +302,7 @@ impl<'a> Document<'a> {
             variants: &audit.variants,
             equilibrium: &audit.equilibrium,
             reference: &audit.reference,
+            unsolved: &audit.unsolved,
             friction: &audit.friction,
         }
     }

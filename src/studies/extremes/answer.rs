@@ -68,10 +68,10 @@ pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Ve
     let answer = solve(&scene, variant, scalar)?;
     let is_unilateral = variant == Variant::Unilateral;
     let known = if is_unilateral { Variant::Tied } else { variant };
-    Ok(match solve(&scene, known, ScalarName::Exact) {
-        Ok(exact) if answer.in_contact == exact.in_contact => answer.displacement(&exact),
-        Ok(_) if is_unilateral => Verdict::Unknown,
-        Ok(_) => Verdict::of_status(false),
-        Err(_) => Verdict::Wrong("exact refuses"),
+    Ok(match Error::found(solve(&scene, known, ScalarName::Exact))? {
+        Some(exact) if answer.in_contact == exact.in_contact => answer.displacement(&exact),
+        Some(_) if is_unilateral => Verdict::Unknown,
+        Some(_) => Verdict::of_status(false),
+        None => Verdict::Wrong("exact refuses"),
     })
 }

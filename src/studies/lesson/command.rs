@@ -69,6 +69,7 @@ fn lesson(args: &Args) -> Result<String> {
             execute(&scene, switch, &args.nodes)?;
         }
         let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
+        // A reading that does not allow the model has no run (R6).
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();

@@ -48,6 +48,7 @@ impl Iterations {
         let mut scene = scene.clone();
         scene.model = Arc::clone(model);
         let reference = scene.model.has_contact().then(|| Request::new(&scene).reference());
+        // Where there is none the page says what it takes: contact that holds the scene, and a load.
         let reference = reference.and_then(|request| solve(&request, &mut |_| ()).ok());
         let reference = reference.map(|solution| solution.u);
         let is_recorded = scene.model.nodes.len() > MOST_SOLVED;

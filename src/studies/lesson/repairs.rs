@@ -21,6 +21,7 @@ impl Repairs {
         if scene.model.nodes.len() > MOST_SOLVED {
             return None;
         }
+        // A scene that has no solution has no way to it: the lesson shows that of fig. 1.
         let compared = Compared::new(&Case::new(scene.clone())).ok()?;
         let rows = compared.repairs(&|| ());
         let needed = needed(&rows)?;

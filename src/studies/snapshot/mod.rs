@@ -212,6 +212,7 @@ impl Snapshot {
             format: Option<u32>,
         }
         let kind = json::Kind { name: "snapshot", fix, has_values: true };
+        // What cannot be read is named below.
         let head = files::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
         if let Some(Head { format }) = head
             && format != Some(FORMAT)

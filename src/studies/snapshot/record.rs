@@ -63,11 +63,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     let (status, failure) = outcome(&solved);
     run.facts.insert(Quantity::ExitStatus.into(), json!(status.number()));
     run.facts.insert(Quantity::Failure.into(), failure);
-    let solution = match solved {
-        Err(why @ Error::Input(_)) => return Err(why),
-        solved => solved.ok(),
-    };
-    if let Some(solution) = solution {
+    if let Some(solution) = Error::found(solved)? {
         end(&mut run, &solution, &stiffness, rounding.as_ref(), bounds);
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();

@@ -39,16 +39,20 @@ impl Errors {
         (setting, solution): (Setting, &Solution),
         (best, truth): (Setting, &Solution),
     ) -> Self {
+        use Setting::{Coupling, Half, Iterations, Own, Refined, Status, Tolerance};
         match (setting, best) {
-            (Setting::Refined(coarse), Setting::Refined(fine)) => {
+            (Refined(coarse), Refined(fine)) => {
                 let solution = prolonged(solution.clone(), &meshes[coarse..fine], truth);
                 Errors::new(&solution, truth)
             }
-            (Setting::Half, Setting::Own) => {
+            (Half, Own) => {
                 let half = symmetry::half(scene).expect("its half was run");
                 Errors::new(solution, &restricted(truth, &half, solution))
             }
-            _ => Errors::new(solution, truth),
+            (
+                Own | Tolerance(_) | Iterations(_) | Status(_) | Coupling(_) | Refined(_) | Half,
+                _,
+            ) => Errors::new(solution, truth),
         }
     }
 }
@@ -75,16 +79,12 @@ pub(super) fn prolonged(coarse: Solution, meshes: &[Refined], finest: &Solution)
         u = DVector::from_vec(finer);
         elements = elements.into_iter().flat_map(|state| std::iter::repeat_n(state, 4)).collect();
     }
-    Solution { u, elements, ..finest.clone() }
+    finest.with_fields(u, elements)
 }
 
 /// A solution of the whole in the terms of its half, which `of_half` solves.
 fn restricted(whole: &Solution, half: &symmetry::Half, of_half: &Solution) -> Solution {
     let u = half.nodes.iter().flat_map(|node| node.components(&whole.u));
     let elements = half.triangles.iter().map(|id| whole.elements[id.index()].clone());
-    Solution {
-        u: DVector::from_iterator(2 * half.nodes.len(), u),
-        elements: elements.collect(),
-        ..of_half.clone()
-    }
+    of_half.with_fields(DVector::from_iterator(2 * half.nodes.len(), u), elements.collect())
 }

@@ -34,7 +34,11 @@ pub struct Options {
 pub fn measure(request: &Request, options: &Options, watch: impl Fn(&str)) -> Result<Trade, Error> {
     let Request { scene, .. } = request;
     let reference = scene.model.target();
-    let reference = reference.and_then(|_| solve(&request.equilibrium(), &mut |_| ()).ok());
+    let reference = reference.map(|_| solve(&request.equilibrium(), &mut |_| ())).transpose();
+    let (reference, no_reference) = match reference {
+        Ok(found) => (found, None),
+        Err(why) => (None, Some(why.to_string())),
+    };
     let mut sections = Vec::new();
     for parameter in Varied::ALL.iter().filter(|parameter| options.only.contains(parameter)) {
         let trials = trials(request, *parameter);
@@ -50,6 +54,7 @@ pub fn measure(request: &Request, options: &Options, watch: impl Fn(&str)) -> Re
         nodes: scene.model.nodes.len(),
         triangles: scene.model.triangles.len(),
         runs: options.runs,
+        no_reference,
         sections,
     })
 }

@@ -19,6 +19,9 @@ pub struct Trade {
     pub triangles: usize,
     /// How many times each trial is run.
     pub runs: usize,
+    /// Why there is no equilibrium to measure errors against; absent where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_reference: Option<String>,
     /// A section for each parameter.
     pub sections: Vec<Section>,
 }

@@ -29,6 +29,10 @@ pub fn report(trade: &Trade) -> Report {
     .line(
         "* is on the Pareto front (time, displacement) of its table, > where the scene has the parameter",
     );
+    let report = match &trade.no_reference {
+        Some(why) => report.line(format!("No error against the equilibrium is known: {why}")),
+        None => report,
+    };
     trade.sections.iter().fold(report, |report, section| {
         let report =
             report.heading(format!("{}, errors against {}", section.parameter, section.against));

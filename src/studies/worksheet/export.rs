@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use base::error::InputError;
 use base::files;
-use engine::error::Result;
+use engine::error::{Error, Result};
 use engine::{self, Request};
 use paper::corrected::{Bound, STEPS, check, iterate};
 use paper::door;
@@ -79,23 +79,21 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
         return Err(InputError::new(&scene.name, what, "remove it from the mesh file").into());
     }
     let sheet = door::worksheet(&model, |x| x);
-    // Where the run stops, the worksheet has the listings alone.
-    let run =
-        waiting("solving", || engine::solve(&request, &mut |_| ())).ok().map(|solution| Run {
-            force: solution
-                .model
-                .load_in(|x| x)
-                .iter()
-                .zip(model.restraints())
-                .map(|(f, restraint)| if restraint.is_free() { *f } else { 0.0 })
-                .collect(),
-            iterations: solution.steps.len(),
-            pairs: door::Call::c_cnt(&model, &reading, &model.nodes)
-                .expect("the run called it")
-                .pairs,
-            u: solution.u.iter().copied().collect(),
-            stress: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
-        });
+    // Where the published algorithm stops, the worksheet has the listings alone.
+    let solved = waiting("solving", || engine::solve(&request, &mut |_| ()));
+    let run = Error::found(solved)?.map(|solution| Run {
+        force: solution
+            .model
+            .load_in(|x| x)
+            .iter()
+            .zip(model.restraints())
+            .map(|(f, restraint)| if restraint.is_free() { *f } else { 0.0 })
+            .collect(),
+        iterations: solution.steps.len(),
+        pairs: door::Call::c_cnt(&model, &reading, &model.nodes).expect("the run called it").pairs,
+        u: solution.u.iter().copied().collect(),
+        stress: solution.elements.iter().map(|state| state.von_mises_stress).collect(),
+    });
     Ok(write(&Export {
         title: &scene.title,
         sheet: &sheet,

@@ -153,6 +153,25 @@ const CASES: &[Case] = &[
         contains: &["slides as a whole under any part of the load", "a coefficient of 0.35"],
         lacks: &["no contact state", "times the load"],
     },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact trade scene.json --only c_tll --runs 1",
+        status: 0,
+        contains: &[
+            "No error against the equilibrium is known: there is no equilibrium: friction cannot hold the load",
+        ],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "gross-sliding",
+        command: "plane-contact audit scene.json --full",
+        status: 0,
+        contains: &[
+            "no equilibrium under the scene's own friction to compare with: there is no equilibrium: friction",
+            "no reference solution to compare with: node 114 of body \"2\" can move in x",
+        ],
+        lacks: &["panicked"],
+    },
     // Turned by half a radian.
     Case {
         input: "gross-sliding",

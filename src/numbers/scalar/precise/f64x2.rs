@@ -31,6 +31,7 @@ impl F64x2 {
         let hi = rational::nearest(x);
         match RBig::try_from(hi) {
             Ok(exact) => F64x2 { hi, lo: rational::nearest(&(x - exact)) },
+            // Beyond the range of an f64 it is infinite, and has no rest.
             Err(_) => F64x2 { hi, lo: 0.0 },
         }
     }

@@ -75,6 +75,7 @@ fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
 /// What `c_cnt` finds in the first shape, of those that a case comes to, with a node in contact.
 pub(super) fn first_in_contact(case: &Case) -> Result<Call, &'static str> {
     let shapes = shapes(case).into_iter();
+    // A shape at which `c_cnt` fails has no pairs.
     let mut calls = shapes.filter_map(|(_, shape)| c_cnt(case, case.model(), &shape).ok());
     calls.find(|call| call.statuses.iter().any(|status| status.in_contact)).ok_or("no contact")
 }

@@ -1,6 +1,7 @@
 //! The findings (`listings/READING.md`, section 5).
 
 use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
+use engine::contact::turned;
 use problem::model::{Model, Restraint};
 
 /// A repair that is a file in `listings/`.
@@ -349,9 +350,7 @@ pub const FINDINGS: &[Finding] = &[
 ];
 
 fn turn_target(model: &mut Model) {
-    for edge in &model.contact.target {
-        model.edges[edge.index()].nodes.reverse();
-    }
+    *model = turned(model);
 }
 
 /// Takes every restraint from the stamp, and all but its first contact node.

@@ -73,15 +73,18 @@ pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
     let reading = Reading { r4: Conjunction::LeftToRight, ..*case.reading() };
     let call = case.initial().map_err(|_| "c_cnt fails before line 18")?;
     let first = call.statuses.first().ok_or("no contact node")?.distance;
-    Ok(match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
+    if first >= 0.0 {
+        return Ok(Evidence::present_if(false, first, "yt[1] is not below 0"));
+    }
+    match Call::c_cnt(case.model(), &reading, &case.model().nodes) {
         Err(f) if f.line == 18 && f.cause == Cause::InvalidIndex => {
-            Evidence::present_if(true, first, f.to_string())
+            Ok(Evidence::present_if(true, first, f.to_string()))
         }
-        _ if first < 0.0 => {
-            Evidence::must_be_present(false, first, "yt[1] < 0, and line 18 does not stop")
+        Err(other) => Err(other.into()),
+        Ok(_) => {
+            Ok(Evidence::must_be_present(false, first, "yt[1] < 0, and line 18 does not stop"))
         }
-        _ => Evidence::present_if(false, first, "yt[1] is not below 0"),
-    })
+    }
 }
 
 /// C11: nodes that lie on their edge but for rounding, moved up and down by as much: whose status

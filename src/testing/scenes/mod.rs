@@ -1,0 +1,15 @@
+//! What needs models and scenes: packages that have none leave it out.
+
+pub mod annulus;
+pub mod bodies;
+pub mod drawn;
+pub mod embedded;
+pub mod golden;
+pub mod golden_file;
+pub mod golden_floats;
+pub mod hard;
+pub mod json;
+pub mod recorded;
+pub mod shipped;
+pub mod statuses;
+pub mod worksheets;
