@@ -45,3 +45,4 @@ pub use solution::{
 pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
+pub use support::{Resultant, resultant};

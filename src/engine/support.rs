@@ -4,7 +4,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
+use super::contact::ROUNDING_OF_A_FORCE;
 use super::elimination::{Constraint, Motion, sum};
 use numbers::scalar::Scalar;
 use problem::model::{Body, Dof, Hold, Model, NodeId, Restraint, Support};
@@ -93,6 +95,46 @@ pub fn reactions_of_supports(model: &Model, reactions: &DVector<f64>) -> Vec<[f6
         support.holds.iter().map(along).fold([0.0; 2], |[x, y], of| [x + of[0], y + of[1]])
     };
     model.supports.iter().map(sum).collect()
+}
+
+/// What contact passes from the contact body to the target's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Resultant {
+    /// The force on the target's body along x and y, force.
+    pub force: [f64; 2],
+    /// The point of its line of action next to the middle of the contact nodes, in the undeformed shape, length;
+    /// None where it vanishes.
+    pub through: Option<[f64; 2]>,
+}
+
+/// Returns what contact passes on: what restraints and loads leave of the contact body. None without contact, and
+/// where both surfaces are one body's.
+pub fn resultant(model: &Model, reactions: &DVector<f64>) -> Option<Resultant> {
+    let body = model.body_of(*model.contact.nodes.first()?)?;
+    if model.target()? == body {
+        return None;
+    }
+    let count = model.contact.nodes.len() as f64;
+    let sum = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        points.fold([0.0; 2], |[x, y], [px, py]| [x + px, y + py])
+    };
+    let places = &mut model.contact.nodes.iter().map(|node| model.coordinates(*node));
+    let middle = sum(places).map(|x| x / count);
+    let (mut force, mut moment, mut sizes) = ([0.0; 2], 0.0, 0.0);
+    for node in &body.nodes {
+        let ([rx, ry], [px, py]) = (node.components(reactions), node.components(&model.load));
+        let ([fx, fy], [x, y]) = ([rx + px, ry + py], model.coordinates(*node));
+        force = [force[0] + fx, force[1] + fy];
+        moment += (x - middle[0]) * fy - (y - middle[1]) * fx;
+        sizes += rx.hypot(ry) + px.hypot(py);
+    }
+    let [fx, fy] = force;
+    let size = fx.hypot(fy);
+    let through = (size > ROUNDING_OF_A_FORCE * sizes).then(|| {
+        let arm = moment / (size * size);
+        [middle[0] - arm * -fy, middle[1] - arm * fx]
+    });
+    Some(Resultant { force, through })
 }
 
 /// Returns the contact force on a constrained node, force.

@@ -3,7 +3,7 @@
 
 use approx::assert_relative_eq;
 use engine::error::Error;
-use engine::{Request, Solution, SupportForce};
+use engine::{Request, Solution, SupportForce, resultant};
 use problem::element::Plane;
 use problem::modelling::{Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -120,6 +120,12 @@ fn a_displaced_edge_presses_as_hooke_has_it() {
         let along = -s * top.reaction[0] + c * top.reaction[1];
         assert_relative_eq!(along, -2.0 * stress, max_relative = 1e-9);
         assert_relative_eq!(solution.target_force(), 2.0 * stress, max_relative = 1e-9);
+        let passed = resultant(&solution.model, &solution.reactions).expect("two bodies meet");
+        let back = |[x, y]: [f64; 2]| [c * x + s * y, c * y - s * x];
+        let ([fx, fy], [x, _]) = (back(passed.force), back(passed.through.expect("it presses")));
+        assert_relative_eq!(fx, 0.0, epsilon = 1e-9 * stress);
+        assert_relative_eq!(fy, -2.0 * stress, max_relative = 1e-9);
+        assert_relative_eq!(x, 1.0, max_relative = 1e-9);
     }
 }
 

@@ -52,7 +52,7 @@ fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
     let coupled = match &conclusion.coupled {
         Some(Coupled { joins: Some(0), share: Some(share), .. }) => format!(
             "As printed, Km adds no entry that joins the two bodies (K1): {} of the load reaches the target.",
-            percent(*share, 0)
+            percent(*share)
         ),
         other => conclusion::coupling(other.as_ref()),
     };
@@ -63,7 +63,7 @@ fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
             counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
             listed(runs.iter().map(short_name)),
             if runs.len() == 1 { "is" } else { "are equally" },
-            percent(runs[0].energy, 0)
+            percent(runs[0].energy)
         )
     });
     let other_code = audit.claims.iter().find(|judged| judged.claim.id == "P13");
@@ -104,10 +104,10 @@ fn run(row: &VariantRow) -> Vec<Cell> {
                 }
                 _ => in_contact.last().map_or("-".into(), usize::to_string),
             };
-            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative, 0));
+            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative));
             vec![
                 name,
-                Cell::percent(*target_share, 0),
+                Cell::percent(*target_share),
                 nodes.into(),
                 stresses(bodies).into(),
                 error.into(),
@@ -120,7 +120,7 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
     let nodes = found.in_contact.to_string();
     vec![
         "equilibrium".into(),
-        Cell::percent(found.target_share, 0),
+        Cell::percent(found.target_share),
         nodes.into(),
         stresses(&found.bodies).into(),
         Cell::Empty,
@@ -134,7 +134,7 @@ fn stresses(bodies: &[BodySummary]) -> String {
 
 fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
-    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error, 0)))
+    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error)))
 }
 
 /// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
@@ -196,14 +196,14 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Report {
     let fatal = of(Weight::Fatal).map(|price| ("fatal".to_string(), price));
     let shifts = conclusion::shifts(prices).into_iter().map(|k| {
         let price = &prices[k];
-        let far = or_dash(price.outcome.from_equilibrium(), |far| percent(far, 0));
+        let far = or_dash(price.outcome.from_equilibrium(), percent);
         (if price.outcome.is_settled() { far } else { format!("{far}, does not settle") }, price)
     });
     let rounding = of(Weight::Rounding).map(|price| (Weight::Rounding.to_string(), price));
     let said = fatal.chain(shifts).chain(rounding).map(|(cost, price)| {
         format!("{cost}: {}: {}", price.name.as_deref().unwrap_or("-"), price.fault)
     });
-    let own = or_dash(prices[0].outcome.from_equilibrium(), |own| percent(own, 0));
+    let own = or_dash(prices[0].outcome.from_equilibrium(), percent);
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
     report

@@ -83,7 +83,7 @@ fn readings(effects: &[Effect]) -> Report {
         .column("MJS entries changed", |effect| effect.entries)
         .column("largest difference", |effect| effect.displacement)
         .column("error in energy norm", |effect| {
-            effect.equilibrium_error.map(|error| Cell::percent(error, 2))
+            effect.equilibrium_error.map(|error| Cell::percent(error))
         })
         .column("of what", remark);
     Report::default()
@@ -174,11 +174,11 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
         cells.extend([
             in_contact.last().copied().into(),
             (state + nothing).into(),
-            Cell::percent(*target_share, 1),
+            Cell::percent(*target_share),
             (*eq1_residual).into(),
             stresses(bodies).into(),
-            distance.map(|from| Cell::percent(from.displacement_relative, 2)).into(),
-            distance.map(|from| Cell::percent(from.energy_relative, 2)).into(),
+            distance.map(|from| Cell::percent(from.displacement_relative)).into(),
+            distance.map(|from| Cell::percent(from.energy_relative)).into(),
             (*friction_needed).into(),
             pulling.len().into(),
         ]);

@@ -92,7 +92,7 @@ pub fn coupling(coupled: Option<&Coupled>) -> String {
             };
             match (share, failure) {
                 (Some(share), _) => {
-                    let share = percent(*share, 1);
+                    let share = percent(*share);
                     format!("{entries}, and under printed {share} of the load reaches the target.")
                 }
                 (None, Some(why)) => {
@@ -144,7 +144,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
             let tie = if runs.len() == 1 { "" } else { ", all equally near" };
             let others = if *by_rounding == 0 { "" } else { " of the others" };
             let apart = apart.iter().map(|run| {
-                let far = percent(run.energy, 1);
+                let far = percent(run.energy);
                 format!(" Apart: {}, {far} from the equilibrium of that plane problem.", named(run))
             });
             format!(
@@ -153,7 +153,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
                  norm, on the same mesh.{}",
                 counted(*tried, "run", "runs"),
                 listed(runs.iter().map(named)),
-                percent(runs[0].energy, 1),
+                percent(runs[0].energy),
                 apart.collect::<String>()
             )
         }
@@ -191,7 +191,7 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
                         nearest_variants(&fields.variants, fields.by_rounding),
                         largest_stress(&fields.theirs, scene),
                         listed(fields.theirs.iter().map(strain)),
-                        percent(difference, 1)
+                        percent(difference)
                     )
                 }
                 None => format!("Not decided here: no variant of the paper has a result. {own}"),
@@ -294,7 +294,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
                  own run does not trigger can cost something here, as the corrected algorithm comes to other \
                  shapes.",
                 prices.len() - 1,
-                or_dash(own, |own| percent(own, 1)),
+                or_dash(own, percent),
                 or_none(prices::of_weight(prices, Weight::Fatal)),
                 or_none(shifts(prices).into_iter().map(|k| shift(&prices[k]))),
                 or_none(prices::of_weight(prices, Weight::Rounding)),
@@ -330,7 +330,7 @@ pub fn shifts(prices: &[Price]) -> Vec<usize> {
 /// Says how far a fault leaves the solution from the equilibrium.
 fn shift(price: &Price) -> String {
     let name = price.name.as_deref().expect("the corrected algorithm shifts nothing");
-    let far = or_dash(price.outcome.from_equilibrium(), |far| percent(far, 1));
+    let far = or_dash(price.outcome.from_equilibrium(), percent);
     let settles = if price.outcome.is_settled() { "" } else { " (does not settle)" };
     format!("{name} {far}{settles}")
 }
@@ -361,8 +361,8 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
             format!(
                 "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} \
                  from the equilibrium; {verdicts}.{}",
-                percent(*least, 1),
-                percent(*most, 1),
+                percent(*least),
+                percent(*most),
                 true_from
                     .iter()
                     .map(|(id, value)| {
