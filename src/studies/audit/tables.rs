@@ -82,9 +82,7 @@ fn readings(effects: &[Effect]) -> Report {
         .column("dy changed", |effect| effect.statuses)
         .column("MJS entries changed", |effect| effect.entries)
         .column("largest difference", |effect| effect.displacement)
-        .column("error in energy norm", |effect| {
-            effect.equilibrium_error.map(|error| Cell::percent(error))
-        })
+        .column("error in energy norm", |effect| effect.equilibrium_error.map(Cell::percent))
         .column("of what", remark);
     Report::default()
         .table(

@@ -144,9 +144,7 @@ fn bodies(comparison: &Comparison) -> Table<Vec<&BodyStress>> {
         .column("body", |body| body.name.clone())
         .column("here", |body| body.ours)
         .column("CalculiX", |body| body.calculix)
-        .column("difference over CalculiX's", |body| {
-            body.relative().map(|relative| Cell::percent(relative))
-        })
+        .column("difference over CalculiX's", |body| body.relative().map(Cell::percent))
 }
 
 fn worst(compared: &Compared) -> Table<Vec<NodeId>> {

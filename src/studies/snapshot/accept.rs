@@ -28,5 +28,7 @@ pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     });
     let runs: Vec<(String, Run)> = again.collect::<Result<_>>()?;
     let (version, units) = (VERSION.into(), scene.units.clone());
-    Ok(Snapshot { format: FORMAT, version, units, input, runs: runs.into_iter().collect() })
+    let scene_file = snapshot.scene_file.clone();
+    let runs = runs.into_iter().collect();
+    Ok(Snapshot { format: FORMAT, version, units, scene_file, input, runs })
 }

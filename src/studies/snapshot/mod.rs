@@ -25,6 +25,7 @@ mod verify;
 mod words;
 
 use std::collections::HashSet;
+use std::path::Path;
 
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -61,6 +62,9 @@ pub struct Snapshot {
     pub version: String,
     /// The units of the scene by quantity, each empty where the scene names none.
     pub units: Units,
+    /// The path of the scene file from the folder of the snapshot, with `/`; absent where the scene has none there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene_file: Option<String>,
     /// The scene and its mesh, whole.
     pub input: Input,
     /// The runs by name.
@@ -184,7 +188,7 @@ impl Snapshot {
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         let (version, units) = (VERSION.into(), scene.units.clone());
         let input = Input::from_scene(scene)?;
-        Ok(Snapshot { format: FORMAT, version, units, input, runs })
+        Ok(Snapshot { format: FORMAT, version, units, scene_file: None, input, runs })
     }
 
     /// Returns the scene that was recorded.
@@ -193,6 +197,16 @@ impl Snapshot {
     /// It was changed after it was recorded, or is at fault.
     pub fn scene(&self) -> Result<Scene> {
         self.input.build().map_err(|error| error.within("the snapshot"))
+    }
+
+    /// Opens the scene file that a snapshot in `folder` was recorded from, as it is today; None where it is not
+    /// there.
+    ///
+    /// # Errors
+    /// The scene is at fault.
+    pub fn scene_today(&self, folder: &Path) -> Result<Option<Scene>> {
+        let path = self.scene_file.as_ref().map(|file| folder.join(file));
+        path.filter(|path| path.is_file()).map(Scene::open).transpose()
     }
 
     /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.

@@ -17,6 +17,8 @@ use report::model::Report;
 pub struct VerifiedFile {
     /// The name of the file, as given.
     pub file: String,
+    /// What is to be said of the scene that was run: it is the file as it is today, or no file is there.
+    pub scene: Option<String>,
     /// What verifying it found, or why it could not be verified.
     pub verified: Result<Verified, Error>,
 }
@@ -74,20 +76,22 @@ fn verdict(run: &VerifiedRun) -> String {
 
 /// Reports what verifying found: file by file its runs, and in what they differ.
 pub fn report(checked: &[VerifiedFile]) -> Report {
-    checked.iter().fold(Report::default(), |report, VerifiedFile { file, verified }| match verified
-    {
-        Err(why) => report
-            .line(format!("{file}: error, it cannot be verified"))
-            .code(format!("error: {why}\n")),
-        Ok(verified) => {
-            let report = report.line(format!("{file}: {}", outcome(verified)));
-            verified.runs.iter().fold(report, |report, run| {
-                let report = report.note(format!("{}: {}", run.name, verdict(run)));
-                match run.differences.is_empty() {
-                    true => report,
-                    false => report.code(run_words(run)),
-                }
-            })
+    checked.iter().fold(Report::default(), |report, VerifiedFile { file, scene, verified }| {
+        match verified {
+            Err(why) => report
+                .line(format!("{file}: error, it cannot be verified"))
+                .code(format!("error: {why}\n")),
+            Ok(verified) => {
+                let report =
+                    report.line(format!("{file}: {}", outcome(verified))).notes(scene.clone());
+                verified.runs.iter().fold(report, |report, run| {
+                    let report = report.note(format!("{}: {}", run.name, verdict(run)));
+                    match run.differences.is_empty() {
+                        true => report,
+                        false => report.code(run_words(run)),
+                    }
+                })
+            }
         }
     })
 }

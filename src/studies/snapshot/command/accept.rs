@@ -9,7 +9,7 @@ use base::plain::shown;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use super::verify::snapshot_of;
+use super::verify::{scene_of, snapshot_of};
 use commands::{print_report, waiting, within};
 
 /// Record a snapshot again, and print what changed.
@@ -20,26 +20,27 @@ it; see it before by verify.
 
 Examples:
   plane-contact snapshot accept out/fig1.snapshot.json
-  plane-contact snapshot accept my/snapshot.json --scene my/scene.json    the scene as it is today")]
+  plane-contact snapshot accept my/block.snapshot.json --scene my/other.json")]
 pub struct Args {
     /// A snapshot.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Record this scene in place of the one in the snapshot.
+    /// Record this scene [default: the file that it was recorded from, else the scene in the snapshot].
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
     let file = shown(&args.file);
-    let scene = args.scene.as_deref().map(Scene::open).transpose()?;
+    let given = args.scene.as_deref().map(Scene::open).transpose()?;
     let text = files::read(&args.file);
     // What cannot be read is named below.
     let was = text.as_ref().ok().cloned().unwrap_or_default();
     let old = snapshot_of(&args.file, text)?;
+    let (scene, said) = scene_of(&args.file, &old, given.as_ref())?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let new = new.map_err(|error| within(error, &file))?;
     files::rewrite(&args.file, &was, &report::file(&new))?;
     let verified = Ok(difference(&old, &new));
-    print_report(report::report(&[VerifiedFile { file, verified }]))
+    print_report(report::report(&[VerifiedFile { file, scene: said, verified }]))
 }

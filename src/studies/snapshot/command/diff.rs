@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let verified = difference(&sides[0], &sides[1]);
     let status = ExitStatus::compared(verified.is_same());
     let file = format!("{} and {}", shown(names[0]), shown(names[1]));
-    let checked = [VerifiedFile { file, verified: Ok(verified) }];
+    let checked = [VerifiedFile { file, scene: None, verified: Ok(verified) }];
     print_either(args.json, || report::json(&checked), || report::report(&checked))?;
     Ok(status)
 }

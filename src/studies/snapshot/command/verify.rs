@@ -7,16 +7,18 @@ use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{self, Snapshot};
 use base::error::InputError;
 use base::exit::ExitStatus;
-use base::files;
+use base::files::{self, kind_of};
 use base::plain::shown;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use commands::{print_either, progress, report_error, within};
+use commands::{print_either, print_stderr, progress, report_error, within};
 
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
 #[command(after_help = "\
+Runs the scene file that a snapshot was recorded from, as it is today, where that is still there, else the scene
+in the snapshot. Among several files scenes are skipped.
 Facts and units are the same or not; numbers agree within the bounds on both runs' rounding errors, or
 within the tolerance that the snapshot gives. What is new or missing and other lengths are differences.
 Of a difference it says what went in and differs too, where the runs first differ, and the printed
@@ -25,13 +27,13 @@ all the same.
 
 Examples:
   plane-contact snapshot verify out/fig1.snapshot.json
-  plane-contact snapshot verify my/*.json --junit verify.xml --report summary.markdown
-  plane-contact snapshot verify my/snapshot.json --scene my/scene.json    the scene as it is today")]
+  plane-contact snapshot verify my/*.snapshot.json --junit verify.xml --report summary.markdown
+  plane-contact snapshot verify my/block.snapshot.json --scene my/other.json")]
 pub struct Args {
     /// Snapshots.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Run this scene in place of the one in the snapshot.
+    /// Run this scene [default: the file that a snapshot was recorded from, else the scene in it].
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
     /// Print JSON in place of text.
@@ -47,7 +49,16 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<ExitStatus> {
     let scene = args.scene.as_deref().map(Scene::open).transpose()?;
-    let snapshots = args.files.iter().map(|file| snapshot_of(file, files::read(file)));
+    let texts = args.files.iter().map(|file| (file, files::read(file)));
+    let (scenes, mut snapshots): (Vec<_>, Vec<_>) = texts.partition(|(_, text)| is_scene(text));
+    if snapshots.is_empty() {
+        snapshots = scenes;
+    } else {
+        scenes.iter().for_each(|(file, _)| {
+            print_stderr(&format!("note: {} is a scene, and skipped\n", shown(file)));
+        });
+    }
+    let snapshots = snapshots.into_iter().map(|(file, text)| (&**file, snapshot_of(file, text)));
     let snapshots = snapshots.collect();
     let written = [&args.junit, &args.report].into_iter().flatten();
     written.clone().try_for_each(|file| files::check_file(file))?;
@@ -57,7 +68,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         let what = "both --junit and --report write this file";
         return Err(InputError::new("--report", what, "name another file").into());
     }
-    let checked = check(&args.files, snapshots, scene.as_ref());
+    let checked = check(snapshots, scene.as_ref());
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }
@@ -77,6 +88,36 @@ fn report(checked: &[VerifiedFile], json: bool) -> Result<ExitStatus> {
     Ok(statuses.first().copied().unwrap_or(ExitStatus::compared(is_same)))
 }
 
+fn is_scene(text: &io::Result<Vec<u8>>) -> bool {
+    text.as_ref().is_ok_and(|text| kind_of(text) == Some("a scene file"))
+}
+
+/// Returns the scene that a snapshot's runs are made of where it is not the one in the snapshot: a `given` one, or
+/// the file from which it was recorded; and what is to be said of it.
+///
+/// # Errors
+/// The scene is at fault.
+pub fn scene_of(
+    file: &Path,
+    snapshot: &Snapshot,
+    given: Option<&Scene>,
+) -> Result<(Option<Scene>, Option<String>)> {
+    let (None, Some(path)) = (given, &snapshot.scene_file) else {
+        return Ok((given.cloned(), None));
+    };
+    let scene = snapshot.scene_today(file.parent().unwrap_or(Path::new("")))?;
+    let said = match &scene {
+        None => Some(format!("scene file {path} is not there: the scene in the snapshot is run")),
+        Some(scene) => {
+            let [scene_sha256, mesh_sha256] = scene.hashes().expect("it is whole");
+            let own = &snapshot.input;
+            let is_same = *scene_sha256 == own.scene_sha256 && *mesh_sha256 == own.mesh_sha256;
+            (!is_same).then(|| format!("scene file {path} was edited since"))
+        }
+    };
+    Ok((scene, said))
+}
+
 /// Reads the snapshot in the text of a file.
 pub fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
     let place = shown(file);
@@ -88,22 +129,23 @@ pub fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
 }
 
 /// Verifies snapshots one by one, with a progress bar over their runs.
-fn check(
-    files: &[PathBuf],
-    snapshots: Vec<Result<Snapshot>>,
-    scene: Option<&Scene>,
-) -> Vec<VerifiedFile> {
-    let runs = snapshots.iter().flatten().map(|snapshot| snapshot.runs.len()).sum();
+fn check(snapshots: Vec<(&Path, Result<Snapshot>)>, given: Option<&Scene>) -> Vec<VerifiedFile> {
+    let read = snapshots.iter().filter_map(|(_, snapshot)| snapshot.as_ref().ok());
+    let runs = read.map(|snapshot| snapshot.runs.len()).sum();
     let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
-    let check = |(file, snapshot): (&PathBuf, Result<Snapshot>)| {
-        let file = shown(file);
+    let check = |(path, snapshot): (&Path, Result<Snapshot>)| {
+        let file = shown(path);
         let verified = snapshot.and_then(|snapshot| {
-            let verified = snapshot::verify(&snapshot, scene, &|| bar.inc(1));
-            verified.map_err(|error| within(error, &file))
+            let (scene, said) = scene_of(path, &snapshot, given)?;
+            let verified = snapshot::verify(&snapshot, scene.as_ref(), &|| bar.inc(1));
+            Ok((verified.map_err(|error| within(error, &file))?, said))
         });
-        VerifiedFile { file, verified }
+        match verified {
+            Ok((verified, scene)) => VerifiedFile { file, scene, verified: Ok(verified) },
+            Err(why) => VerifiedFile { file, scene: None, verified: Err(why) },
+        }
     };
-    let checked = files.iter().zip(snapshots).map(check).collect();
+    let checked = snapshots.into_iter().map(check).collect();
     bar.finish_and_clear();
     checked
 }
