@@ -19,9 +19,7 @@ use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::symmetric::SparseSymmetric;
 use mathcad::SparseSquare;
-use numbers::scalar::{
-    Bounded, BoundedDouble, Exact, F64x2, Field, Rounded, Scalar, WithBound, scope,
-};
+use numbers::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
 
 /// A solution of linear equations.
 #[derive(Clone, Debug)]
