@@ -37,12 +37,9 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     if conclusion.coupled.is_none() {
         return report.line(more(scene));
     }
-    let others = of_the_paper(&audit.variants).filter(|(_, row)| !is_nearest(conclusion, row));
-    let others = others.filter_map(|(_, row)| evidence(row, scene));
     report
         .table("Runs of the paper's algorithm, and the equilibrium under the scene's own friction", runs(audit, scene))
         .notes(error_of_the_mesh(conclusion))
-        .notes(others)
         .table(format!("The paper's {}", claims::counts()), statements(&audit.claims))
         .note("*: the threshold, or a part of the statement, is this audit's; the paper gives none. audit --claim P12 \
              explains one.")
