@@ -109,7 +109,7 @@ fn status_rules() {
         for target in ["below", "above"] {
             let row = Row::of(&mut rng, EDGES, depth, |_| target == "above");
             let share = |score: &Score| {
-                percent((score.missed + score.false_contacts) as f64 / row.nodes as f64)
+                percent((score.missed + score.false_contacts) as f64 / row.nodes as f64, 1)
             };
             let (touching, missed) = (row.touching, row.scores[0].missed);
             rows.push(format!(

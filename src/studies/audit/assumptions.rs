@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::range::is_example;
+use base::plain::six_digits;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
@@ -27,25 +28,25 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     let [width, height] = across(model, &stamp.nodes);
     let restrained =
         |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
-    let of_example = is_example(scene);
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
+    // The parts of the paper's example have names of their own.
+    let [of_target, of_contact, shape, axis] = match is_example(scene) {
+        true => [
+            "radius of the duct (half the width of the target surface)",
+            "radius of the strand (half the width of the contact surface)",
+            "shape of the stamp (width x height)",
+            "restraint of the stamp's axis",
+        ],
+        false => [
+            "half the width of the target surface",
+            "half the width of the contact surface",
+            "contact body (width x height)",
+            "restraint of the contact body",
+        ],
+    };
     vec![
-        assumed(
-            if of_example {
-                "radius of the duct (half the width of the target surface)"
-            } else {
-                "half the width of the target surface"
-            },
-            format!("{:.6} {unit}", across(model, &target)[0] / 2.0),
-        ),
-        assumed(
-            if of_example {
-                "radius of the strand (half the width of the contact surface)"
-            } else {
-                "half the width of the contact surface"
-            },
-            format!("{:.6} {unit}", across(model, contact)[0] / 2.0),
-        ),
+        assumed(of_target, format!("{} {unit}", six_digits(across(model, &target)[0] / 2.0))),
+        assumed(of_contact, format!("{} {unit}", six_digits(across(model, contact)[0] / 2.0))),
         assumed(
             "mesh",
             format!(
@@ -55,12 +56,9 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
                 model.contact.target.len()
             ),
         ),
-        assumed("shape of the stamp (width x height)", format!("{width:.6} x {height:.6} {unit}")),
+        assumed(shape, format!("{} x {} {unit}", six_digits(width), six_digits(height))),
         assumed("plane problem", format!("plane {}", model.plane)),
-        assumed(
-            "restraint of the stamp's axis",
-            format!("{} nodes of the stamp in x, {} in y", restrained(0), restrained(1)),
-        ),
+        assumed(axis, format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
         assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),
     ]
 }

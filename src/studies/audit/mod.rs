@@ -83,6 +83,8 @@ pub struct Compared {
     pub target_share: f64,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
+    /// The error of the mesh in the energy norm, relative; nothing where it is not known.
+    pub mesh_error: Option<f64>,
     /// The decision of its contact state that is nearest to another one.
     pub nearest: Option<NearestDecision>,
     /// What changes of the input in the last digits do to it.
@@ -164,6 +166,7 @@ fn compared(solution: &Solution, whole: bool) -> Compared {
         in_contact: solution.in_contact().count(),
         target_share: variants::target_share(solution),
         bodies: summaries(solution),
+        mesh_error: variants::mesh_error(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: if whole { perturbed(solution) } else { None },
     }

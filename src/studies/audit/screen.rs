@@ -7,13 +7,15 @@ use crate::audit::conclusion::words as conclusion;
 use crate::audit::conclusion::{Conclusion, Coupled, NearRun, of_the_paper};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
-use crate::audit::variants::{End, VariantRow};
+use crate::audit::range::is_example;
+use crate::audit::variants::{End, PressedAcross, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
 use engine::BodySummary;
+use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
-use report::numbers::{or_dash, percent, significant, with_unit};
+use report::numbers::{figure, or_dash, percent, with_unit};
 use report::tables::UNDERESTIMATE;
 
 /// The most columns of the screen.
@@ -31,24 +33,23 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
          the authors ran, which is not public. A listing may be misprinted; the authors were not asked.",
     )
     .heading("Verdict")
-    .notes(verdict(audit, conclusion));
+    .notes(verdict(audit, conclusion, scene));
     if conclusion.coupled.is_none() {
         return report.line(more(scene));
     }
     report
         .table("Runs of the paper's algorithm, and the equilibrium under the scene's own friction", runs(audit, scene))
         .notes(error_of_the_mesh(conclusion))
-        .notes(inside(audit, scene))
         .table(format!("The paper's {}", claims::counts()), statements(&audit.claims))
         .note("*: the threshold, or a part of the statement, is this audit's; the paper gives none. audit --claim P12 \
              explains one.")
         .then(faults(&audit.prices))
-        .line(assumed(&audit.assumptions))
+        .line(assumed(&audit.assumptions, scene))
         .line(more(scene))
 }
 
 /// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
-fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
+fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String> {
     let coupled = match &conclusion.coupled {
         Some(Coupled { joins: Some(0), share: Some(share), .. }) => format!(
             "As printed, Km adds no entry that joins the two bodies (K1): {} of the load reaches the target.",
@@ -56,26 +57,51 @@ fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
         ),
         other => conclusion::coupling(other.as_ref()),
     };
-    let nearest = conclusion.nearest.as_ref().map(|nearest| {
-        let runs = &nearest.runs;
-        format!(
+    let nearest = match &conclusion.nearest {
+        Some(nearest) => Some(format!(
             "Of {} {} {} nearest to the equilibrium: {} from it in the energy norm, on the same mesh.",
             counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
-            listed(runs.iter().map(short_name)),
-            if runs.len() == 1 { "is" } else { "are equally" },
-            percent(runs[0].energy)
-        )
-    });
+            listed(nearest.runs.iter().map(short_name)),
+            if nearest.runs.len() == 1 { "is" } else { "are equally" },
+            percent(nearest.runs[0].energy)
+        )),
+        None if conclusion.coupled.is_none() => None,
+        None if conclusion.fields.is_none() => Some(
+            "There is no equilibrium to compare with: no run, fault or statement is judged by its distance from one."
+                .into(),
+        ),
+        None => Some("No run of the paper's algorithm ends with a result.".into()),
+    };
+    let is_example = is_example(scene);
+    let range = (is_example && conclusion.reading == Reading::default()).then(conclusion::recorded);
+    let strongest = of_the_paper(&audit.variants).filter(|(_, row)| is_nearest(conclusion, row));
+    let strongest = strongest.filter_map(|(_, row)| evidence(row, scene));
     let other_code = audit.claims.iter().find(|judged| judged.claim.id == "P13");
-    let other_code = other_code.filter(|judged| judged.measured.verdict == Verdict::NotCheckable);
+    let other_code =
+        other_code.filter(|judged| is_example && judged.measured.verdict == Verdict::NotCheckable);
     let other_code =
         other_code.map(|_| "Agreement with the commercial code cannot be checked (P13).".into());
-    std::iter::once(coupled).chain(nearest).chain(other_code).collect()
+    std::iter::once(coupled)
+        .chain(nearest)
+        .chain(range)
+        .chain(strongest)
+        .chain(other_code)
+        .collect()
+}
+
+/// Whether a variant is one of the nearest, whose evidence stands in the verdict.
+fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
+    let mut runs = conclusion.nearest.iter().flat_map(|nearest| &nearest.runs);
+    runs.any(|run| run.reading.is_none() && run.variant == row.variant)
 }
 
 /// Names a run, with its reading where that is not the default.
-fn short_name(NearRun { variant, reading, .. }: &NearRun) -> String {
-    reading.as_ref().map_or(variant.to_string(), |reading| format!("{variant} ({reading})"))
+fn short_name(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
+    let unsettled = if *unsettled { ", unsettled" } else { "" };
+    match reading {
+        None => format!("{variant}{unsettled}"),
+        Some(reading) => format!("{variant} ({reading}{unsettled})"),
+    }
 }
 
 /// The paper's variants, and the equilibrium.
@@ -93,14 +119,14 @@ fn run(row: &VariantRow) -> Vec<Cell> {
     let name = row.variant.to_string().into();
     match &row.end {
         End::Failure { failure } => vec![name, Cell::Empty, failure.in_short().into()],
-        End::Result { in_contact, target_share, cycle, bodies, distance, .. } => {
+        End::Result { in_contact, target_share, cycle, bodies, distance, mesh_error, .. } => {
             let nodes = match cycle {
                 Some(cycle) if cycle.length > 1 => {
                     let mut counts: Vec<usize> =
                         cycle.members.iter().map(|k| in_contact[k - 1]).collect();
                     counts.sort_unstable();
                     counts.dedup();
-                    format!("alternates, {}", listed(counts))
+                    format!("unsettled: {}", listed(counts))
                 }
                 _ => in_contact.last().map_or("-".into(), usize::to_string),
             };
@@ -109,7 +135,7 @@ fn run(row: &VariantRow) -> Vec<Cell> {
                 name,
                 Cell::percent(*target_share),
                 nodes.into(),
-                stresses(bodies).into(),
+                stresses(bodies, *mesh_error).into(),
                 error.into(),
             ]
         }
@@ -122,13 +148,13 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
         "equilibrium".into(),
         Cell::percent(found.target_share),
         nodes.into(),
-        stresses(&found.bodies).into(),
+        stresses(&found.bodies, found.mesh_error).into(),
         Cell::Empty,
     ]
 }
 
-fn stresses(bodies: &[BodySummary]) -> String {
-    let each = bodies.iter().map(|body| significant(body.max_von_mises_stress, 3));
+fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
+    let each = bodies.iter().map(|body| figure(body.max_von_mises_stress, error));
     each.collect::<Vec<_>>().join(" / ")
 }
 
@@ -137,27 +163,41 @@ fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error)))
 }
 
-/// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
-/// pass a load on.
-fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
-    let said = |row: &VariantRow| match &row.end {
-        End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
-            if found.depth > 0.0 =>
-        {
-            let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
-            let status = if found.in_contact { "in contact" } else { "not in contact" };
-            let pulls = match pulling.len() {
-                0 => String::new(),
-                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
-            };
-            Some(format!(
-                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
-                row.variant, found.node
-            ))
-        }
-        End::Result { .. } | End::Failure { .. } => None,
+/// Says what is wrong with a run that passes a load on: which node is pressed across an open gap, which ends inside
+/// the target, how many pull, and how far a symmetric scene answers unsymmetrically.
+fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
+    let End::Result {
+        penetration,
+        pulling,
+        transmits_nothing: false,
+        across,
+        asymmetry,
+        mesh_error,
+        ..
+    } = &row.end
+    else {
+        return None;
     };
-    of_the_paper(&audit.variants).filter_map(|(_, row)| said(row)).collect()
+    let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
+    let across = across.map(|PressedAcross { node, pressure, gap }| {
+        let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
+        format!("node {node} is pressed with {pressure} across an open gap of {}", length(gap))
+    });
+    let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
+        let status = if found.in_contact { "though in contact" } else { "carries nothing" };
+        format!("node {}, {} inside the target, {status}", found.node, length(found.depth))
+    });
+    let pulls = (!pulling.is_empty())
+        .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
+    let mirrored = asymmetry.filter(|part| *part > 0.0).map(|part| {
+        format!(
+            "the symmetric scene answers unsymmetrically, by {} of the largest |u|",
+            percent(part)
+        )
+    });
+    let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
+    let unsettled = if row.end.is_unsettled() { " (unsettled)" } else { "" };
+    (!faults.is_empty()).then(|| format!("{}{unsettled}: {}.", row.variant, faults.join("; ")))
 }
 
 /// The statements by verdict, in a row for each scope.
@@ -203,7 +243,8 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Report {
     let said = fatal.chain(shifts).chain(rounding).map(|(cost, price)| {
         format!("{cost}: {}: {}", price.name.as_deref().unwrap_or("-"), price.fault)
     });
-    let own = or_dash(prices[0].outcome.from_equilibrium(), percent);
+    let own = prices[0].outcome.from_equilibrium();
+    let own = own.map_or("no equilibrium to compare with".into(), percent);
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
     report
@@ -218,10 +259,11 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Report {
         )
 }
 
-fn assumed(assumptions: &[Assumption]) -> String {
+fn assumed(assumptions: &[Assumption], scene: &Scene) -> String {
     let each =
         assumptions.iter().map(|assumption| format!("{}: {}", assumption.what, assumption.set_to));
-    format!("Assumed, as the paper is silent: {}.", each.collect::<Vec<_>>().join("; "))
+    let what = if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" };
+    format!("{what}: {}.", each.collect::<Vec<_>>().join("; "))
 }
 
 fn more(scene: &Scene) -> String {
