@@ -26,14 +26,16 @@ mod search;
 pub mod svg;
 pub mod view;
 
-pub use self::chart::{Axis, SERIES, Series, Style, chart};
+pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
 pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, points};
 
 use self::bodies::{draw_bodies, legend};
+use self::colour::{COLOURS, ColourScale, parts};
 use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
-use self::svg::group;
+use self::raster::Raster;
+use self::svg::{Anchor, Coloured, DARK, group, segments, text};
 use self::view::{Bounds, View};
 use base::xml::Element;
 
@@ -75,6 +77,36 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
     put_panels(&mut page, drawing, &picture.deformed, |view| picture.draw(view));
     page.colour_bar(&picture.scale, field.quantity, field.unit);
     picture.captions().iter().for_each(|words| page.paragraph(words));
+    page.finish()
+}
+
+/// Draws a quantity of the triangles under several names side by side on the undeformed mesh, all in the colours of
+/// one scale, as pixels.
+pub fn beside(
+    drawing: &Drawing,
+    quantity: &str,
+    unit: &str,
+    fields: &[(String, Vec<f64>)],
+) -> String {
+    let mut page = Page::small(quantity);
+    let all: Vec<f64> = fields.iter().flat_map(|(_, values)| values.iter().copied()).collect();
+    let scale = ColourScale::from_values(&all);
+    let outline = boundary_edges(&drawing.triangles);
+    let views = page.repeated(&Bounds::around(&drawing.points), fields.len());
+    for ((name, values), view) in fields.iter().zip(&views) {
+        let [x, y] = view.frame.corner;
+        let pixels = view.all(&drawing.points);
+        let mut raster = Raster::new(view.frame);
+        for (triangle, value) in drawing.triangles.iter().zip(values) {
+            raster.triangle(triangle.map(|point| pixels[point]), scale.part(*value, COLOURS));
+        }
+        page.put(text([x, y - 8.0], Anchor::Start, name));
+        page.put(raster.image(&parts(COLOURS)));
+        page.put(segments(&outline, &pixels).stroke(DARK, 0.8));
+    }
+    let lowest = views.iter().map(|view| view.frame.corner[1] + view.frame.size[1]);
+    page.y = lowest.fold(page.y, f64::max) + 4.0;
+    page.colour_bar(&scale, quantity, unit);
     page.finish()
 }
 

@@ -1,5 +1,7 @@
 //! What the paper does not give, and what a scene has in its place.
 
+use std::fmt::{self, Display, Formatter};
+
 use serde::Serialize;
 
 use super::range::is_example;
@@ -13,6 +15,12 @@ pub struct Assumption {
     pub what: &'static str,
     /// What the scene has.
     pub set_to: String,
+}
+
+impl Display for Assumption {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        write!(out, "{}: {}", self.what, self.set_to)
+    }
 }
 
 /// What a scene assumes; nothing without contact.

@@ -124,10 +124,10 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
         calculix: beside.as_ref().map(|beside| beside.compared(case)),
         charts,
     };
-    let report = document(&contents);
     match args.format {
-        Format::Html => commands::write_page(&args.out, out, &page::html(&report, &contents))?,
+        Format::Html => commands::write_page(&args.out, out, &page::html(&contents))?,
         Format::Markdown => {
+            let report = document(&contents);
             let page = files::MARKDOWN.to_string() + &report.markdown();
             let mut written = report.figures();
             written.push((name_of(out)?, &page));
