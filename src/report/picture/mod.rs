@@ -42,6 +42,9 @@ use base::xml::Element;
 /// A contact zone that fills this part of the picture is not enlarged beside it.
 const ENLARGED_UP_TO: f64 = 0.8;
 
+/// How much is shown about a contact surface, over its size.
+const ABOUT: f64 = 0.2;
+
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {
     let mut page = Page::new(&drawing.title);
@@ -80,6 +83,19 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
     page.finish()
 }
 
+/// Returns what is shown of a mesh where its contact matters: the contact surface and what lies about it; the whole
+/// where that is not much more.
+fn around_contact(drawing: &Drawing) -> Bounds {
+    let whole = Bounds::around(&drawing.points);
+    let nodes = drawing.contact.as_ref().map_or(&[][..], |contact| &contact.nodes);
+    if nodes.is_empty() {
+        return whole;
+    }
+    let zone = Bounds::around(nodes.iter().map(|node| &drawing.points[*node]));
+    let zone = zone.padded(ABOUT * zone.larger_side());
+    if zone.larger_side() < ENLARGED_UP_TO * whole.larger_side() { zone } else { whole }
+}
+
 /// Draws a quantity of the triangles under several names side by side on the undeformed mesh, all in the colours of
 /// one scale, as pixels.
 pub fn beside(
@@ -92,7 +108,7 @@ pub fn beside(
     let all: Vec<f64> = fields.iter().flat_map(|(_, values)| values.iter().copied()).collect();
     let scale = ColourScale::from_values(&all);
     let outline = boundary_edges(&drawing.triangles);
-    let views = page.repeated(&Bounds::around(&drawing.points), fields.len());
+    let views = page.repeated(&around_contact(drawing), fields.len());
     for ((name, values), view) in fields.iter().zip(&views) {
         let [x, y] = view.frame.corner;
         let pixels = view.all(&drawing.points);
@@ -102,6 +118,8 @@ pub fn beside(
         }
         page.put(text([x, y - 8.0], Anchor::Start, name));
         page.put(raster.image(&parts(COLOURS)));
+        let seen = |edge: &&[usize; 2]| edge.iter().all(|end| view.shows(&[pixels[*end]]));
+        let outline: Vec<[usize; 2]> = outline.iter().filter(seen).copied().collect();
         page.put(segments(&outline, &pixels).stroke(DARK, 0.8));
     }
     let lowest = views.iter().map(|view| view.frame.corner[1] + view.frame.size[1]);

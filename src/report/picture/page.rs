@@ -115,6 +115,9 @@ impl Page {
 
     /// Puts signs with their words, in as many rows as needed.
     pub fn legend(&mut self, entries: &[(Sign, String)]) {
+        if entries.is_empty() {
+            return;
+        }
         let mut x = MARGIN;
         for (sign, words) in entries {
             let width = 34.0 + text_width(words, TEXT_SIZE);

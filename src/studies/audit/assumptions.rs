@@ -36,6 +36,10 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     let restrained =
         |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
     let of_example = is_example(scene);
+    let stamp_words = match of_example {
+        true => ["shape of the stamp (width x height)", "restraint of the stamp's axis"],
+        false => ["size of the body with the contact surface", "its restraints"],
+    };
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
     vec![
         assumed(
@@ -63,14 +67,19 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
                 model.contact.target.len()
             ),
         ),
-        assumed("shape of the stamp (width x height)", format!("{width:.6} x {height:.6} {unit}")),
+        assumed(stamp_words[0], format!("{width:.6} x {height:.6} {unit}")),
         assumed("plane problem", format!("plane {}", model.plane)),
-        assumed(
-            "restraint of the stamp's axis",
-            format!("{} nodes of the stamp in x, {} in y", restrained(0), restrained(1)),
-        ),
+        assumed(stamp_words[1], format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
         assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),
     ]
+}
+
+/// The relative radius of duct and strand in the paper's example, length: both arcs are half circles or more.
+pub fn relative_radius(scene: &Scene) -> Option<f64> {
+    let target: Vec<NodeId> = scene.model.target_edges().flat_map(|edge| edge.nodes).collect();
+    let [duct, strand] =
+        [&target, &scene.model.contact.nodes].map(|nodes| across(&scene.model, nodes)[0] / 2.0);
+    is_example(scene).then(|| duct * strand / (duct - strand))
 }
 
 /// Width and height of a set of nodes, length.

@@ -7,8 +7,10 @@ use crate::audit::conclusion::words as conclusion;
 use crate::audit::conclusion::{Conclusion, Coupled, NearRun, of_the_paper};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
-use crate::audit::variants::{End, VariantRow};
+use crate::audit::range::is_example;
+use crate::audit::variants::{Across, End, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
+use crate::calculix::RECORDED;
 use engine::BodySummary;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
@@ -153,7 +155,8 @@ fn runs(audit: &Audit, scene: &Scene) -> Table {
         format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
     let rows = of_the_paper(&audit.variants)
         .map(|(_, row)| run(row))
-        .chain(audit.equilibrium.as_ref().map(equilibrium));
+        .chain(audit.equilibrium.as_ref().map(equilibrium))
+        .chain(is_example(scene).then(calculix));
     Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
 }
 
@@ -195,6 +198,12 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
     ]
 }
 
+/// CalculiX's recorded figures.
+fn calculix() -> Vec<Cell> {
+    let stresses = RECORDED.map(|(_, stress)| significant(stress, 3)).join(" / ");
+    vec!["CalculiX, recorded".into(), Cell::Empty, Cell::Empty, stresses.into()]
+}
+
 fn stresses(bodies: &[BodySummary]) -> String {
     let each = bodies.iter().map(|body| significant(body.max_von_mises_stress, 3));
     each.collect::<Vec<_>>().join(" / ")
@@ -205,23 +214,27 @@ fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error, 0)))
 }
 
-/// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
-/// pass a load on.
+/// Says which node is pressed across an open gap, which ends deepest inside the target, and how many pull, under
+/// the paper's variants that pass a load on.
 fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
+    let length = |x: f64| with_unit(&significant(x, 2), &scene.units.length);
     let said = |row: &VariantRow| match &row.end {
-        End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
-            if found.depth > 0.0 =>
-        {
-            let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
-            let status = if found.in_contact { "in contact" } else { "not in contact" };
-            let pulls = match pulling.len() {
-                0 => String::new(),
-                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
-            };
-            Some(format!(
-                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
-                row.variant, found.node
-            ))
+        End::Result { penetration, across, pulling, transmits_nothing: false, .. } => {
+            let across = across.as_ref().map(|Across { node, pressure, gap }| {
+                let pressure = with_unit(&significant(*pressure, 2), &scene.units.stress);
+                format!(
+                    "presses node {node} with {pressure} across an open gap of {}",
+                    length(*gap)
+                )
+            });
+            let inside = penetration.as_ref().filter(|found| found.depth > 0.0).map(|found| {
+                let status = if found.in_contact { "in contact" } else { "not in contact" };
+                format!("node {}, {status}, ends {} inside", found.node, length(found.depth))
+            });
+            let pulls = (!pulling.is_empty())
+                .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
+            let said: Vec<String> = across.into_iter().chain(inside).chain(pulls).collect();
+            (!said.is_empty()).then(|| format!("{}: {}.", row.variant, said.join("; ")))
         }
         End::Result { .. } | End::Failure { .. } => None,
     };

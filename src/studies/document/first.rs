@@ -4,11 +4,11 @@
 use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
-use crate::audit::Audit;
 use crate::audit::claims::{CLAIMS, Claim, table as claims};
 use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::FINDINGS;
 use crate::audit::screen::{FAULTS, Faults, JUDGED, OURS, OfContact, RUNS, Screen};
+use crate::audit::{Assumption, Audit};
 use base::xml::escape;
 use paper::mirror::READINGS;
 use report::html::{anchor, prose};
@@ -50,9 +50,8 @@ const PAPER: &str = "<h1>Audit of A. M. Filipov, M. V. Khomenko, <cite lang=\"ru
 /// Returns the verdict and the tables.
 fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> String {
     let Screen { verdict, contact } = Screen::new(audit, conclusion, contents.scene);
-    let verdict: String =
-        verdict.iter().map(|words| format!("<p>{}</p>", linked(&prose(words)))).collect();
-    let verdict = format!("<div class=\"verdict\"><h2>Verdict</h2>{verdict}</div>\n");
+    let verdict = linked(&prose(&verdict.join(" ")));
+    let verdict = format!("<div class=\"verdict\"><h2>Verdict</h2><p>{verdict}</p></div>\n");
     let Some(OfContact { runs, notes, statements, faults, assumed }) = contact else {
         return verdict;
     };
@@ -60,17 +59,20 @@ fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> Strin
         .table(format!("The paper's {}", claims::counts()), statements)
         .line(OURS)
         .html();
+    let others = faults.as_ref().map_or(String::new(), |faults| faults.others.concat());
     let faults = faults_table(faults).html();
-    let assumed: String =
-        assumed.iter().map(|it| format!("<li>{}</li>", escape(&it.to_string()))).collect();
+    let assumed = assumed.iter().map(|Assumption { what, set_to }| {
+        format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
+    });
+    let assumed: String = assumed.collect();
     let runs = Report::default().table(RUNS, runs).notes(notes).html();
     format!(
         "{verdict}<div class=\"runs\">{}</div>\n<div class=\"statements\">{}</div>\n<div class=\"faults\">{}</div>\n{}\
-         <div class=\"assumed\"><h2>Assumed, as the paper is silent</h2><ul>{assumed}</ul></div>\n",
+         <div class=\"assumed\"><h2>Assumed, as the paper is silent</h2><dl>{assumed}</dl></div>\n",
         linked(&runs),
         linked(&statements),
         linked(&faults),
-        key(&(statements + &faults)),
+        key(&(statements.clone() + &others)),
     )
 }
 

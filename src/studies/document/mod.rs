@@ -5,13 +5,13 @@ mod first;
 mod glossary;
 pub mod page;
 
-use crate::audit::Audit;
 use crate::audit::claims::Verdict as ClaimVerdict;
 use crate::audit::conclusion::Conclusion;
 use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
+use crate::audit::{Audit, relative_radius};
 use crate::audit::{
     claims::table as claims, conclusion::words as conclusion, prices::table as prices, screen,
     tables as audit,
@@ -169,7 +169,10 @@ fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
 fn pictures(contents: &Contents) -> Vec<Picture> {
     let scene = contents.scene;
     let runs = named(contents);
-    let hertz = runs.iter().rev().find_map(|(_, run)| Hertz::from_solution(run));
+    let of_example =
+        relative_radius(scene).and_then(|radius| Hertz::of_radius(runs.last()?.1, radius));
+    let hertz =
+        of_example.or_else(|| runs.iter().rev().find_map(|(_, run)| Hertz::from_solution(run)));
     let pressure = runs.iter().any(|(_, run)| !run.contact.is_empty()).then(|| Picture {
         title: "Contact pressure along the contact surface".into(),
         svg: pressure::small_picture(scene, &runs, hertz.as_ref()),

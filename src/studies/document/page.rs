@@ -29,7 +29,8 @@ pub fn html(contents: &Contents) -> String {
     let body = include_str!("page/body.html")
         .replace("FIRST", &first::html(contents, &first::menu(&parts)))
         .replace("PARTS", &parts.html());
-    let runs = contents.runs.par_iter().map(run).collect::<Vec<Value>>();
+    let quantities = quantities::on_pages();
+    let runs = contents.runs.par_iter().map(|own| run(own, &quantities)).collect::<Vec<Value>>();
     let calculix = contents.calculix.as_ref().map(|compared| calculix_run(compared.comparison));
     let own = json!({
         "mesh": mesh(&scene.model),
@@ -37,7 +38,7 @@ pub fn html(contents: &Contents) -> String {
         "own": own_run(contents),
         "equilibrium": contents.runs.last().map(|run| pressure::name(run.solution)),
         "colours": colour::parts(SHADES),
-        "quantities": quantities::on_pages(),
+        "quantities": quantities,
     });
     Page {
         language: Language::En,
@@ -88,15 +89,27 @@ fn mesh(model: &Model) -> Value {
     })
 }
 
-fn run(run: &Run) -> Value {
+fn run(run: &Run, known: &Value) -> Value {
     let solution = run.solution;
     let result = json!(ResultFile::new(solution, &run.assessment, None));
+    let tables = [("iterations", "iteration"), ("bodies", "body"), ("contact", "contact")];
+    let tables = tables.map(|(table, place)| (table, rows(&result[table], &known[place])));
     json!({
         "name": pressure::name(solution),
-        "result": { "iterations": result["iterations"], "bodies": result["bodies"], "contact": result["contact"] },
+        "result": Value::from_iter(tables),
         "u": floats(solution.u.iter().copied()),
         "triangles": triangles(&TriangleValues::all(solution, run.assessment.mesh_error().as_deref())),
     })
+}
+
+/// Returns rows of a result with the quantities that tables show.
+fn rows(rows: &Value, known: &Value) -> Value {
+    let is_shown = |name: &str| known.as_array().into_iter().flatten().any(|it| it["name"] == name);
+    let row = |row: &Value| {
+        let entries = row.as_object().into_iter().flatten().filter(|(name, _)| is_shown(name));
+        Value::from_iter(entries.map(|(name, value)| (name.clone(), value.clone())))
+    };
+    rows.as_array().into_iter().flatten().map(row).collect()
 }
 
 /// Returns the numbers of each quantity that is known in all triangles, by its name.
