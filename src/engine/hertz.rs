@@ -57,9 +57,12 @@ impl Hertz {
         (half_width < SHALLOW * radius && contact.fits(&gaps, least)).then_some(contact)
     }
 
-    /// Returns Hertz's contact of surfaces whose relative radius is known, where chords are too coarse to show it.
+    /// Returns Hertz's contact of surfaces whose relative radius is known, where chords are too coarse to show it, about
+    /// the centre of the contact forces of `solution`.
     pub fn of_radius(solution: &Solution, radius: f64) -> Option<Self> {
-        let Pressed { load, modulus, centre, .. } = Pressed::of(solution)?;
+        let Pressed { load, modulus, .. } = Pressed::of(solution)?;
+        let moments = solution.in_contact().filter_map(|c| Some(c.force? * c.arc));
+        let centre = moments.sum::<f64>() / normal_load(solution)?;
         let half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
         Some(Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre })
     }

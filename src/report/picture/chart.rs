@@ -7,7 +7,7 @@ use base::xml::Element;
 
 /// The height of the area inside the axes, of a chart that stands alone and of a small one, pixels.
 const HEIGHT: f64 = 440.0;
-const SMALL: f64 = 176.0;
+const SMALL: f64 = 168.0;
 
 /// The room for the labels of the vertical axis, pixels.
 const LEFT: f64 = 78.0;
@@ -77,6 +77,7 @@ pub fn chart(title: &str, axes: [Axis; 2], series: &[Series], captions: &[String
 pub fn small_chart(title: &str, axes: [Axis; 2], series: &[Series]) -> String {
     let mut page = Page::small(title);
     put(&mut page, SMALL, axes, series);
+    page.y -= 10.0;
     page.finish()
 }
 

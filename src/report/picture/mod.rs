@@ -30,7 +30,7 @@ pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
 pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, points};
 
 use self::bodies::{draw_bodies, legend};
-use self::colour::{COLOURS, ColourScale, parts};
+use self::colour::{ColourScale, SHADES, parts};
 use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
@@ -114,10 +114,10 @@ pub fn beside(
         let pixels = view.all(&drawing.points);
         let mut raster = Raster::new(view.frame);
         for (triangle, value) in drawing.triangles.iter().zip(values) {
-            raster.triangle(triangle.map(|point| pixels[point]), scale.part(*value, COLOURS));
+            raster.triangle(triangle.map(|point| pixels[point]), scale.part(*value, SHADES));
         }
         page.put(text([x, y - 8.0], Anchor::Start, name));
-        page.put(raster.image(&parts(COLOURS)));
+        page.put(raster.image(&parts(SHADES)));
         let seen = |edge: &&[usize; 2]| edge.iter().all(|end| view.shows(&[pixels[*end]]));
         let outline: Vec<[usize; 2]> = outline.iter().filter(seen).copied().collect();
         page.put(segments(&outline, &pixels).stroke(DARK, 0.8));

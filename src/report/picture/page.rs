@@ -44,6 +44,8 @@ pub enum Sign {
 pub struct Page {
     title: String,
     width: f64,
+    /// The room under the last part, pixels.
+    foot: f64,
     content: Element,
     /// Where the next part begins, pixels from the top.
     pub y: f64,
@@ -52,7 +54,8 @@ pub struct Page {
 impl Page {
     /// Begins a page that has its title only.
     pub fn new(words: &str) -> Self {
-        let mut page = Self { width: WIDTH, y: MARGIN - 10.0, ..Page::small(words) };
+        let mut page =
+            Self { width: WIDTH, foot: MARGIN / 2.0, y: MARGIN - 10.0, ..Page::small(words) };
         for words in wrap(words, TITLE_SIZE, page.inner()) {
             page.y += TITLE_SIZE * 1.3;
             page.put(title([MARGIN, page.y - 6.0], &words));
@@ -63,7 +66,7 @@ impl Page {
 
     /// Begins a page of a picture among others, whose title stands outside it.
     pub fn small(title: &str) -> Self {
-        Self { title: title.into(), width: SMALL, content: group().fill(DARK), y: 4.0 }
+        Self { title: title.into(), width: SMALL, foot: 0.0, content: group().fill(DARK), y: 0.0 }
     }
 
     /// The width between the margins, pixels.
@@ -134,7 +137,7 @@ impl Page {
 
     /// Returns the text of the SVG file.
     pub fn finish(self) -> String {
-        document([self.width, (self.y + MARGIN / 2.0).ceil()], &self.title, self.content)
+        document([self.width, (self.y + self.foot).ceil()], &self.title, self.content)
     }
 
     /// Puts an element where its own coordinates say.

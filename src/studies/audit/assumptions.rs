@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::range::is_example;
+use base::plain::six_digits;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
@@ -40,6 +41,8 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
         true => ["shape of the stamp (width x height)", "restraint of the stamp's axis"],
         false => ["size of the body with the contact surface", "its restraints"],
     };
+    // Coordinates have rounding in their last digits.
+    let length = six_digits;
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
     vec![
         assumed(
@@ -48,7 +51,7 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
             } else {
                 "half the width of the target surface"
             },
-            format!("{:.6} {unit}", across(model, &target)[0] / 2.0),
+            format!("{} {unit}", length(across(model, &target)[0] / 2.0)),
         ),
         assumed(
             if of_example {
@@ -56,7 +59,7 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
             } else {
                 "half the width of the contact surface"
             },
-            format!("{:.6} {unit}", across(model, contact)[0] / 2.0),
+            format!("{} {unit}", length(across(model, contact)[0] / 2.0)),
         ),
         assumed(
             "mesh",
@@ -67,7 +70,7 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
                 model.contact.target.len()
             ),
         ),
-        assumed(stamp_words[0], format!("{width:.6} x {height:.6} {unit}")),
+        assumed(stamp_words[0], format!("{} x {} {unit}", length(width), length(height))),
         assumed("plane problem", format!("plane {}", model.plane)),
         assumed(stamp_words[1], format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
         assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),

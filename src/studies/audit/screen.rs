@@ -24,8 +24,7 @@ pub const WIDTH: usize = 100;
 /// What is judged, and what is not.
 pub const JUDGED: [&str; 2] = [
     "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it.",
-    "Not judged: the worksheet that the authors ran, which is not public. A listing may be misprinted; the authors were \
-     not asked.",
+    "Not judged: the worksheet that the authors ran, which is not public, and misprints.",
 ];
 
 /// What a mark at a claim says.
@@ -227,9 +226,10 @@ fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
                     length(*gap)
                 )
             });
-            let inside = penetration.as_ref().filter(|found| found.depth > 0.0).map(|found| {
-                let status = if found.in_contact { "in contact" } else { "not in contact" };
-                format!("node {}, {status}, ends {} inside", found.node, length(found.depth))
+            let inside =
+                penetration.as_ref().filter(|found| found.depth > 0.0 && !found.in_contact);
+            let inside = inside.map(|found| {
+                format!("node {}, not in contact, ends {} inside", found.node, length(found.depth))
             });
             let pulls = (!pulling.is_empty())
                 .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));

@@ -18,13 +18,13 @@ use report::model::{Cell, Report, Table};
 /// Returns the head of the page and its first screen.
 pub fn html(contents: &Contents, menu: &str) -> String {
     let scene = contents.scene;
-    let on = format!("Scene {}: {}", scene.name, scene.title);
+    let on = format!(" On scene {} ({})", scene.name, scene.title);
     let (title, parts) = match contents.audit {
         Some((audit, conclusion)) => {
-            let under = claims::under(&conclusion.reading);
-            let judged = JUDGED.map(|words| format!("<p>{}</p>", escape(words))).concat();
-            let head = format!("{judged}<p>{}</p>", escape(&(on + &under)));
-            (PAPER.to_string() + &head, audited(audit, conclusion, contents))
+            let on = on + &claims::under(&conclusion.reading) + ".";
+            let judged = [JUDGED[0].to_string() + &on, JUDGED[1].to_string()];
+            let judged = judged.map(|words| format!("<p>{}</p>", escape(&words))).concat();
+            (PAPER.to_string() + &judged, audited(audit, conclusion, contents))
         }
         None => (format!("<h1>{}</h1>", escape(&runs_title(contents))), String::new()),
     };

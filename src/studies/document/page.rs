@@ -19,9 +19,6 @@ use report::page::Page;
 use report::picture::{colour, points};
 use report::{ResultFile, pressure, quantities};
 
-/// The shades of a field.
-const SHADES: u8 = 64;
-
 /// Returns the page of a report.
 pub fn html(contents: &Contents) -> String {
     let scene = contents.scene;
@@ -37,7 +34,7 @@ pub fn html(contents: &Contents) -> String {
         "runs": runs.into_iter().chain(calculix).collect::<Vec<_>>(),
         "own": own_run(contents),
         "equilibrium": contents.runs.last().map(|run| pressure::name(run.solution)),
-        "colours": colour::parts(SHADES),
+        "colours": colour::parts(colour::SHADES),
         "quantities": quantities,
     });
     Page {
