@@ -36,31 +36,25 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     let [width, height] = across(model, &stamp.nodes);
     let restrained =
         |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
-    let of_example = is_example(scene);
-    let stamp_words = match of_example {
-        true => ["shape of the stamp (width x height)", "restraint of the stamp's axis"],
-        false => ["size of the body with the contact surface", "its restraints"],
-    };
-    // Coordinates have rounding in their last digits.
-    let length = six_digits;
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
+    // The parts of the paper's example have names of their own.
+    let [of_target, of_contact, shape, axis] = match is_example(scene) {
+        true => [
+            "radius of the duct (half the width of the target surface)",
+            "radius of the strand (half the width of the contact surface)",
+            "shape of the stamp (width x height)",
+            "restraint of the stamp's axis",
+        ],
+        false => [
+            "half the width of the target surface",
+            "half the width of the contact surface",
+            "contact body (width x height)",
+            "restraint of the contact body",
+        ],
+    };
     vec![
-        assumed(
-            if of_example {
-                "radius of the duct (half the width of the target surface)"
-            } else {
-                "half the width of the target surface"
-            },
-            format!("{} {unit}", length(across(model, &target)[0] / 2.0)),
-        ),
-        assumed(
-            if of_example {
-                "radius of the strand (half the width of the contact surface)"
-            } else {
-                "half the width of the contact surface"
-            },
-            format!("{} {unit}", length(across(model, contact)[0] / 2.0)),
-        ),
+        assumed(of_target, format!("{} {unit}", six_digits(across(model, &target)[0] / 2.0))),
+        assumed(of_contact, format!("{} {unit}", six_digits(across(model, contact)[0] / 2.0))),
         assumed(
             "mesh",
             format!(
@@ -70,9 +64,9 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
                 model.contact.target.len()
             ),
         ),
-        assumed(stamp_words[0], format!("{} x {} {unit}", length(width), length(height))),
+        assumed(shape, format!("{} x {} {unit}", six_digits(width), six_digits(height))),
         assumed("plane problem", format!("plane {}", model.plane)),
-        assumed(stamp_words[1], format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
+        assumed(axis, format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
         assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),
     ]
 }

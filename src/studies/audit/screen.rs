@@ -8,7 +8,7 @@ use crate::audit::conclusion::{Conclusion, Coupled, NearRun, of_the_paper};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::range::is_example;
-use crate::audit::variants::{Across, End, VariantRow};
+use crate::audit::variants::{End, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
@@ -213,28 +213,23 @@ fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error, 0)))
 }
 
-/// Says which node is pressed across an open gap, which ends deepest inside the target, and how many pull, under
-/// the paper's variants that pass a load on.
+/// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
+/// pass a load on.
 fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
-    let length = |x: f64| with_unit(&significant(x, 2), &scene.units.length);
     let said = |row: &VariantRow| match &row.end {
-        End::Result { penetration, across, pulling, transmits_nothing: false, .. } => {
-            let across = across.as_ref().map(|Across { node, pressure, gap }| {
-                let pressure = with_unit(&significant(*pressure, 2), &scene.units.stress);
-                format!(
-                    "presses node {node} with {pressure} across an open gap of {}",
-                    length(*gap)
-                )
-            });
-            let inside =
-                penetration.as_ref().filter(|found| found.depth > 0.0 && !found.in_contact);
-            let inside = inside.map(|found| {
-                format!("node {}, not in contact, ends {} inside", found.node, length(found.depth))
-            });
-            let pulls = (!pulling.is_empty())
-                .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
-            let said: Vec<String> = across.into_iter().chain(inside).chain(pulls).collect();
-            (!said.is_empty()).then(|| format!("{}: {}.", row.variant, said.join("; ")))
+        End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
+            if found.depth > 0.0 =>
+        {
+            let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
+            let status = if found.in_contact { "in contact" } else { "not in contact" };
+            let pulls = match pulling.len() {
+                0 => String::new(),
+                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
+            };
+            Some(format!(
+                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
+                row.variant, found.node
+            ))
         }
         End::Result { .. } | End::Failure { .. } => None,
     };

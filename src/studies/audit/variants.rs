@@ -52,8 +52,6 @@ pub enum End {
         pulling: Vec<NodeId>,
         /// The deepest contact node at the end; nothing where none faces the target.
         penetration: Option<Penetration>,
-        /// The node that is pressed hardest across an open gap; nothing where none is.
-        across: Option<Across>,
     },
     /// It has none.
     Failure {
@@ -144,29 +142,6 @@ impl Penetration {
     }
 }
 
-/// A node that is pressed though a gap is open.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Across {
-    /// The node.
-    pub node: NodeId,
-    /// Its pressure, stress.
-    pub pressure: f64,
-    /// Its gap, length.
-    pub gap: f64,
-}
-
-impl Across {
-    /// Finds the node that is pressed hardest of those whose gap is open by more than rounding.
-    fn of(solution: &Solution) -> Option<Self> {
-        let open = Penetration::ROUNDING * max_displacement(&solution.u);
-        let pressed = solution.in_contact().filter(|c| c.gap > open).filter_map(|c| {
-            let pressure = c.pressure.filter(|pressure| *pressure > 0.0)?;
-            Some(Across { node: c.node, pressure, gap: c.gap })
-        });
-        pressed.max_by(|a, b| a.pressure.total_cmp(&b.pressure))
-    }
-}
-
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let end = |variant| repeated(case, |case| end(case, variant));
@@ -214,6 +189,5 @@ fn end(case: &Case, variant: Variant) -> End {
         friction_needed: needed.reduce(f64::max),
         pulling: pulling(&solution.contact, solution.model.load.amax()),
         penetration: Penetration::of(solution),
-        across: Across::of(solution),
     }
 }
