@@ -7,7 +7,7 @@ use base::xml::Element;
 
 /// The height of the area inside the axes, of a chart that stands alone and of a small one, pixels.
 const HEIGHT: f64 = 440.0;
-const SMALL: f64 = 168.0;
+const SMALL: f64 = 156.0;
 
 /// The room for the labels of the vertical axis, pixels.
 const LEFT: f64 = 78.0;

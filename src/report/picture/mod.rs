@@ -43,7 +43,7 @@ use base::xml::Element;
 const ENLARGED_UP_TO: f64 = 0.8;
 
 /// How much is shown about a contact surface, over its size.
-const ABOUT: f64 = 0.2;
+const ABOUT: f64 = 0.15;
 
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {

@@ -64,8 +64,8 @@ pub struct OfContact<'a> {
 pub struct Faults<'a> {
     /// The cost of each that costs something.
     pub dear: Vec<(String, &'a Price)>,
-    /// The names of those that cost nothing, and of those that are none here, each with what is said of it.
-    pub others: Vec<String>,
+    /// Those that cost nothing, and those that are none here: the distance, their names, and what is said of them.
+    pub others: Vec<[String; 3]>,
 }
 
 impl<'a> Screen<'a> {
@@ -105,7 +105,7 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
         .notes(match faults {
             Ok(Faults { dear, others }) => {
                 let dear = dear.iter().map(|(cost, price)| format!("{cost}: {}", price));
-                dear.chain(others).collect()
+                dear.chain(others.into_iter().map(|row| row.join(": "))).collect()
             }
             Err(why) => vec![why],
         })
@@ -273,12 +273,10 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let own = or_dash(prices[0].outcome.from_equilibrium(), |own| percent(own, 0));
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
-    let free = format!(
-        "{own}: no fault: the corrected algorithm, which has no friction; as far with {}",
-        listed(free)
-    );
-    let none =
-        (!none.is_empty()).then(|| format!("no fault here, as no node slides: {}", listed(none)));
+    let free =
+        [own, listed(free), "no more than the corrected algorithm, which has no friction".into()];
+    let none = (!none.is_empty())
+        .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
     Ok(Faults {
         dear: fatal.chain(shifts).chain(rounding).collect(),
         others: std::iter::once(free).chain(none).collect(),

@@ -32,7 +32,7 @@ pub fn html(contents: &Contents, menu: &str) -> String {
     let again =
         format!("<p class=\"again\">Make it again: <code>{}</code></p>", escape(&contents.command));
     format!(
-        "<header><div>{title}</div>{menu}</header>\n<section id=\"first\">\n{parts}<div class=\"pictures\">{pictures}</div>\n\
+        "<header><div>{title}</div>{menu}</header>\n<section id=\"first\" aria-label=\"Verdict and evidence\">\n{parts}<div class=\"pictures\">{pictures}</div>\n\
          {again}</section>\n"
     )
 }
@@ -59,7 +59,8 @@ fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> Strin
         .table(format!("The paper's {}", claims::counts()), statements)
         .line(OURS)
         .html();
-    let others = faults.as_ref().map_or(String::new(), |faults| faults.others.concat());
+    let others =
+        faults.as_ref().map_or(String::new(), |faults| faults.others.as_flattened().join(" "));
     let faults = faults_table(faults).html();
     let assumed = assumed.iter().map(|Assumption { what, set_to }| {
         format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
@@ -86,8 +87,9 @@ fn faults_table(faults: Result<Faults<'_>, String>) -> Report {
                     Cell::from(price.fault.clone()),
                 ]
             });
-            let table = Table::new(["cost", "finding", "fault"], rows);
-            others.into_iter().fold(Report::default().table(FAULTS, table), Report::line)
+            let others = others.into_iter().map(|row| row.map(Cell::from).to_vec());
+            Report::default()
+                .table(FAULTS, Table::new(["cost", "finding", "fault"], rows.chain(others)))
         }
         Err(why) => Report::default().table(FAULTS, Table::new(["cost"], [])).line(why),
     }
