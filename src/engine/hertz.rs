@@ -45,28 +45,28 @@ impl Hertz {
     /// where the surfaces form no parabola there, the contact is too wide for the theory, as that of a pin in a hole
     /// of its size, or too few nodes lie in it.
     pub fn from_solution(solution: &Solution) -> Option<Self> {
-        let model = &*solution.model;
-        // Surfaces that cannot be paired form no parabola either.
-        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
-        let gaps = gaps(model, &pairings);
-        let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
-        let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
-        // Half of a scene that is symmetric about the first point of contact carries half the load.
-        let sides = if at_an_end { 2.0 } else { 1.0 };
-        let load = sides * normal_load(solution)? / model.thickness;
-        let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
-        let centre = first.arc;
+        let Pressed { gaps, pairings, least, load, modulus, centre } = Pressed::of(solution)?;
         // The half width decides which gaps count for the radius, which decides the half width.
         let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
         let mut radius = 0.0;
         for _ in 0..20 {
-            radius = fit(&gaps, centre, first.gap, half_width)?;
+            radius = fit(&gaps, centre, least, half_width)?;
             half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
         }
         let contact = Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre };
-        let is_shallow =
-            half_width < SHALLOW * radius && contact.turn(model, &gaps, &pairings) < 2.0 * SHALLOW;
-        (is_shallow && contact.fits(&gaps, first.gap)).then_some(contact)
+        let is_shallow = half_width < SHALLOW * radius
+            && contact.turn(&solution.model, &gaps, &pairings) < 2.0 * SHALLOW;
+        (is_shallow && contact.fits(&gaps, least)).then_some(contact)
+    }
+
+    /// Returns Hertz's contact of surfaces whose relative radius is known, where chords are too coarse to show it, about
+    /// the centre of the contact forces of `solution`.
+    pub fn of_radius(solution: &Solution, radius: f64) -> Option<Self> {
+        let Pressed { load, modulus, .. } = Pressed::of(solution)?;
+        let moments = solution.in_contact().filter_map(|c| Some(c.force? * c.arc));
+        let centre = moments.sum::<f64>() / normal_load(solution)?;
+        let half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
+        Some(Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre })
     }
 
     /// Returns the pressure at distance `arc` along the contact surface, stress.
@@ -104,6 +104,37 @@ impl Hertz {
         };
         within.clone().count() >= FEWEST
             && within.map(departure).fold(0.0, f64::max) <= PARABOLA * height
+    }
+}
+
+/// What Hertz's theory takes from a solution.
+struct Pressed {
+    gaps: Vec<Gap>,
+    /// What each contact node faces in the initial shape.
+    pairings: Vec<Option<Pairing>>,
+    /// The least gap, length.
+    least: f64,
+    /// The force across the contact, over the thickness.
+    load: f64,
+    /// E*, stress.
+    modulus: f64,
+    /// The first point of contact along the contact surface, length.
+    centre: f64,
+}
+
+impl Pressed {
+    fn of(solution: &Solution) -> Option<Self> {
+        let model = &*solution.model;
+        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
+        let gaps = gaps(model, &pairings);
+        let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
+        let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
+        // Half of a scene that is symmetric about the first point of contact carries half the load.
+        let sides = if at_an_end { 2.0 } else { 1.0 };
+        let load = sides * normal_load(solution)? / model.thickness;
+        let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
+        let (least, centre) = (first.gap, first.arc);
+        Some(Pressed { gaps, pairings, least, load, modulus, centre })
     }
 }
 

@@ -1,20 +1,40 @@
 //! A report as HTML: what a page contains, readable without a script.
 
+use std::ops::RangeInclusive;
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
+use super::csv::file_name;
 use super::model::{Block, Cell, Report, Table};
 use base::xml::escape;
 
+/// The levels of the headings that unfold what stands under them.
+const UNFOLDING: RangeInclusive<usize> = 2..=3;
+
 impl Report {
-    /// Writes the report as the content of a page: notes are lists, a table has a caption and the
-    /// scope of its headings, a figure is an image that nothing of the page reaches.
+    /// Writes the report as the content of a page: sections and their parts unfold, notes are lists, a table has a
+    /// caption and the scope of its headings, a figure is an image that nothing of the page reaches.
     pub fn html(&self) -> String {
         let (mut html, mut previous) = (String::new(), 0);
+        // The levels of the headings that are unfolded where the text has got to.
+        let mut unfolded: Vec<usize> = Vec::new();
         for block in &self.blocks {
             let (depth, content) = match block {
                 Block::Heading { level, text } => {
-                    (0, format!("<h{level}>{}</h{level}>", prose(text)))
+                    html += &items(std::mem::take(&mut previous), 0);
+                    while unfolded.pop_if(|open| *open >= *level).is_some() {
+                        html += "</details>\n";
+                    }
+                    let heading = format!("<h{level}>{}</h{level}>", prose(text));
+                    match UNFOLDING.contains(level) {
+                        true => {
+                            unfolded.push(*level);
+                            let id = anchor(text);
+                            (0, format!("<details id=\"{id}\"><summary>{heading}</summary>"))
+                        }
+                        false => (0, heading),
+                    }
                 }
                 Block::Line { level: 0, text } => (0, format!("<p>{}</p>", prose(text))),
                 Block::Line { level, text } => (*level, prose(text)),
@@ -25,8 +45,25 @@ impl Report {
             html += &(items(previous, depth) + &content + "\n");
             previous = depth;
         }
-        html + &items(previous, 0)
+        html + &items(previous, 0) + &"</details>\n".repeat(unfolded.len())
     }
+
+    /// Returns the sections, each with its place on the page.
+    pub fn sections(&self) -> impl Iterator<Item = (String, &str)> {
+        self.blocks.iter().filter_map(|block| match block {
+            Block::Heading { level: 2, text } => Some((anchor(text), text.as_str())),
+            Block::Heading { .. }
+            | Block::Line { .. }
+            | Block::Code(_)
+            | Block::Table { .. }
+            | Block::Figure { .. } => None,
+        })
+    }
+}
+
+/// Returns the name of a place on a page: `P1` of `P1: nothing penetrates`.
+pub fn anchor(heading: &str) -> String {
+    file_name(heading)
 }
 
 /// Ends and begins items of lists between two blocks, which stand so many lists deep.
@@ -39,7 +76,7 @@ fn items(previous: usize, depth: usize) -> String {
 }
 
 /// Writes a text, in which what stands between two backquotes is code.
-fn prose(text: &str) -> String {
+pub fn prose(text: &str) -> String {
     let parts: Vec<&str> = text.split('`').collect();
     if parts.len().is_multiple_of(2) {
         return escape(text);
@@ -51,7 +88,8 @@ fn prose(text: &str) -> String {
     parts.iter().enumerate().map(part).collect()
 }
 
-fn figure(title: &str, svg: &str) -> String {
+/// Returns a picture under its title.
+pub fn figure(title: &str, svg: &str) -> String {
     format!(
         "<figure><img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\">\n<figcaption>{}</figcaption></figure>",
         BASE64_STANDARD.encode(svg),

@@ -26,7 +26,7 @@ pub mod evaluation;
 pub mod exports;
 pub mod failure;
 pub mod folder;
-mod html;
+pub mod html;
 pub mod json;
 pub mod language;
 pub mod layout;

@@ -1,7 +1,7 @@
 //! The contact pressure along the contact surface, several runs in one picture.
 
 use super::numbers::quantity;
-use super::picture::{Axis, Series, Style, chart};
+use super::picture::{Axis, Series, Style, chart, small_chart};
 use engine::contact::ContactNode;
 use engine::quantities::Value;
 use engine::{Hertz, Quantity, Solution};
@@ -31,6 +31,20 @@ pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> Stri
     along_surface(scene, runs, named("pressure"), hertz, &captions)
 }
 
+/// Draws the pressure of runs under their names, and `hertz`'s, among other pictures.
+pub fn small_picture(scene: &Scene, runs: &[(String, &Solution)], hertz: Option<&Hertz>) -> String {
+    let solutions: Vec<&Solution> = runs.iter().map(|(_, run)| *run).collect();
+    let range = shown(&solutions);
+    let curve = |(name, run): &(String, &Solution)| Series {
+        name: name.clone(),
+        ..curve(run, named("pressure"), range)
+    };
+    let hertz = hertz.map(|hertz| hertz_curve(hertz, range));
+    let series: Vec<Series> = runs.iter().map(curve).chain(hertz).collect();
+    let [x, y] = labels(scene, named("pressure"));
+    small_chart(&y, [axis(&x), axis(&y)], &series)
+}
+
 /// Draws the shear and the gap of contact nodes in the same way.
 pub fn shear_and_gap(scene: &Scene, runs: &[&Solution]) -> [String; 2] {
     ["shear", "gap"].map(|name| along_surface(scene, runs, named(name), None, &[]))
@@ -50,11 +64,21 @@ fn along_surface(
 ) -> String {
     let range = shown(runs);
     let series: Vec<Series> = runs.iter().map(|run| curve(run, drawn, range)).chain(more).collect();
-    let x = quantity("distance along the contact surface", &scene.units.length);
-    let y = quantity(drawn.title, drawn.unit.in_scene(&scene.units));
-    let axis = |label| Axis { label, logarithmic: false };
+    let [x, y] = labels(scene, drawn);
     let title = format!("{}: {}", scene.title, drawn.title);
     chart(&title, [axis(&x), axis(&y)], &series, captions)
+}
+
+/// Returns what the axes show.
+fn labels(scene: &Scene, drawn: &Quantity<ContactNode>) -> [String; 2] {
+    [
+        quantity("distance along the contact surface", &scene.units.length),
+        quantity(drawn.title, drawn.unit.in_scene(&scene.units)),
+    ]
+}
+
+fn axis(label: &str) -> Axis<'_> {
+    Axis { label, logarithmic: false }
 }
 
 /// Returns the stretch of the surface that any run has in contact, with a margin; all of it where

@@ -120,14 +120,14 @@ fn up_to_the_limit_each_triangle_is_a_shape() {
     let drawing = grid(100);
     assert_eq!(drawing.triangles.len(), MOST_SHAPES);
     let picture = mesh(&drawing);
-    assert_eq!(attributes(&picture, "polygon", "points").len(), MOST_SHAPES);
+    assert_eq!(attributes(&picture, "path", "d").concat().matches('Z').count(), MOST_SHAPES);
     assert!(images(&picture).is_empty());
 }
 
 #[test]
 fn a_fine_mesh_is_an_image_with_a_vector_outline() {
     let picture = mesh(&grid(400));
-    assert!(attributes(&picture, "polygon", "points").is_empty());
+    assert!(!attributes(&picture, "path", "d").concat().contains('Z'));
     let images = images(&picture);
     assert_eq!(images.len(), 1);
     assert_eq!(halves(&images[0]), [Some([0x9c, 0xcb, 0x9a]), Some([0xf4, 0xd3, 0x5e])]);

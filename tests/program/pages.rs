@@ -181,20 +181,21 @@ fn the_report_shows_what_solve_and_audit_have() {
     let page = made(folder.path(), "report.html", &["report", "fig1"]);
     let result = made(folder.path(), "result.json", &["solve", "fig1", "--fields", "--json"]);
     let audit = made(folder.path(), "audit.json", &["audit", "fig1", "--json"]);
-    let pictures = folder.path().to_string_lossy().into_owned();
-    in_browser(&modules, "report.cjs", &[&page, &pictures, &result, &audit]);
-    keep_picture(folder.path(), "report-1440-light.png");
+    in_browser(&modules, "report.cjs", &[&page, &result, &audit]);
 }
 
-/// The page of the paper's example, whose fields are drawn as fast as those of a large mesh.
+/// The page of the paper's example: its first screen, and its fields, which are drawn as fast as those of a large mesh.
 #[test]
 fn the_report_of_strand_is_small_and_fast() {
     let folder = TempDir::new().expect("a folder");
-    let page = made(folder.path(), "report.html", &["report", "strand", "--no-audit"]);
+    let page = made(folder.path(), "report.html", &["report", "strand"]);
     let size = std::fs::metadata(&page).expect("a file").len();
-    assert!(size < 5_000_000, "{size} bytes");
+    assert!(size < 1_500_000, "{size} bytes");
     let Some(modules) = browser() else { return };
     in_browser(&modules, "large.cjs", &[&page, "2014"]);
+    let pictures = folder.path().to_string_lossy().into_owned();
+    in_browser(&modules, "first.cjs", &[&page, &pictures]);
+    keep_picture(folder.path(), "report-1440-light.png");
 }
 
 /// The page of a mesh that a canvas's own paths, or SVG, would take seconds to draw.

@@ -183,6 +183,18 @@ fn a_report_is_html() {
     let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);
     assert_eq!(report.html(), page);
     assert_eq!(report.figures(), [("figure-4.svg".to_string(), "<svg/>")]);
+    let part = Report::default().heading("P1: b").deeper(1).note("c");
+    let unfolding = Report::default().heading("A part").then(part).heading("Another").html();
+    let expected = "<details id=\"a-part\"><summary><h2>A part</h2></summary>
+<details id=\"p1\"><summary><h3>P1: b</h3></summary>
+<ul><li>c
+</li></ul>
+</details>
+</details>
+<details id=\"another\"><summary><h2>Another</h2></summary>
+</details>
+";
+    assert_eq!(unfolding, expected);
 }
 
 const FACTORIAL: &str = "fact(n) :=

@@ -16,7 +16,7 @@ use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price, Weight};
 use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
-use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, run};
+use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, RECORDED, run};
 use plane_contact::studies::trade::{self, Varied};
 use plane_contact::{Request, Scene};
 
@@ -326,6 +326,15 @@ fn calculix() {
         let part = Part { contact, share: 1.0 };
         let theirs = run("ccx", &STRAND, &STRAND.model, &[part]).expect("ccx runs").fields;
         let comparison = Comparison::new(&STRAND.model, Fields::from_solution(ours), theirs);
+        let recorded = RECORDED.iter().all(|(name, stress)| {
+            let body = comparison.bodies.iter().find(|body| body.name == *name);
+            (body.expect(name).calculix - stress).abs() < 0.05
+        });
+        assert!(
+            recorded || friction != Friction::STICK,
+            "calculix::RECORDED: {:?}",
+            comparison.bodies
+        );
         let stresses = comparison.bodies.iter().map(|body| {
             let apart = body.relative().expect("CalculiX has stress in both bodies").abs();
             format!("{:.1} / {:.1}: {}", body.ours, body.calculix, percent(apart, 1))

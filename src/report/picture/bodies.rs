@@ -3,7 +3,7 @@
 use super::drawing::{Contact, Drawing};
 use super::page::Sign;
 use super::raster::{Raster, rgb};
-use super::svg::{Coloured, Pixel, circle, group, polygon, segments};
+use super::svg::{Coloured, Pixel, circle, group, polygons, segments};
 use super::view::View;
 use base::xml::Element;
 
@@ -51,8 +51,7 @@ pub fn legend(drawing: &Drawing) -> Vec<(Sign, String)> {
 }
 
 fn draw_body(drawing: &Drawing, region: usize, view: &View, pixels: &[Pixel]) -> Element {
-    let shapes = seen(drawing, region, view, pixels).map(|corners| polygon(&corners));
-    group().fill(body_colour(region)).with_all(shapes)
+    polygons(seen(drawing, region, view, pixels)).fill(body_colour(region))
 }
 
 /// Draws the bodies one over the other as pixels.

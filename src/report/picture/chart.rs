@@ -1,12 +1,13 @@
 //! A chart: curves over one axis, each axis linear or logarithmic. A curve has its name at its end.
 
-use super::page::{INNER, MARGIN, Page, Sign, text_width};
+use super::page::{MARGIN, Page, Sign, text_width};
 use super::svg::{Anchor, Coloured, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
 use crate::numbers::{power_of_ten, ticks};
 use base::xml::Element;
 
-/// The height of the area inside the axes, pixels.
+/// The height of the area inside the axes, of a chart that stands alone and of a small one, pixels.
 const HEIGHT: f64 = 440.0;
+const SMALL: f64 = 156.0;
 
 /// The room for the labels of the vertical axis, pixels.
 const LEFT: f64 = 78.0;
@@ -65,24 +66,37 @@ impl Style {
 }
 
 /// Draws a chart of `series`, with paragraphs under it.
-pub fn chart(title: &str, [x, y]: [Axis; 2], series: &[Series], captions: &[String]) -> String {
+pub fn chart(title: &str, axes: [Axis; 2], series: &[Series], captions: &[String]) -> String {
     let mut page = Page::new(title);
+    put(&mut page, HEIGHT, axes, series);
+    captions.iter().for_each(|words| page.paragraph(words));
+    page.finish()
+}
+
+/// Draws a chart of `series` among other pictures.
+pub fn small_chart(title: &str, axes: [Axis; 2], series: &[Series]) -> String {
+    let mut page = Page::small(title);
+    put(&mut page, SMALL, axes, series);
+    page.y -= 10.0;
+    page.finish()
+}
+
+fn put(page: &mut Page, height: f64, [x, y]: [Axis; 2], series: &[Series]) {
     page.paragraph(y.label);
     let scales = [Scale::from_series(&x, series, 0), Scale::from_series(&y, series, 1)];
     let curves = series.iter().filter(|series| series.style.is_curve());
     let names = curves.map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
-    let plot = Plot { scales, top: page.y + 6.0, width: INNER - LEFT - names.fold(0.0, f64::max) };
+    let width = page.inner() - LEFT - names.fold(0.0, f64::max);
+    let plot = Plot { scales, top: page.y + 6.0, width, height };
     page.put(plot.grid());
     for (k, series) in series.iter().enumerate() {
         page.put(plot.series(k, series));
     }
     page.put(plot.names(series));
-    let under = [MARGIN + LEFT + plot.width / 2.0, plot.top + HEIGHT + 40.0];
+    let under = [MARGIN + LEFT + plot.width / 2.0, plot.top + height + 40.0];
     page.put(text(under, Anchor::Middle, x.label));
-    page.y = plot.top + HEIGHT + 56.0;
+    page.y = plot.top + height + 56.0;
     page.legend(&legend(series));
-    captions.iter().for_each(|words| page.paragraph(words));
-    page.finish()
 }
 
 /// Returns the colour of the series at place `k`; rings have that of text.
@@ -149,16 +163,17 @@ fn on_axis(value: f64, logarithmic: bool) -> Option<f64> {
     if logarithmic { (value > 0.0).then(|| value.log10()) } else { Some(value) }
 }
 
-/// The area inside the axes, `top` pixels from the upper end of the picture and `width` pixels wide.
+/// The area inside the axes, `top` pixels from the upper end of the picture.
 struct Plot {
     scales: [Scale; 2],
     top: f64,
     width: f64,
+    height: f64,
 }
 
 impl Plot {
     fn pixel(&self, x: f64, y: f64) -> Pixel {
-        [MARGIN + LEFT + x * self.width, self.top + (1.0 - y) * HEIGHT]
+        [MARGIN + LEFT + x * self.width, self.top + (1.0 - y) * self.height]
     }
 
     fn grid(&self) -> Element {
@@ -203,7 +218,7 @@ impl Plot {
         // As they are written: of ends that rounding parts, the first curve's name comes first.
         ends.sort_by_key(|(end, ..)| (100.0 * end[1]).round() as i64);
         // No name stands so low that those after it do not fit above the axis.
-        let lowest = self.top + HEIGHT;
+        let lowest = self.top + self.height;
         let [mut y, x] = [self.top - LINE, self.pixel(1.0, 0.0)[0] + 14.0];
         let mut names = group();
         let count = ends.len();

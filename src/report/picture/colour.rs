@@ -12,6 +12,13 @@ use base::xml::Element;
 /// A range below this part of the largest magnitude is round-off, not a difference.
 const UNIFORM: f64 = 1e-9;
 
+/// How many colours the pixels of a fine mesh have: as many as a PNG with 256 entries takes beside the
+/// transparent one.
+pub const COLOURS: u8 = 255;
+
+/// How many colours a field has on a page: they can hardly be told apart, and a picture of fewer is smaller.
+pub const SHADES: u8 = 64;
+
 /// The height of the bar without its ticks, pixels.
 const BAR_HEIGHT: f64 = 16.0;
 

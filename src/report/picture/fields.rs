@@ -1,6 +1,6 @@
 //! A field on the deformed mesh, and what is said under it.
 
-use super::colour::{ColourScale, parts, with_unit};
+use super::colour::{COLOURS, ColourScale, parts, with_unit};
 use super::deformation::{boundary_edges, deformed, largest_displacement, magnification};
 use super::drawing::{Drawing, Field};
 use super::raster::{CAPTION, Raster};
@@ -13,10 +13,6 @@ use numbers::largest::{Largest, largest};
 const OUTLINE: &str = "#111111";
 
 const UNDEFORMED_OUTLINE: &str = "#b5b5b5";
-
-/// How many colours the pixels of a fine mesh have: as many as a PNG with 256 entries takes beside the
-/// transparent one.
-const COLOURS: u8 = 255;
 
 pub struct FieldPicture<'a> {
     pub scale: ColourScale,

@@ -26,19 +26,24 @@ mod search;
 pub mod svg;
 pub mod view;
 
-pub use self::chart::{Axis, SERIES, Series, Style, chart};
+pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
 pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, points};
 
 use self::bodies::{draw_bodies, legend};
+use self::colour::{ColourScale, SHADES, parts};
 use self::deformation::boundary_edges;
 use self::fields::FieldPicture;
 use self::page::Page;
-use self::svg::group;
+use self::raster::Raster;
+use self::svg::{Anchor, Coloured, DARK, group, segments, text};
 use self::view::{Bounds, View};
 use base::xml::Element;
 
 /// A contact zone that fills this part of the picture is not enlarged beside it.
 const ENLARGED_UP_TO: f64 = 0.8;
+
+/// How much is shown about a contact surface, over its size.
+const ABOUT: f64 = 0.15;
 
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {
@@ -75,6 +80,51 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
     put_panels(&mut page, drawing, &picture.deformed, |view| picture.draw(view));
     page.colour_bar(&picture.scale, field.quantity, field.unit);
     picture.captions().iter().for_each(|words| page.paragraph(words));
+    page.finish()
+}
+
+/// Returns what is shown of a mesh where its contact matters: the contact surface and what lies about it; the whole
+/// where that is not much more.
+fn around_contact(drawing: &Drawing) -> Bounds {
+    let whole = Bounds::around(&drawing.points);
+    let nodes = drawing.contact.as_ref().map_or(&[][..], |contact| &contact.nodes);
+    if nodes.is_empty() {
+        return whole;
+    }
+    let zone = Bounds::around(nodes.iter().map(|node| &drawing.points[*node]));
+    let zone = zone.padded(ABOUT * zone.larger_side());
+    if zone.larger_side() < ENLARGED_UP_TO * whole.larger_side() { zone } else { whole }
+}
+
+/// Draws a quantity of the triangles under several names side by side on the undeformed mesh, all in the colours of
+/// one scale, as pixels.
+pub fn beside(
+    drawing: &Drawing,
+    quantity: &str,
+    unit: &str,
+    fields: &[(String, Vec<f64>)],
+) -> String {
+    let mut page = Page::small(quantity);
+    let all: Vec<f64> = fields.iter().flat_map(|(_, values)| values.iter().copied()).collect();
+    let scale = ColourScale::from_values(&all);
+    let outline = boundary_edges(&drawing.triangles);
+    let views = page.repeated(&around_contact(drawing), fields.len());
+    for ((name, values), view) in fields.iter().zip(&views) {
+        let [x, y] = view.frame.corner;
+        let pixels = view.all(&drawing.points);
+        let mut raster = Raster::new(view.frame);
+        for (triangle, value) in drawing.triangles.iter().zip(values) {
+            raster.triangle(triangle.map(|point| pixels[point]), scale.part(*value, SHADES));
+        }
+        page.put(text([x, y - 8.0], Anchor::Start, name));
+        page.put(raster.image(&parts(SHADES)));
+        let seen = |edge: &&[usize; 2]| edge.iter().all(|end| view.shows(&[pixels[*end]]));
+        let outline: Vec<[usize; 2]> = outline.iter().filter(seen).copied().collect();
+        page.put(segments(&outline, &pixels).stroke(DARK, 0.8));
+    }
+    let lowest = views.iter().map(|view| view.frame.corner[1] + view.frame.size[1]);
+    page.y = lowest.fold(page.y, f64::max) + 4.0;
+    page.colour_bar(&scale, quantity, unit);
     page.finish()
 }
 

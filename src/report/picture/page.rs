@@ -9,14 +9,12 @@ use super::view::{Bounds, Frame, View, with_ratio};
 use crate::numbers::{Decimal, significant};
 use base::xml::Element;
 
-/// The width of every picture, pixels.
+/// The width of a picture that stands alone, and of one of several on a screen, pixels.
 const WIDTH: f64 = 1100.0;
+const SMALL: f64 = 660.0;
 
 /// The room that is left free at each side, pixels.
 pub const MARGIN: f64 = 40.0;
-
-/// The width between the margins, pixels.
-pub const INNER: f64 = WIDTH - 2.0 * MARGIN;
 
 /// The room between two panels or two signs of the legend, pixels.
 const GAP: f64 = 24.0;
@@ -45,6 +43,9 @@ pub enum Sign {
 /// A picture of several panels, one below the other.
 pub struct Page {
     title: String,
+    width: f64,
+    /// The room under the last part, pixels.
+    foot: f64,
     content: Element,
     /// Where the next part begins, pixels from the top.
     pub y: f64,
@@ -53,8 +54,9 @@ pub struct Page {
 impl Page {
     /// Begins a page that has its title only.
     pub fn new(words: &str) -> Self {
-        let mut page = Self { title: words.into(), content: group().fill(DARK), y: MARGIN - 10.0 };
-        for words in wrap(words, TITLE_SIZE, INNER) {
+        let mut page =
+            Self { width: WIDTH, foot: MARGIN / 2.0, y: MARGIN - 10.0, ..Page::small(words) };
+        for words in wrap(words, TITLE_SIZE, page.inner()) {
             page.y += TITLE_SIZE * 1.3;
             page.put(title([MARGIN, page.y - 6.0], &words));
         }
@@ -62,9 +64,19 @@ impl Page {
         page
     }
 
+    /// Begins a page of a picture among others, whose title stands outside it.
+    pub fn small(title: &str) -> Self {
+        Self { title: title.into(), width: SMALL, foot: 0.0, content: group().fill(DARK), y: 0.0 }
+    }
+
+    /// The width between the margins, pixels.
+    pub fn inner(&self) -> f64 {
+        self.width - 2.0 * MARGIN
+    }
+
     /// Writes a paragraph below what is there.
     pub fn paragraph(&mut self, words: &str) {
-        for words in wrap(words, TEXT_SIZE, INNER) {
+        for words in wrap(words, TEXT_SIZE, self.inner()) {
             self.y += TEXT_SIZE * 1.45;
             self.put(text([MARGIN, self.y - 5.0], Anchor::Start, &words));
         }
@@ -99,16 +111,20 @@ impl Page {
         self.paragraph(&scale.heading(quantity, unit));
         // Indented: half of a tick's label stands out at either end.
         self.y = self.y.round();
-        self.put(scale.bar([MARGIN + 10.0, self.y + 2.0], BAR_WIDTH));
+        let width = BAR_WIDTH.min(self.inner() - 20.0);
+        self.put(scale.bar([MARGIN + 10.0, self.y + 2.0], width));
         self.y += ColourScale::HEIGHT + 6.0;
     }
 
     /// Puts signs with their words, in as many rows as needed.
     pub fn legend(&mut self, entries: &[(Sign, String)]) {
+        if entries.is_empty() {
+            return;
+        }
         let mut x = MARGIN;
         for (sign, words) in entries {
             let width = 34.0 + text_width(words, TEXT_SIZE);
-            if x > MARGIN && x + width > WIDTH - MARGIN {
+            if x > MARGIN && x + width > self.width - MARGIN {
                 x = MARGIN;
                 self.y += 24.0;
             }
@@ -121,7 +137,7 @@ impl Page {
 
     /// Returns the text of the SVG file.
     pub fn finish(self) -> String {
-        document([WIDTH, (self.y + MARGIN / 2.0).ceil()], &self.title, self.content)
+        document([self.width, (self.y + self.foot).ceil()], &self.title, self.content)
     }
 
     /// Puts an element where its own coordinates say.
@@ -136,17 +152,26 @@ impl Page {
         let frame =
             |x: f64, y: f64, size: [f64; 2]| Frame { corner: [MARGIN + x, self.y + y], size };
         let Some(zone) = zone else {
-            let scale = (INNER / width).min(PANEL_HEIGHT[1] / height);
+            let scale = (self.inner() / width).min(PANEL_HEIGHT[1] / height);
             let size = [width * scale, height * scale];
-            return vec![View::whole(whole, frame((INNER - size[0]) / 2.0, 6.0, size))];
+            return vec![View::whole(whole, frame((self.inner() - size[0]) / 2.0, 6.0, size))];
         };
-        let panel = (INNER - GAP) / 2.0;
+        let panel = (self.inner() - GAP) / 2.0;
         let size = [panel, (panel * (height / width)).clamp(PANEL_HEIGHT[0], PANEL_HEIGHT[1])];
         let right = frame(panel + GAP, 30.0, size);
         vec![
             View::whole(whole, frame(0.0, 30.0, size)),
             View::enlarged(&with_ratio(zone, size[0] / size[1]), right),
         ]
+    }
+
+    /// Returns the views of a whole that stands `count` times side by side, under a line of words.
+    pub fn repeated(&self, whole: &Bounds, count: usize) -> Vec<View> {
+        let width = (self.inner() - GAP * (count - 1) as f64) / count as f64;
+        let [across, high] = whole.size();
+        let size = [width, (width * high / across).min(width)];
+        let corner = |k: usize| [MARGIN + (width + GAP) * k as f64, self.y + 24.0];
+        (0..count).map(|k| View::whole(whole, Frame { corner: corner(k), size })).collect()
     }
 
     fn panel_headings(&mut self, whole: &View, enlarged: &View) {

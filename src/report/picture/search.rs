@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::page::{INNER, MARGIN, Page};
+use super::page::{MARGIN, Page};
 use super::svg::{Anchor, Coloured, DARK, Pixel, circle, group, line, path, rect, segments, text};
 use super::view::Bounds;
 use crate::numbers::Decimal;
@@ -77,7 +77,7 @@ pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search:
     if !(width > 0.0 && height > 0.0) {
         return;
     }
-    let scale = (INNER / width).min(HEIGHT / height);
+    let scale = (page.inner() / width).min(HEIGHT / height);
     let times = Decimal::round_at_most(HEIGHT / height / scale).value().max(1.0);
     let bottom = page.y + 44.0 + height * scale * times;
     let at = |[x, y]: [f64; 2]| {

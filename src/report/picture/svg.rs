@@ -88,6 +88,12 @@ pub fn path<'a>(lines: impl IntoIterator<Item = &'a [Pixel]>) -> Element {
     Element::new("path").set("d", runs.collect::<String>()).set("fill", "none")
 }
 
+/// Makes one element of many polygons.
+pub fn polygons<const N: usize>(rings: impl IntoIterator<Item = [Pixel; N]>) -> Element {
+    let runs = rings.into_iter().map(|ring| format!("M{}Z", places(&ring)));
+    Element::new("path").set("d", runs.collect::<String>())
+}
+
 /// Makes straight lines with round ends, each between two of `points`.
 pub fn segments(ends: &[[usize; 2]], points: &[Pixel]) -> Element {
     let lines: Vec<_> = ends.iter().map(|ends| ends.map(|end| points[end])).collect();

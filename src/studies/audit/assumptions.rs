@@ -1,5 +1,7 @@
 //! What the paper does not give, and what a scene has in its place.
 
+use std::fmt::{self, Display, Formatter};
+
 use serde::Serialize;
 
 use super::range::is_example;
@@ -14,6 +16,12 @@ pub struct Assumption {
     pub what: &'static str,
     /// What the scene has.
     pub set_to: String,
+}
+
+impl Display for Assumption {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        write!(out, "{}: {}", self.what, self.set_to)
+    }
 }
 
 /// What a scene assumes; nothing without contact.
@@ -61,6 +69,14 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
         assumed(axis, format!("{} nodes in x, {} in y", restrained(0), restrained(1))),
         assumed("unit of c_tol", format!("{} {unit}", model.contact.tolerance)),
     ]
+}
+
+/// The relative radius of duct and strand in the paper's example, length: both arcs are half circles or more.
+pub fn relative_radius(scene: &Scene) -> Option<f64> {
+    let target: Vec<NodeId> = scene.model.target_edges().flat_map(|edge| edge.nodes).collect();
+    let [duct, strand] =
+        [&target, &scene.model.contact.nodes].map(|nodes| across(&scene.model, nodes)[0] / 2.0);
+    is_example(scene).then(|| duct * strand / (duct - strand))
 }
 
 /// Width and height of a set of nodes, length.

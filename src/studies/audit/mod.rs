@@ -17,7 +17,7 @@ pub mod variants;
 use rayon::prelude::*;
 use serde::Serialize;
 
-pub use assumptions::{Assumption, assumptions};
+pub use assumptions::{Assumption, assumptions, relative_radius};
 pub use case::Case;
 
 use claims::{CLAIMS, JudgedClaim, UnderReading};

@@ -10,41 +10,111 @@ use crate::audit::prices::{Price, Weight};
 use crate::audit::range::is_example;
 use crate::audit::variants::{End, PressedAcross, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
+use crate::calculix::RECORDED;
 use engine::BodySummary;
 use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
-use report::numbers::{figure, or_dash, percent, with_unit};
+use report::numbers::{figure, or_dash, percent, significant, with_unit};
 use report::tables::UNDERESTIMATE;
 
 /// The most columns of the screen.
 pub const WIDTH: usize = 100;
 
+/// What is judged, and what is not.
+pub const JUDGED: [&str; 2] = [
+    "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it.",
+    "Not judged: the worksheet that the authors ran, which is not public, and misprints.",
+];
+
+/// What a mark at a claim says.
+pub const OURS: &str =
+    "*: the threshold, or a part of the statement, is this audit's; the paper gives none.";
+
+/// What the runs of the table are.
+pub const RUNS: &str =
+    "Runs of the paper's algorithm, and the equilibrium under the scene's own friction";
+
+/// What the faults are, and what stands beside each.
+pub const FAULTS: &str = "Faults, each put back alone into the corrected algorithm, with the distance from the equilibrium";
+
+/// The parts of the first screen, of which the terminal and the page are renderings.
+pub struct Screen<'a> {
+    /// The sentences to quote.
+    pub verdict: Vec<String>,
+    /// What contact leads to; nothing where the scene has none.
+    pub contact: Option<OfContact<'a>>,
+}
+
+/// What the first screen shows of a scene with contact.
+pub struct OfContact<'a> {
+    /// The runs beside the equilibrium.
+    pub runs: Table,
+    /// What is to be said of the runs.
+    pub notes: Vec<String>,
+    /// The ids of the claims by verdict, in a row for each scope.
+    pub statements: Table,
+    /// What each fault costs, the dearest first; or why that is not known.
+    pub faults: Result<Faults<'a>, String>,
+    /// What the paper leaves open.
+    pub assumed: &'a [Assumption],
+}
+
+/// The faults by what they cost.
+pub struct Faults<'a> {
+    /// The cost of each that costs something.
+    pub dear: Vec<(String, &'a Price)>,
+    /// Those that cost nothing, and those that are none here: the distance, their names, and what is said of them.
+    pub others: Vec<[String; 3]>,
+}
+
+impl<'a> Screen<'a> {
+    /// Collects the parts.
+    pub fn new(audit: &'a Audit, conclusion: &Conclusion, scene: &Scene) -> Self {
+        let contact = conclusion.coupled.as_ref().map(|_| OfContact {
+            runs: runs(audit, scene),
+            notes: error_of_the_mesh(conclusion).into_iter().collect(),
+            statements: statements(&audit.claims),
+            faults: faults(&audit.prices),
+            assumed: &audit.assumptions,
+        });
+        Screen { verdict: verdict(audit, conclusion, scene), contact }
+    }
+}
+
 /// Reports the first screen.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
+    let Screen { verdict, contact } = Screen::new(audit, conclusion, scene);
     let report = Report::titled(format!(
         "Audit of Filipov & Khomenko, \"Plane contact by the finite element method\", on scene {}{under}",
         scene.name
     ))
-    .line(
-        "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it. Not judged: the worksheet that \
-         the authors ran, which is not public. A listing may be misprinted; the authors were not asked.",
-    )
+    .line(JUDGED.join(" "))
     .heading("Verdict")
-    .notes(verdict(audit, conclusion, scene));
-    if conclusion.coupled.is_none() {
+    .notes(verdict);
+    let Some(OfContact { runs, notes, statements, faults, assumed }) = contact else {
         return report.line(more(scene));
-    }
+    };
     report
-        .table("Runs of the paper's algorithm, and the equilibrium under the scene's own friction", runs(audit, scene))
-        .notes(error_of_the_mesh(conclusion))
-        .table(format!("The paper's {}", claims::counts()), statements(&audit.claims))
-        .note("*: the threshold, or a part of the statement, is this audit's; the paper gives none. audit --claim P12 \
-             explains one.")
-        .then(faults(&audit.prices))
-        .line(assumed(&audit.assumptions, scene))
+        .table(RUNS, runs)
+        .notes(notes)
+        .table(format!("The paper's {}", claims::counts()), statements)
+        .note(format!("{OURS} audit --claim P12 explains one."))
+        .heading(FAULTS)
+        .notes(match faults {
+            Ok(Faults { dear, others }) => {
+                let dear = dear.iter().map(|(cost, price)| format!("{cost}: {}", price));
+                dear.chain(others.into_iter().map(|row| row.join(": "))).collect()
+            }
+            Err(why) => vec![why],
+        })
+        .line(format!(
+            "{}: {}.",
+            if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" },
+            assumed.iter().map(Assumption::to_string).collect::<Vec<_>>().join("; ")
+        ))
         .line(more(scene))
 }
 
@@ -111,7 +181,8 @@ fn runs(audit: &Audit, scene: &Scene) -> Table {
         format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
     let rows = of_the_paper(&audit.variants)
         .map(|(_, row)| run(row))
-        .chain(audit.equilibrium.as_ref().map(equilibrium));
+        .chain(audit.equilibrium.as_ref().map(equilibrium))
+        .chain(is_example(scene).then(calculix));
     Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
 }
 
@@ -151,6 +222,12 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
         stresses(&found.bodies, found.mesh_error).into(),
         Cell::Empty,
     ]
+}
+
+/// CalculiX's recorded figures.
+fn calculix() -> Vec<Cell> {
+    let stresses = RECORDED.map(|(_, stress)| significant(stress, 3)).join(" / ");
+    vec!["CalculiX, recorded".into(), Cell::Empty, Cell::Empty, stresses.into()]
 }
 
 fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
@@ -219,18 +296,12 @@ fn statements(judged: &[JudgedClaim]) -> Table {
     Table::new(std::iter::once("verdict holds on").chain(headings), rows)
 }
 
-/// Reports what each fault costs, the dearest first.
-fn faults(prices: &Result<Vec<Price>, String>) -> Report {
-    let report = Report::default()
-        .heading("Faults, each put back alone into the corrected algorithm, with the distance from the equilibrium");
-    let prices = match prices {
-        Ok(prices) => prices,
-        Err(why) => {
-            return report.note(format!("Not measured here: {}", first_line(why)));
-        }
-    };
+/// Returns what each fault costs, the dearest first.
+fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
+    let prices =
+        prices.as_ref().map_err(|why| format!("Not measured here: {}", first_line(why)))?;
     if let Some(why) = prices::unsound(prices) {
-        return report.note(format!("{why}: no fault is priced."));
+        return Err(format!("{why}: no fault is priced."));
     }
     let of = |weight| prices.iter().filter(move |price| price.weight == weight);
     let fatal = of(Weight::Fatal).map(|price| ("fatal".to_string(), price));
@@ -240,30 +311,18 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Report {
         (if price.outcome.is_settled() { far } else { format!("{far}, does not settle") }, price)
     });
     let rounding = of(Weight::Rounding).map(|price| (Weight::Rounding.to_string(), price));
-    let said = fatal.chain(shifts).chain(rounding).map(|(cost, price)| {
-        format!("{cost}: {}: {}", price.name.as_deref().unwrap_or("-"), price.fault)
-    });
     let own = prices[0].outcome.from_equilibrium();
     let own = own.map_or("no equilibrium to compare with".into(), percent);
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
-    report
-        .notes(said)
-        .note(format!(
-            "{own}: no fault: the corrected algorithm, which has no friction; as far with {}",
-            listed(free)
-        ))
-        .notes(
-            (!none.is_empty())
-                .then(|| format!("no fault here, as no node slides: {}", listed(none))),
-        )
-}
-
-fn assumed(assumptions: &[Assumption], scene: &Scene) -> String {
-    let each =
-        assumptions.iter().map(|assumption| format!("{}: {}", assumption.what, assumption.set_to));
-    let what = if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" };
-    format!("{what}: {}.", each.collect::<Vec<_>>().join("; "))
+    let free =
+        [own, listed(free), "no more than the corrected algorithm, which has no friction".into()];
+    let none = (!none.is_empty())
+        .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
+    Ok(Faults {
+        dear: fatal.chain(shifts).chain(rounding).collect(),
+        others: std::iter::once(free).chain(none).collect(),
+    })
 }
 
 fn more(scene: &Scene) -> String {

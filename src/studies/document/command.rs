@@ -43,12 +43,12 @@ base::choices! {
 /// Write an audit report, ready to be handed in.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The report: the conclusion in five answers; the claims of the paper with their verdicts; what each
-printed fault costs; readings, findings and variants; this project's own figures 4 and 5; the
-differences from CalculiX; what could not be checked; a glossary; and at its end the command that
-makes it again, versions and hashes. --format html and markdown say the same. The page has the
-fields of every run under the pointer and at probes too, and tables that copy as CSV; printed, it is
-a document of A4 pages. It takes a minute on strand, more with --repairs, and 3 times as
+The first screen, and page 1 in print: a verdict to quote, the runs beside the equilibrium, pressure
+and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts
+unfold: five answers, each claim and finding in full, readings and variants, figures, differences
+from CalculiX, what could not be checked, a glossary, and the command that makes it again, versions
+and hashes. --format html and markdown say the same. The page has the fields of every run at their
+end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It takes a minute on strand, more with --repairs, and 3 times as
 long as solve with --no-audit.
 
 Examples:
@@ -124,10 +124,10 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
         calculix: beside.as_ref().map(|beside| beside.compared(case)),
         charts,
     };
-    let report = document(&contents);
     match args.format {
-        Format::Html => commands::write_page(&args.out, out, &page::html(&report, &contents))?,
+        Format::Html => commands::write_page(&args.out, out, &page::html(&contents))?,
         Format::Markdown => {
+            let report = document(&contents);
             let page = files::MARKDOWN.to_string() + &report.markdown();
             let mut written = report.figures();
             written.push((name_of(out)?, &page));

@@ -1,22 +1,28 @@
 //! The audit report that a referee hands in, as one report: HTML and Markdown are renderings of it.
 
 pub(crate) mod command;
+mod first;
 mod glossary;
 pub mod page;
 
-use crate::audit::Audit;
 use crate::audit::claims::Verdict as ClaimVerdict;
 use crate::audit::conclusion::Conclusion;
 use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
-use crate::audit::{claims::table as claims, prices::table as prices, tables as audit};
+use crate::audit::range::is_example;
+use crate::audit::{Audit, relative_radius};
+use crate::audit::{
+    claims::table as claims, conclusion::words as conclusion, prices::table as prices, screen,
+    tables as audit,
+};
 use crate::calculix::table::{self as comparison, Compared};
-use engine::{Assessment, Hertz, Solution, TriangleValues};
+use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use paper::listings::Which;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
-use report::folder::field_picture;
+use report::folder;
+use report::html::figure;
 use report::layout::listed;
 use report::model::{Report, Table};
 use report::picture::{self, Drawing};
@@ -51,17 +57,41 @@ pub struct Run<'a> {
     pub assessment: Assessment<'a>,
 }
 
-/// Returns the audit report: the conclusion, what it rests on, and what makes it again.
+/// A picture of the first screen.
+struct Picture {
+    title: String,
+    svg: String,
+}
+
+impl Picture {
+    fn html(&self) -> String {
+        figure(&self.title, &self.svg)
+    }
+}
+
+/// Returns the audit report as one document: the first screen, and what it rests on.
 pub fn document(contents: &Contents) -> Report {
+    let first = match contents.audit {
+        Some((audit, conclusion)) => screen::report(audit, conclusion, contents.scene),
+        None => Report::titled(first::runs_title(contents)),
+    };
+    let first = pictures(contents)
+        .into_iter()
+        .fold(first, |report, Picture { title, svg }| report.figure(title, svg));
+    first.then(parts(contents))
+}
+
+/// Returns what the first screen rests on, and what makes it again.
+fn parts(contents: &Contents) -> Report {
     let Contents { scene, charts, .. } = contents;
     let report = match contents.audit {
         Some((audit, conclusion)) => audited(audit, conclusion, &contents.repairs, scene),
-        None => Report::titled(format!("Runs of scene {} ({})", scene.name, scene.title))
-            .then(what_was_audited()),
+        None => Report::default(),
     };
     let charts =
         charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
-    report
+    what_was_audited()
+        .then(report)
         .then(figures(contents))
         .then(other_codes(contents))
         .then(contents.audit.map_or(Report::default(), |(audit, _)| unchecked(audit)))
@@ -74,10 +104,12 @@ fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Sc
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
-        report.then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
+        let picture = folder::finding_picture(finding.id, &finding.scene());
+        report
+            .then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
+            .figure(format!("The smallest scene that shows {}", finding.id), picture)
     });
-    audit::opening(audit, conclusion, scene)
-        .then(what_was_audited())
+    conclusion::report(&conclusion::answers(audit, conclusion, scene))
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
         .then(prices::section(conclusion.reading, &audit.prices, repairs, scene))
         .then(audit::evidence(audit))
@@ -105,31 +137,82 @@ fn what_was_audited() -> Report {
         .line("Every term is defined in the glossary at the end.")
 }
 
-/// Shows this project's own figures 4 and 5, of the last run, then pressure, shear and gap of all runs.
+/// Returns the runs of the pictures under short names: the paper's, then the equilibrium; without an audit all.
+fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
+    let known = contents.audit.is_some_and(|(audit, _)| audit.equilibrium.is_some());
+    let equilibrium = known.then(|| contents.runs.len() - 1);
+    let name = |(k, run): (usize, &Run)| {
+        let variant = run.solution.request.variant;
+        let is_shown = contents.audit.is_none() || Variant::OF_THE_PAPER.contains(&variant);
+        match equilibrium == Some(k) {
+            true => Some("equilibrium".into()),
+            false => is_shown.then(|| variant.to_string()),
+        }
+    };
+    let runs = contents.runs.iter().enumerate();
+    runs.filter_map(|(k, run)| Some((name((k, run))?, run.solution))).collect()
+}
+
+/// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not known.
+fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
+    let fields = contents.audit.and_then(|(_, conclusion)| conclusion.fields.as_ref());
+    let nearest = fields.and_then(|fields| fields.variants.first());
+    let mut runs = named(contents);
+    let first = runs.iter().position(|(_, run)| Some(&run.request.variant) == nearest);
+    if runs.len() > 2 {
+        runs = vec![runs[first.unwrap_or(0)].clone(), runs[runs.len() - 1].clone()];
+    }
+    runs
+}
+
+/// Returns the pictures of the first screen: the pressure of the runs, and the stress of two.
+fn pictures(contents: &Contents) -> Vec<Picture> {
+    let scene = contents.scene;
+    let runs = named(contents);
+    let of_example =
+        relative_radius(scene).and_then(|radius| Hertz::of_radius(runs.last()?.1, radius));
+    let hertz =
+        of_example.or_else(|| runs.iter().rev().find_map(|(_, run)| Hertz::from_solution(run)));
+    let pressure = runs.iter().any(|(_, run)| !run.contact.is_empty()).then(|| Picture {
+        title: "Contact pressure along the contact surface".into(),
+        svg: pressure::small_picture(scene, &runs, hertz.as_ref()),
+    });
+    pressure.into_iter().chain(beside(contents, "von_mises_stress")).collect()
+}
+
+/// Draws a field of the triangles in two runs side by side; nothing without a run.
+fn beside(contents: &Contents, field: &str) -> Option<Picture> {
+    let scene = contents.scene;
+    let quantity = TriangleValues::QUANTITIES.iter().find(|quantity| quantity.name == field);
+    let quantity: &Quantity<TriangleValues> = quantity.expect("it is declared");
+    let runs = two(contents);
+    let array = |run| triangle_array(quantity, &TriangleValues::all(run, None), &scene.units);
+    let arrays: Vec<_> =
+        runs.iter().filter_map(|(name, run)| Some((name.clone(), array(run)?))).collect();
+    let unit = arrays.first()?.1.unit.clone();
+    let names: Vec<&str> = arrays.iter().map(|(name, _)| name.as_str()).collect();
+    let title = format!("{} in {}, undeformed", quantity.title, names.join(" and "));
+    let fields: Vec<_> =
+        arrays.iter().map(|(name, array)| (name.clone(), array.values.clone())).collect();
+    let svg = picture::beside(&Drawing::new(scene, ""), quantity.title, &unit, &fields);
+    Some(Picture { title, svg })
+}
+
+/// Shows the mesh, the strain, then pressure, shear and gap of all runs.
 fn figures(contents: &Contents) -> Report {
     let Some(Run { solution, assessment }) = contents.runs.last() else { return Report::default() };
     let scene = contents.scene;
-    let drawing = Drawing::new(scene, &scene.title);
-    let name = pressure::name(solution);
+    let [heading, mesh, strain] = match is_example(scene) {
+        true => ["This project's own figures 4 and 5", "Figure 4: the mesh", "Figure 5b: "],
+        false => ["Mesh and strain", "Mesh", ""],
+    };
     let report = Report::default()
-        .heading("This project's own figures 4 and 5")
-        .line(format!(
-            "Figure 5 is of the run {name}. `plane-contact solve` writes such pictures of every run to a folder."
-        ))
-        .figure("Figure 4: the mesh", picture::mesh(&drawing));
-    let triangles = TriangleValues::all(solution, None);
-    let fields = [("a", "von_mises_stress"), ("b", "von_mises_strain")];
-    let report = fields.into_iter().fold(report, |report, (figure, field)| {
-        let quantity = TriangleValues::QUANTITIES.iter().find(|quantity| quantity.name == field);
-        let quantity = quantity.expect("it is declared");
-        match triangle_array(quantity, &triangles, &scene.units) {
-            Some(array) => report.figure(
-                format!("Figure 5{figure}: {} of {name}", quantity.title),
-                field_picture(&drawing, solution, quantity.title, &array),
-            ),
-            None => report,
-        }
-    });
+        .heading(heading)
+        .figure(mesh, picture::mesh(&Drawing::new(scene, &scene.title)));
+    let report = match beside(contents, "von_mises_strain") {
+        Some(Picture { title, svg }) => report.figure(format!("{strain}{title}"), svg),
+        None => report,
+    };
     let surface = if solution.contact.is_empty() { Report::default() } else { surface(contents) };
     report.then(tables::error_estimates(solution, assessment)).then(surface)
 }

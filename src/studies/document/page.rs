@@ -1,46 +1,46 @@
-//! The page of an audit report: the report as a document, then the fields of every run.
+//! The page of an audit report: the first screen, the report as a document, then the fields of every run.
 //!
-//! Its data: `runs`, each with `result` as `result.json` has it, and the mesh and the fields as numbers
-//! in base64, little-endian: `u` and `triangles` (all components of a quantity by its name) in 32 bits;
-//! of iterations before the last `u`, and the von Mises stress in 16 bits of its largest. `quantities`
-//! says what there is, and in which units.
+//! Its data: one `mesh`, and `runs`, each with tables of its `result`, and fields as numbers in base64,
+//! little-endian: `u` in 32 bits, and `triangles` (all components of a quantity by its name) in the first 24 of 32,
+//! which keep five digits. `quantities` says what there is, and in which units.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::{Contents, Run};
+use super::{Contents, Run, first, parts};
 use crate::calculix::{Comparison, Fields};
-use engine::{Detail, Step, Stiffness, TriangleState, TriangleValues};
+use engine::{TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
 use report::json::document;
 use report::language::Language;
-use report::model::Report;
 use report::page::Page;
 use report::picture::{colour, points};
 use report::{ResultFile, pressure, quantities};
 
-/// The shades of a field.
-const SHADES: u8 = 64;
-
-/// Returns the page of a report, which was made of `contents`.
-pub fn html(report: &Report, contents: &Contents) -> String {
+/// Returns the page of a report.
+pub fn html(contents: &Contents) -> String {
     let scene = contents.scene;
-    let runs = contents.runs.par_iter().map(run).collect::<Vec<Value>>();
+    let parts = parts(contents);
+    let body = include_str!("page/body.html")
+        .replace("FIRST", &first::html(contents, &first::menu(&parts)))
+        .replace("PARTS", &parts.html());
+    let quantities = quantities::on_pages();
+    let runs = contents.runs.par_iter().map(|own| run(own, &quantities)).collect::<Vec<Value>>();
     let calculix = contents.calculix.as_ref().map(|compared| calculix_run(compared.comparison));
     let own = json!({
         "mesh": mesh(&scene.model),
         "runs": runs.into_iter().chain(calculix).collect::<Vec<_>>(),
         "own": own_run(contents),
         "equilibrium": contents.runs.last().map(|run| pressure::name(run.solution)),
-        "colours": colour::parts(SHADES),
-        "quantities": quantities::on_pages(),
+        "colours": colour::parts(colour::SHADES),
+        "quantities": quantities,
     });
     Page {
         language: Language::En,
         title: &format!("Report: {}", scene.name),
-        body: &include_str!("page/body.html").replace("DOCUMENT", &report.html()),
+        body: &body,
         style: include_str!("page/report.css"),
         script: &[
             report::page::TABLE,
@@ -86,47 +86,36 @@ fn mesh(model: &Model) -> Value {
     })
 }
 
-fn run(run: &Run) -> Value {
+fn run(run: &Run, known: &Value) -> Value {
     let solution = run.solution;
-    let stiffness = Stiffness::new(&solution.model, |x| x);
-    let before = solution.steps.windows(2).filter(|steps| is_shown(&steps[0], &steps[1]));
-    let before = before.map(|steps| iteration(&solution.model, &stiffness, [&steps[0], &steps[1]]));
-    let result = ResultFile::new(solution, &run.assessment, None);
+    let result = json!(ResultFile::new(solution, &run.assessment, None));
+    let tables = [("iterations", "iteration"), ("bodies", "body"), ("contact", "contact")];
+    let tables = tables.map(|(table, place)| (table, rows(&result[table], &known[place])));
     json!({
         "name": pressure::name(solution),
-        "result": ResultFile { nodes: None, u_digits: None, elements: None, ..result },
+        "result": Value::from_iter(tables),
         "u": floats(solution.u.iter().copied()),
         "triangles": triangles(&TriangleValues::all(solution, run.assessment.mesh_error().as_deref())),
-        "iterations": before.collect::<Vec<_>>(),
     })
 }
 
-/// Returns whether the fields of an iteration are shown: on a path of the load, where it ends a step.
-fn is_shown(own: &Step, next: &Step) -> bool {
-    match (&own.detail, &next.detail) {
-        (Detail::Unilateral(own), Detail::Unilateral(next)) => own.load < next.load,
-        (Detail::Published(_), _) | (_, Detail::Published(_)) => true,
-    }
-}
-
-/// Returns the fields of an iteration: the shape that it ended in is that from which the next
-/// started.
-fn iteration(model: &Model, stiffness: &Stiffness, [own, next]: [&Step; 2]) -> Value {
-    let moved = next.shape.as_flattened().iter().zip(model.nodes.as_flattened());
-    let u: Vec<f64> = moved.map(|(now, before)| now - before).collect();
-    let states = stiffness.states(&u.clone().into());
-    let stress: Vec<f64> = states.iter().map(|state| state.von_mises_stress).collect();
-    let most = stress.iter().copied().fold(0.0, f64::max);
-    let part = |x: &f64| if most > 0.0 { (x / most * 65535.0).round() as u16 } else { 0 };
-    let parts: Vec<u8> = stress.iter().flat_map(|x| part(x).to_le_bytes()).collect();
-    json!({ "k": own.k, "u": floats(u), "von_mises": base64(&parts), "most": most })
+/// Returns rows of a result with the quantities that tables show.
+fn rows(rows: &Value, known: &Value) -> Value {
+    let is_shown = |name: &str| known.as_array().into_iter().flatten().any(|it| it["name"] == name);
+    let row = |row: &Value| {
+        let entries = row.as_object().into_iter().flatten().filter(|(name, _)| is_shown(name));
+        Value::from_iter(entries.map(|(name, value)| (name.clone(), value.clone())))
+    };
+    rows.as_array().into_iter().flatten().map(row).collect()
 }
 
 /// Returns the numbers of each quantity that is known in all triangles, by its name.
 fn triangles(values: &[TriangleValues]) -> Value {
     let known = TriangleValues::QUANTITIES.iter().filter_map(|quantity| {
         let numbers = values.iter().map(|row| (quantity.value)(row).numbers());
-        Some((quantity.name, floats(numbers.collect::<Option<Vec<_>>>()?.concat())))
+        let numbers = numbers.collect::<Option<Vec<_>>>()?.concat();
+        let first = numbers.iter().flat_map(|x| (*x as f32).to_le_bytes()[1..].to_vec());
+        Some((quantity.name, base64(&first.collect::<Vec<u8>>())))
     });
     Value::from_iter(known)
 }
@@ -142,6 +131,5 @@ fn calculix_run(comparison: &Comparison) -> Value {
         "name": "CalculiX",
         "u": floats(u.as_flattened().iter().copied()),
         "triangles": triangles(&values),
-        "iterations": [],
     })
 }

@@ -1,20 +1,16 @@
-// A report in a browser: node report.cjs PAGE FOLDER RESULT AUDIT NAME. RESULT is the result.json of
-// the scene's own variant, with its fields; AUDIT what audit --json prints. The folder receives a
-// picture.
+// A report in a browser: node report.cjs PAGE RESULT AUDIT. RESULT is the result.json of
+// the scene's own variant, with its fields; AUDIT what audit --json prints.
 
 const assert = require("node:assert");
 const fs = require("node:fs");
 const { pathToFileURL } = require("node:url");
 const { open, inAllViews, runAll, drawn } = require("./browser.cjs");
 
-const [file, folder, resultFile, auditFile] = process.argv.slice(2);
+const [file, resultFile, auditFile] = process.argv.slice(2);
 const result = JSON.parse(fs.readFileSync(resultFile, "utf8"));
 const audit = JSON.parse(fs.readFileSync(auditFile, "utf8"));
 
 const rows = (page, title) => page.locator(`article div[aria-label^="${title}"] tbody tr`).count();
-
-/** Chooses an option by its text, or a range by its value. */
-const setRange = (page, id, value) => page.locator(`#${id}`).fill(String(value));
 
 /** Each field at triangles drawn at random, by probes on the undeformed shape. */
 async function fields(browser) {
@@ -43,7 +39,7 @@ async function fields(browser) {
   assert.deepEqual(said, []);
 }
 
-/** Gap, pressure and shear at contact nodes, by probes; they are kept of the last iteration only. */
+/** Gap, pressure and shear at contact nodes, by probes. */
 async function surface(browser) {
   const { page, said } = await open(browser, file);
   const nodes = result.contact.filter(({ dy }) => dy === 1);
@@ -63,19 +59,15 @@ async function surface(browser) {
   await page.locator("#view-0").focus();
   await page.keyboard.press("Enter");
   assert.match(await page.locator("#probes tbody tr").last().locator("td").nth(2).textContent(), /^node \d+$/);
-  await setRange(page, "iteration", 2);
-  assert.match(await page.textContent("#said-0"), /is kept of the last iteration only/);
   assert.deepEqual(said, []);
 }
 
-/** The tables of a run; iterations on the slider; both runs can be any. */
+/** The tables of a run; both runs can be any. */
 async function iterations(browser) {
   const { page, said } = await open(browser, file);
   for (const [k, list] of [result.iterations, result.bodies, result.contact].entries()) {
     assert.equal(await page.locator("#iterations table").nth(k).locator("tbody tr").count(), list.length);
   }
-  await setRange(page, "iteration", 3);
-  assert.match(await page.textContent("#said-0"), /iteration 3 of/);
   for (const side of [0, 1]) {
     const count = await page.locator(`#run-${side} option`).count();
     for (let k = 0; k < count; k += 1) await page.selectOption(`#run-${side}`, { index: k });
@@ -94,6 +86,8 @@ async function tables(browser) {
   }
   const text = await page.textContent("article");
   for (const { question, answer } of audit.answers) assert.ok(text.includes(question) && text.includes(answer), question);
+  await page.click("#menu > summary");
+  await page.click('#menu a[href="#readings"]');
   await page.click('button[aria-label^="copy as CSV: 2. Findings"]');
   const csv = await page.evaluate(() => navigator.clipboard.readText());
   const lines = csv.trimEnd().split("\r\n");
@@ -102,8 +96,27 @@ async function tables(browser) {
   const [start, value] = lines[4].split(`,${fourth.verdict},`);
   assert.equal(start, `${fourth.id},"${fourth.listing} ${fourth.lines.join(", ")}"`);
   assert.equal(Number(value.split(",")[0]), fourth.number);
-  await page.locator("#contents a").last().click();
+  await page.click("#menu > summary");
+  await page.locator("#menu a").last().click();
   assert.ok(await page.locator("#fields").isVisible());
+}
+
+/** Each part unfolds from its row: a claim its sentence, value and command, a finding its lines, scene and picture. */
+async function unfolds(browser) {
+  const { page, said } = await open(browser, file);
+  const claim = audit.claims[2];
+  const part = page.locator(`#${claim.id.toLowerCase()}`);
+  assert.equal(await part.getByText(claim.quote).isVisible(), false);
+  await page.locator(`.statements a[href="#${claim.id.toLowerCase()}"]`).focus();
+  await page.keyboard.press("Enter");
+  for (const words of [claim.quote, claim.condition, claim.command.join(" ")]) assert.ok(await part.getByText(words).first().isVisible(), words);
+  const finding = page.locator("#k1");
+  await page.locator('.verdict a[href="#k1"]').click();
+  assert.ok(await finding.locator("pre").first().isVisible());
+  assert.ok(await finding.locator("img").evaluate(async (image) => (await image.decode(), image.naturalWidth > 100)));
+  const titles = await page.locator('#first a[href^="#"]').evaluateAll((all) => all.map(({ title }) => title));
+  assert.ok(titles.length > 10 && titles.every((title) => title.length > 10), String(titles));
+  assert.deepEqual(said, []);
 }
 
 /** Without a script the page has the whole report. */
@@ -111,8 +124,9 @@ async function readable(browser) {
   const context = await browser.newContext({ javaScriptEnabled: false });
   const page = await context.newPage();
   await page.goto(pathToFileURL(file).href);
-  const text = await page.innerText("article");
-  for (const part of ["Conclusion", "Each finding in full", "Figure 5b", "SHA-256"]) assert.ok(text.includes(part), part);
+  const text = await page.textContent("body");
+  for (const part of ["Verdict", "Conclusion", "Each finding in full", "SHA-256"]) assert.ok(text.includes(part), part);
+  assert.equal(await page.locator("#first img").evaluateAll((all) => all.filter((image) => image.checkVisibility()).length), 2);
   assert.equal(await page.locator("#fields").isVisible(), false);
 }
 
@@ -159,11 +173,9 @@ async function views(browser) {
   await inAllViews(browser, file, async ({ page, check, view }) => {
     await check();
     if (view !== "1440-light") return;
-    await page.locator("#fields").evaluate((section) => section.scrollIntoView());
-    await page.screenshot({ path: `${folder}/report-${view}.png` });
     assert.ok((await page.pdf()).length > 20000, "it prints");
   });
 }
 
-const tests = [fields, surface, iterations, tables, readable, printed, moves, views];
+const tests = [fields, surface, iterations, tables, unfolds, readable, printed, moves, views];
 runAll(tests);

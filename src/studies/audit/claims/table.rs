@@ -60,7 +60,8 @@ pub fn report(
     };
     let entry = |report: Report, judged: &JudgedClaim| {
         let Claim { id, judged: what, .. } = judged.claim;
-        report.note(format!("{id}: {what}")).then(entry(judged))
+        let heading = format!("{id}: {what}: {}", judged.measured.verdict);
+        report.then(Report::default().heading(heading).deeper(1)).then(entry(judged))
     };
     let report = report.then(other_readings(claims, by_reading));
     claims
@@ -131,7 +132,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
 }
 
 /// Names a reading that is not the default.
-pub(in crate::audit) fn under(reading: &Reading) -> String {
+pub fn under(reading: &Reading) -> String {
     if *reading == Reading::default() { String::new() } else { format!(", under {reading}") }
 }
 
@@ -145,15 +146,15 @@ fn entry(judged: &JudgedClaim) -> Report {
     let Claim { place, quote, translation, condition, threshold, number, basis, .. } = judged.claim;
     let value = judged.measured.figure(short);
     Report::default()
-        .detail(format!("the paper, {place}: «{quote}»"))
-        .detail(format!("in English: \"{translation}\""))
-        .detail(format!("true where: {condition}"))
-        .detail(format!("threshold: {threshold}"))
-        .detail(format!("verdict: {}, {basis}; scope: {}", judged.measured.words(), judged.scope))
-        .detail(format!("value: {value} = {number}"))
-        .detail(format!("beside it: {}", judged.measured.detail))
-        .details(error_of_the_mesh(&judged.measured.mesh_errors))
-        .details(printed_by(judged))
+        .note(format!("the paper, {place}: «{quote}»"))
+        .note(format!("in English: \"{translation}\""))
+        .note(format!("true where: {condition}"))
+        .note(format!("threshold: {threshold}"))
+        .note(format!("verdict: {}, {basis}; scope: {}", judged.measured.words(), judged.scope))
+        .note(format!("value: {value} = {number}"))
+        .note(format!("beside it: {}", judged.measured.detail))
+        .notes(error_of_the_mesh(&judged.measured.mesh_errors))
+        .notes(printed_by(judged))
 }
 
 /// Says the error of the mesh in each run that was measured.

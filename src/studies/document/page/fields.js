@@ -48,33 +48,24 @@ const inUnit = (text, field) => [text, unitOf(field)].filter(Boolean).join(" ");
 /** The runs that have fields. */
 const shownRuns = data.runs.filter((run) => run.u !== undefined);
 
-/** How many iterations a run shows; the last has every field, those before it have displacements and
- * von Mises stress. */
-const iterationsOf = (run) => run.iterations.length + 1;
+/** The displacements of a run at its end. */
+const displacements = (run) => (run.opened ??= numbers(Float32Array, run.u));
 
-/** The number of the iteration at a place of the slider. */
-const numberOf = (run, place) => run.iterations[place - 1]?.k ?? lastOf(run);
-const lastOf = (run) => run.result?.iterations.length ?? 1;
-
-/** The displacements at a place of the slider, from 1. */
-function displacements(run, k) {
-  const kept = run.iterations[k - 1];
-  const holder = kept ?? run;
-  return (holder.opened ??= numbers(Float32Array, holder.u));
+/** The numbers of which a text in base64 holds the first 24 bits each. */
+function firstBits(text) {
+  const kept = numbers(Uint8Array, text);
+  const whole = new Uint8Array((kept.length / 3) * 4);
+  for (let k = 0; k < kept.length; k += 1) whole[k + Math.floor(k / 3) + 1] = kept[k];
+  return new Float32Array(whole.buffer);
 }
 
-/** The values of a field by triangle, in an iteration; null where they are not known. */
-function valuesOf(run, field, k) {
+/** The values of a field by triangle; null where they are not known. */
+function valuesOf(run, field) {
   if (field.contact) return null;
-  if (field.of) return ofTriangles(displacements(run, k), field.of);
-  const kept = run.iterations[k - 1];
-  if (kept && field.triangle !== "von_mises_stress") return null;
-  if (kept) {
-    return Float32Array.from(numbers(Uint16Array, kept.von_mises), (part) => (part / 65535) * kept.most);
-  }
+  if (field.of) return ofTriangles(displacements(run), field.of);
   const { triangle, component, components } = field;
   if (!run.triangles[triangle]) return null;
-  const all = ((run.opened_triangles ??= {})[triangle] ??= numbers(Float32Array, run.triangles[triangle]));
+  const all = ((run.opened_triangles ??= {})[triangle] ??= firstBits(run.triangles[triangle]));
   return all.filter((_, k) => k % components === component);
 }
 
@@ -87,18 +78,18 @@ function ofTriangles(u, of) {
 }
 
 /** The values of a field at contact nodes, by node from 0, in order along the surface; null where
- * they are not known, as before the last iteration. */
-function marksOf(run, field, k) {
-  if (!field.contact || k < iterationsOf(run)) return null;
+ * they are not known. */
+function marksOf(run, field) {
+  if (!field.contact) return null;
   const known = (run.result?.contact ?? []).map((node) => [node.node - 1, node[field.contact]]);
   const marks = new Map(known.filter(([, value]) => typeof value === "number"));
   return marks.size > 0 ? marks : null;
 }
 
 /** The nodes' places under displacements drawn `factor` times. */
-function placesOf(run, k, factor) {
+function placesOf(run, factor) {
   if (factor === 0) return mesh.at;
-  const u = displacements(run, k);
+  const u = displacements(run);
   return mesh.at.map((x, j) => x + factor * u[j]);
 }
 

@@ -1,4 +1,4 @@
-// What a script adds to the report: tables of a run, contents, tables that copy as CSV.
+// What a script adds to the report: tables of a run, parts that unfold when they are linked to, tables that copy as CSV.
 
 /** The columns of the quantities that live on a place, of those that any row has. */
 function columnsOf(place, rows) {
@@ -18,15 +18,19 @@ function showIterations({ name, result }) {
   byId("iterations").replaceChildren(...known.map(([title, place, rows]) => tableOf(title, columnsOf(place, rows), rows)));
 }
 
-/** Links to the sections and the tables of the report, and to the fields. */
-function showContents() {
-  const parts = [...document.querySelectorAll("h2, article caption")];
-  const links = parts.map((part, k) => ((part.id ||= `part-${k}`), make("a", { href: `#${part.id}` }, part.textContent)));
-  byId("contents").replaceChildren(...links);
+/** Unfolds the part that the address names, and those around it. */
+function unfold() {
+  const named = byId(decodeURIComponent(location.hash.slice(1)));
+  for (let part = named; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+  named?.scrollIntoView();
 }
 
-byId("fields").hidden = false;
-showContents();
+byId("fields").hidden = byId("to-fields").hidden = false;
+byId("menu").addEventListener("click", ({ target }) => target.closest("a") && (byId("menu").open = false));
+byId("menu").after(button(t("print"), () => window.print()));
+document.addEventListener("click", ({ target }) => target.closest?.("a")?.hash === location.hash && unfold());
+window.addEventListener("hashchange", unfold);
 document.querySelectorAll("article table").forEach(addCopying);
 startViewer();
 showExactValues();
+unfold();

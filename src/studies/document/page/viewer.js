@@ -1,7 +1,7 @@
 // Two pictures of fields that move together.
 
 const OWN_FIELD = FIELDS.findIndex(({ triangle }) => triangle === "von_mises_stress");
-const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[OWN_FIELD], k: 1, factor: 0, panels: [] };
+const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[OWN_FIELD], factor: 0, panels: [] };
 const SHADES = data.colours.map(([r, g, b]) => `rgb(${r},${g},${b})`);
 const REST = 120;
 
@@ -23,11 +23,9 @@ const height = (canvas) => Math.min(520, Math.max(260, canvas.clientWidth * 0.85
 /** Computes what the panels show: places, values, and the range that both have. */
 function compute() {
   for (const panel of view.panels) {
-    const k = Math.min(view.k, iterationsOf(panel.run));
-    panel.places = placesOf(panel.run, k, view.factor);
-    panel.values = valuesOf(panel.run, view.field, k);
-    panel.marks = marksOf(panel.run, view.field, k);
-    panel.k = k;
+    panel.places = placesOf(panel.run, view.factor);
+    panel.values = valuesOf(panel.run, view.field);
+    panel.marks = marksOf(panel.run, view.field);
   }
   const ranges = view.panels.map(rangeOf).filter((known) => known);
   view.range = ranges.length ? [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))] : [0, 1];
@@ -142,14 +140,13 @@ function drawScale() {
 
 /** What a panel shows, in words. */
 function saidOf(panel) {
-  const { run, k } = panel;
+  const { run } = panel;
   const name = view.field.name;
   const known = rangeOf(panel);
   const field = { run: run.name, field: name };
-  if (!known && k < iterationsOf(run)) return t("{run}: {field} is kept of the last iteration only", field);
   if (!known) return t("{run}: {field} is not known", field);
   const [low, high] = known;
-  return t("{run}, iteration {k} of {last}: {field} from {low} to {high}", { ...field, k: numberOf(run, k), last: lastOf(run), low, high: inUnit(inProse(high), view.field) });
+  return t("{run}: {field} from {low} to {high}", { ...field, low, high: inUnit(inProse(high), view.field) });
 }
 
 /** Which shape is drawn, in words. */
@@ -163,9 +160,6 @@ function showFields() {
   compute();
   drawAll(fine());
   drawScale();
-  const most = Math.max(...view.panels.map(({ run }) => iterationsOf(run)));
-  byId("iteration").max = most;
-  byId("iteration-shown").textContent = view.panels.map(({ run, k }) => t("{k} of {last}", { k: numberOf(run, k), last: lastOf(run) })).join(" | ");
   view.panels.forEach((panel, side) => {
     const said = saidOf(panel);
     byId(`said-${side}`).textContent = `${said}; ${drawnShape()}`;
@@ -219,7 +213,7 @@ const probes = [];
 function probe(panel, x, y) {
   const found = foundAt(panel, x, y, Infinity);
   const [left, right] = found?.values ?? [null, null];
-  probes.push({ x, y, at: found?.at ?? t("outside"), left, right, names: view.panels.map(({ run, k }) => t("{run}, iteration {k}", { run: run.name, k: numberOf(run, k) })), field: view.field });
+  probes.push({ x, y, at: found?.at ?? t("outside"), left, right, names: view.panels.map(({ run }) => run.name), field: view.field });
   byId("probes").replaceChildren(
     tableOf(t("Probes"), [
       ["x", (p) => p.x], ["y", (p) => p.y], [t("at"), (p) => p.at, "text"],
@@ -279,7 +273,7 @@ function zoom(grown, [x, y]) {
 /** A factor at which the largest displacement of the runs is a twenty-fifth of the scene. */
 function handyFactor() {
   const [left, right, low, high] = extent(mesh.at);
-  const most = Math.max(...shownRuns.map((run) => Math.max(...range(displacements(run, iterationsOf(run))).map(Math.abs))));
+  const most = Math.max(...shownRuns.map((run) => Math.max(...range(displacements(run)).map(Math.abs))));
   if (!(most > 0)) return 0;
   const factor = Math.max(right - left, high - low) / 25 / most;
   return Number(factor.toPrecision(1));
@@ -303,10 +297,6 @@ function startViewer() {
   byId("field").replaceChildren(...FIELDS.map((field, k) => make("option", { value: k }, field.name)));
   byId("field").value = OWN_FIELD;
   byId("field").addEventListener("change", (event) => ((view.field = FIELDS[event.target.value]), showFields()));
-  view.k = Math.max(...shownRuns.map(iterationsOf));
-  byId("iteration").max = view.k;
-  byId("iteration").value = view.k;
-  byId("iteration").addEventListener("input", (event) => ((view.k = Number(event.target.value)), showFields()));
   byId("factor").value = view.factor;
   byId("handy").textContent = t("for example {factor}", { factor: handyFactor() });
   byId("factor").addEventListener("change", (event) => ((view.factor = Number(event.target.value) || 0), showFields()));
