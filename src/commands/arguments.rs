@@ -141,9 +141,10 @@ pub struct SceneArgs {
     /// The tolerance of the contact search in place of the scene's, length.
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     c_tll: Option<f64>,
-    /// The number of iterations of printed, tied and stepped in place of the scene's.
+    /// Print every iteration, where there are many. With N: make N of them under printed, tied and stepped, in
+    /// place of the scene's number.
     #[arg(long, value_name = "N")]
-    iterations: Option<usize>,
+    iterations: Option<Option<usize>>,
     /// Multiply all loads of the scene.
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     load_factor: Option<f64>,
@@ -167,7 +168,7 @@ impl SceneArgs {
             })?;
             contact.tolerance = tolerance;
         }
-        if let Some(iterations) = self.iterations {
+        if let Some(iterations) = self.iterations.flatten() {
             check_iterations(iterations).map_err(at("--iterations"))?;
             description.iterations = iterations;
         }
@@ -181,10 +182,15 @@ impl SceneArgs {
         Ok(SceneBuilder { name: scene.name.clone(), mesh, description }.build()?)
     }
 
+    /// Returns whether every iteration is to be printed.
+    pub fn all_iterations(&self) -> bool {
+        self.iterations.is_some()
+    }
+
     /// Returns the changes as parts of a folder's name.
     pub fn names(&self) -> Vec<String> {
         let c_tll = self.c_tll.map(|x| format!("c-tll-{x:e}"));
-        let iterations = self.iterations.map(|n| format!("iterations-{n}"));
+        let iterations = self.iterations.flatten().map(|n| format!("iterations-{n}"));
         let factor = self.load_factor.map(|x| format!("load-factor-{x}"));
         [c_tll, iterations, factor].into_iter().flatten().collect()
     }
@@ -259,6 +265,11 @@ pub struct TablesArgs {
 }
 
 impl TablesArgs {
+    /// Returns whether more is asked for than what is printed for people: JSON, or tables as files.
+    pub fn is_whole(&self) -> bool {
+        self.json || self.csv.is_some()
+    }
+
     /// Checks that tables can be written, before they are computed.
     ///
     /// # Errors

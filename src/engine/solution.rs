@@ -454,6 +454,11 @@ impl Solution {
         is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
     }
 
+    /// Returns whether no node is in contact at the end, though the scene has contact.
+    pub fn touches_nothing(&self) -> bool {
+        self.model.target().is_some() && self.in_contact().next().is_none()
+    }
+
     /// Returns the contact nodes in contact at the end.
     pub fn in_contact(&self) -> impl Iterator<Item = &ContactNode> {
         self.contact.iter().filter(|node| node.in_contact)

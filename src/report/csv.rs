@@ -43,7 +43,7 @@ impl<R> Table<R> {
             | Cell::Missing(_)
             | Cell::Integer(_)
             | Cell::Number { .. }
-            | Cell::Percent { .. } => cell.exact(),
+            | Cell::Percent(_) => cell.exact(),
         };
         let rows = self.cells.iter().map(|row| row.iter().map(field).collect());
         let headings = self.headings.iter().map(|heading| words(heading)).collect();

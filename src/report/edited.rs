@@ -26,7 +26,7 @@ pub fn report(printed: &Solution, edited: &Solution) -> Report {
     }
     let change = max_displacement(&(&edited.u - &printed.u));
     let size = max_displacement(&printed.u);
-    let part = if size > 0.0 { format!(" = {}", percent(change / size, 1)) } else { String::new() };
+    let part = if size > 0.0 { format!(" = {}", percent(change / size)) } else { String::new() };
     Report::default()
         .table("What the edited listings change", Table::new(["", "as printed", "edited"], rows))
         .note(format!(

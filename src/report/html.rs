@@ -125,7 +125,7 @@ fn cell(cell: &Cell) -> String {
     let (shown, exact) = (cell.to_string(), cell.exact());
     let class = if cell.is_numeric() { " class=\"number\"" } else { "" };
     let digits = match cell {
-        Cell::Number { .. } | Cell::Percent { .. } if exact != shown => {
+        Cell::Number { .. } | Cell::Percent(_) if exact != shown => {
             format!(" data-exact=\"{exact}\"")
         }
         Cell::Empty
@@ -133,7 +133,7 @@ fn cell(cell: &Cell) -> String {
         | Cell::Text(_)
         | Cell::Integer(_)
         | Cell::Number { .. }
-        | Cell::Percent { .. } => String::new(),
+        | Cell::Percent(_) => String::new(),
     };
     format!("<td{class}{digits}>{}</td>", prose(&shown))
 }

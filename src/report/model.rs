@@ -3,7 +3,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::numbers::{percent, short};
+use super::numbers::{Digits, percent, short};
 use problem::model::{NodeId, TriangleId};
 
 /// A report, from its first block to its last.
@@ -200,13 +200,8 @@ pub enum Cell {
         /// How it is written.
         notation: Notation,
     },
-    /// A finite part of 1, shown in per cent with so many decimals.
-    Percent {
-        /// The part, from 0 to 1.
-        part: f64,
-        /// The number of decimals.
-        decimals: usize,
-    },
+    /// A finite part of 1, shown in per cent.
+    Percent(f64),
 }
 
 /// How a number is shown.
@@ -216,10 +211,8 @@ pub enum Notation {
     Short,
     /// With all its digits.
     Plain,
-    /// With so many decimals.
-    Decimals(usize),
-    /// With so many decimals before a power of ten.
-    Scientific(usize),
+    /// With these digits.
+    Digits(Digits),
 }
 
 impl Cell {
@@ -230,17 +223,22 @@ impl Cell {
 
     /// Shows a number with so many decimals.
     pub fn decimals(value: f64, decimals: usize) -> Self {
-        Cell::number(value, Notation::Decimals(decimals))
+        Cell::of_digits(value, Digits::Decimals(decimals))
     }
 
     /// Shows a number with so many decimals before a power of ten.
     pub fn scientific(value: f64, decimals: usize) -> Self {
-        Cell::number(value, Notation::Scientific(decimals))
+        Cell::of_digits(value, Digits::Scientific(decimals))
     }
 
-    /// Shows a part of 1 in per cent with so many decimals.
-    pub fn percent(part: f64, decimals: usize) -> Self {
-        if part.is_finite() { Cell::Percent { part, decimals } } else { Cell::Missing(None) }
+    /// Shows a number with the digits that an error leaves.
+    pub fn of_digits(value: f64, digits: Digits) -> Self {
+        Cell::number(value, Notation::Digits(digits))
+    }
+
+    /// Shows a part of 1 in per cent.
+    pub fn percent(part: f64) -> Self {
+        if part.is_finite() { Cell::Percent(part) } else { Cell::Missing(None) }
     }
 
     fn number(value: f64, notation: Notation) -> Self {
@@ -259,9 +257,7 @@ impl Cell {
     /// Whether a column of such cells stands to the right.
     pub fn is_numeric(&self) -> bool {
         match self {
-            Cell::Missing(_) | Cell::Integer(_) | Cell::Number { .. } | Cell::Percent { .. } => {
-                true
-            }
+            Cell::Missing(_) | Cell::Integer(_) | Cell::Number { .. } | Cell::Percent(_) => true,
             Cell::Empty | Cell::Text(_) => false,
         }
     }
@@ -273,7 +269,7 @@ impl Cell {
             Cell::Text(text) => text.clone(),
             Cell::Integer(n) => n.to_string(),
             Cell::Number { value, .. } => format!("{value:?}"),
-            Cell::Percent { part, .. } => format!("{part:?}"),
+            Cell::Percent(part) => format!("{part:?}"),
         }
     }
 }
@@ -288,15 +284,10 @@ impl Display for Cell {
             Cell::Integer(n) => write!(out, "{n}"),
             Cell::Number { value, notation: Notation::Short } => write!(out, "{}", short(value)),
             Cell::Number { value, notation: Notation::Plain } => write!(out, "{value}"),
-            Cell::Number { value, notation: Notation::Decimals(n) } => {
-                let shown = format!("{value:.n$}");
-                let is_zero = shown.chars().all(|c| "-0.".contains(c));
-                out.write_str(if is_zero { shown.trim_start_matches('-') } else { &shown })
+            Cell::Number { value, notation: Notation::Digits(digits) } => {
+                out.write_str(&digits.write(value))
             }
-            Cell::Number { value, notation: Notation::Scientific(n) } => {
-                write!(out, "{value:.n$e}")
-            }
-            Cell::Percent { part, decimals } => write!(out, "{}", percent(part, decimals)),
+            Cell::Percent(part) => write!(out, "{}", percent(part)),
         }
     }
 }

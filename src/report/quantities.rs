@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::model::{Cell, Table};
-use super::numbers::quantity as with_its_unit;
+use super::numbers::{Digits, quantity as with_its_unit};
 use engine::quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
 };
@@ -51,11 +51,13 @@ impl MeasuredValue {
 }
 
 /// Returns a table of `rows` with a column for each component of each of `quantities` that has a
-/// title and is known in some row.
+/// title and is known in some row; a column has the digits that the part `error` of its largest number leaves,
+/// and places in the undeformed shape have all.
 pub fn table<'r, 'q, T: 'static>(
     rows: &'r [T],
     quantities: impl IntoIterator<Item = &'q Quantity<T>>,
     units: &Units,
+    error: Option<f64>,
 ) -> Table<Vec<&'r T>> {
     let is_known =
         |quantity: &Quantity<T>| rows.iter().any(|row| (quantity.value)(row) != Value::Unknown);
@@ -63,7 +65,11 @@ pub fn table<'r, 'q, T: 'static>(
     for quantity in quantities.into_iter().filter(|q| !q.title.is_empty() && is_known(q)) {
         for (k, title) in titles(quantity).iter().enumerate() {
             let heading = with_its_unit(title, quantity.unit.in_scene(units));
-            table = table.column(heading, |row| cell(&(quantity.value)(row), quantity.unit, k));
+            let numbers = rows.iter().filter_map(|row| (quantity.value)(row).numbers());
+            let largest = numbers.map(|numbers| numbers[k].abs()).fold(0.0, f64::max);
+            let digits = (!quantity.is_place()).then(|| Digits::of(largest, error));
+            table =
+                table.column(heading, |row| cell(&(quantity.value)(row), quantity.unit, k, digits));
         }
     }
     table
@@ -78,13 +84,14 @@ fn titles<T>(quantity: &Quantity<T>) -> Vec<String> {
 }
 
 /// Returns the cell of component `k` of a value.
-fn cell(value: &Value, unit: Unit, k: usize) -> Cell {
+fn cell(value: &Value, unit: Unit, k: usize, digits: Option<Digits>) -> Cell {
+    let number = |x: f64| digits.map_or(x.into(), |digits| Cell::of_digits(x, digits));
     match value {
         Value::Unknown => Cell::Missing(None),
         Value::Count(n) => (*n).into(),
-        Value::Number(part) if unit == Unit::Share => Cell::percent(*part, 1),
-        Value::Number(x) => (*x).into(),
-        Value::Components(x) => x[k].into(),
+        Value::Number(part) if unit == Unit::Share => Cell::percent(*part),
+        Value::Number(x) => number(*x),
+        Value::Components(x) => number(x[k]),
         Value::State(_, words) | Value::Words(words) => words.clone().into(),
     }
 }

@@ -41,6 +41,13 @@ pub struct ResultFile {
     /// The SHA-256 of the mesh file; null without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_sha256: Option<String>,
+    /// Whether contact passes no load on at the end, beyond rounding, though there is a load: an audit
+    /// result; absent where it is not so.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub transmits_nothing: bool,
+    /// Whether no node is in contact at the end, though the scene has contact; absent where it is not so.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub nothing_in_contact: bool,
     /// The name of the scene.
     pub scene: String,
     /// The scene's line for people, which may be empty.
@@ -80,10 +87,6 @@ pub struct ResultFile {
     /// What the mesh file has in another form, such as node numbers with gaps, in sentences.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub adapted: Vec<String>,
-    /// Whether contact passes no load on at the end, beyond rounding, though there is a load: an audit
-    /// result; absent where it is not so.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub transmits_nothing: bool,
     /// The results of each iteration, in order.
     pub iterations: Vec<IterationRow>,
     /// The largest values of each body.
@@ -161,6 +164,8 @@ impl ResultFile {
             version: VERSION.into(),
             scene_sha256,
             mesh_sha256,
+            transmits_nothing: solution.transmits_nothing(),
+            nothing_in_contact: solution.touches_nothing(),
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,
@@ -181,7 +186,6 @@ impl ResultFile {
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
             adapted: solution.request.scene.adapted().to_vec(),
-            transmits_nothing: solution.transmits_nothing(),
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
             contact: solution.contact.clone(),

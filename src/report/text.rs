@@ -3,9 +3,15 @@
 use super::layout::filled;
 use super::model::{Block, Cell, Report, Table};
 
+/// The most characters of a line of a table.
+pub const COLUMNS: usize = 100;
+
+/// The most lines of a cell that stands in its column; longer prose reads better in a record of its own.
+const LINES: usize = 4;
+
 impl Report {
-    /// Writes the report in lines of at most `width` characters: prose is broken between words, and a
-    /// table that is wider becomes a record for each row.
+    /// Writes the report in lines of at most `width` characters: prose is broken between words, a table has
+    /// at most [`COLUMNS`].
     pub fn text(&self, width: usize) -> String {
         let mut text = String::new();
         let mut previous = None;
@@ -87,39 +93,68 @@ fn broken(line: &str, width: usize) -> String {
 }
 
 impl Table {
-    /// Writes the rows in columns, or as records where these are wider than `width`; then why numbers
-    /// are missing, each reason once.
+    /// Writes the rows in columns, or as records where these are too wide; then why numbers are missing,
+    /// each reason once.
     fn text(&self, width: usize) -> String {
+        let width = width.min(COLUMNS);
         let shown = |cell: &Cell| cell.to_string().replace(char::is_whitespace, " ");
         let rows: Vec<Vec<String>> =
             self.cells.iter().map(|row| row.iter().map(shown).collect()).collect();
-        let aligned = self.aligned(&rows);
-        let fits = aligned.lines().all(|line| length(line) <= width);
-        let rows = if fits { aligned } else { self.records(&rows, width) };
+        let rows = self.columns(&rows, width).unwrap_or_else(|| self.records(&rows, width));
         let notes = self.reasons().into_iter().map(|reason| format!("  -: {reason}\n"));
         fitted(&(rows + &notes.collect::<String>()), width)
     }
 
-    /// Lays out the rows in columns under their headings: numbers to the right, words to the left.
-    fn aligned(&self, rows: &[Vec<String>]) -> String {
-        let columns = 0..self.headings.len();
-        let lines = || std::iter::once(&self.headings).chain(rows);
-        let widths: Vec<usize> = columns
-            .clone()
-            .map(|j| lines().map(|line| length(&line[j])).max().unwrap_or(0))
+    /// Lays out the rows in columns under their headings: numbers to the right, words to the left, both
+    /// broken between words where they are wide; nothing where that takes too many lines.
+    fn columns(&self, rows: &[Vec<String>], width: usize) -> Option<String> {
+        let numeric: Vec<bool> = (0..self.headings.len()).map(|j| self.is_numeric(j)).collect();
+        let longest = |j: usize, of: fn(&str) -> usize, of_number: fn(&str) -> usize| {
+            let of_cell = if numeric[j] { of_number } else { of };
+            let cells = rows.iter().map(|row| of_cell(&row[j]));
+            cells.chain([of(&self.headings[j])]).max().unwrap_or(0)
+        };
+        let word = |text: &str| text.split(' ').map(length).max().unwrap_or(0);
+        let bounds: Vec<[usize; 2]> = (0..numeric.len())
+            .map(|j| [longest(j, word, length), longest(j, length, length)])
             .collect();
-        let numeric: Vec<bool> = columns.map(|j| self.is_numeric(j)).collect();
-        let line = |cells: &Vec<String>| {
-            let cells = cells.iter().zip(&widths).zip(&numeric).map(|((cell, &width), numeric)| {
-                // A width of `format!` ends at 65,535.
-                let blanks = " ".repeat(width - length(cell));
-                if *numeric { blanks + cell } else { cell.clone() + &blanks }
-            });
-            format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+        // The widest column that is allowed: as wide as all together leave room for.
+        let at_most = |most: usize| -> Vec<usize> {
+            bounds.iter().map(|[least, natural]| most.clamp(*least, *natural)).collect()
+        };
+        let widths = (0..=width)
+            .rev()
+            .map(at_most)
+            .find(|widths| widths.iter().map(|width| width + 2).sum::<usize>() <= width)?;
+        let broken = |cells: &Vec<String>| -> Vec<Vec<String>> {
+            let lines = |(cell, width): (&String, &usize)| -> Vec<String> {
+                let text = filled("", 0, *width, cell.split(' '), " ");
+                text.lines().map(String::from).collect()
+            };
+            cells.iter().zip(&widths).map(lines).collect()
+        };
+        let rows: Vec<Vec<Vec<String>>> = rows.iter().map(broken).collect();
+        if rows.iter().flatten().any(|lines| lines.len() > LINES) {
+            return None;
+        }
+        let padded = |text: &str, j: usize| {
+            // A width of `format!` ends at 65,535.
+            let blanks = " ".repeat(widths[j] - length(text));
+            if numeric[j] { blanks + text } else { text.to_string() + &blanks }
+        };
+        let row = |cells: &Vec<Vec<String>>| -> String {
+            let line = |k: usize| {
+                let cell = |(j, lines): (usize, &Vec<String>)| {
+                    padded(lines.get(k).map_or("", String::as_str), j)
+                };
+                let cells: Vec<String> = cells.iter().enumerate().map(cell).collect();
+                format!("  {}\n", cells.join("  ").trim_end())
+            };
+            (0..cells.iter().map(Vec::len).max().unwrap_or(0)).map(line).collect()
         };
         let rule: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
-        let rows: String = rows.iter().map(line).collect();
-        format!("{}  {}\n{rows}", line(&self.headings), rule.join("  "))
+        let rows: String = rows.iter().map(row).collect();
+        Some(format!("{}  {}\n{rows}", row(&broken(&self.headings)), rule.join("  ")))
     }
 
     /// Writes a record for each row: its first cell, then each other cell beside its heading, or

@@ -118,7 +118,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         .then(tables::distance(&solution, &assessment))
         .then(accuracy)
         .then(beside_the_print(&solution))
-        .then(tables::steps(&solution, &assessment))
+        .then(tables::steps(&solution, &assessment, args.changes.all_iterations()))
         .line(report::plan::line(&plan))
         .line(format!("Written to {}", shown(&out)));
     args.tables.print(report)?;

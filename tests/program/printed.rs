@@ -96,7 +96,7 @@ fn nothing_printed_controls_a_terminal() {
 fn tables_are_csv() {
     let table = Table::new(
         ["short", "share", "missing"],
-        [vec![(1.0 / 3.0).into(), Cell::percent(0.125, 0), Cell::decimals(f64::NAN, 1)]],
+        [vec![(1.0 / 3.0).into(), Cell::percent(0.125), Cell::decimals(f64::NAN, 1)]],
     );
     let report = report().table("Iterations, more", table);
     let first = "k,contact state,remark\r\n1,new,\"a \"\"b\"\"\"\r\n2,\"as in 1, a turn\",\r\n";
@@ -176,10 +176,8 @@ fn a_report_is_html() {
 <p>-: nothing moves</p>
 ";
     let missing = Cell::from(None::<f64>).because("nothing moves");
-    let table = Table::new(
-        ["a", "b"],
-        [vec!["x".into(), Cell::percent(0.125, 0)], vec!["".into(), missing]],
-    );
+    let table =
+        Table::new(["a", "b"], [vec!["x".into(), Cell::percent(0.125)], vec!["".into(), missing]]);
     let report =
         Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
     let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);

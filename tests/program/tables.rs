@@ -286,6 +286,13 @@ fn claims() {
         "audit --range",
         &studies::audit::claims::table::range(&JUDGED).markdown(),
     );
+    // What the verdict on the paper's own example cites.
+    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/studies/audit/range.tsv");
+    assert_file(&place, &studies::audit::range::table(&JUDGED));
+    let recorded = studies::audit::range::recorded();
+    let [least, most] = recorded.error;
+    assert!(0.0 < least && least < most, "{least} {most}");
+    assert_eq!(recorded.places + recorded.by_rounding, 22);
 }
 
 /// Every variant beside CalculiX's own contact under the same friction. Where `ccx` is not installed

@@ -227,6 +227,11 @@ mod as_number {
 }
 
 impl<T> Quantity<T> {
+    /// Returns whether it is a place in the undeformed shape, which no error of a solution moves.
+    pub fn is_place(&self) -> bool {
+        matches!(self.symbols, ["s"] | ["x", "y"])
+    }
+
     /// Returns the name of each component in ASCII, such as sigma_x; the field's name where there
     /// is only one.
     pub fn components(&self) -> Vec<String> {

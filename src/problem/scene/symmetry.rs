@@ -36,14 +36,8 @@ pub struct Half {
 
 /// Returns half of `scene`; None where it is not symmetric about a vertical line.
 pub fn half(scene: &Scene) -> Option<Half> {
-    let mirror = Mirror::new(&scene.model)?;
     let model = &scene.model;
-    let images = mirror.images()?;
-    let symmetric =
-        mirror.triangles(&images) && mirror.surfaces(&images) && mirror.conditions(&images);
-    if !symmetric {
-        return None;
-    }
+    let (mirror, _) = symmetric(model)?;
     let right =
         |id: &TriangleId| model.triangle(*id).nodes.into_iter().all(|node| mirror.side(node) >= 0);
     let triangles: Vec<TriangleId> = model.triangle_ids().filter(right).collect();
@@ -63,6 +57,19 @@ pub fn half(scene: &Scene) -> Option<Half> {
         source: None,
     };
     Some(Half { scene, nodes, triangles, at: mirror.at })
+}
+
+/// Returns the mirror image of each node; None where the model is not symmetric about a vertical line.
+pub fn images(model: &Model) -> Option<Vec<NodeId>> {
+    symmetric(model).map(|(_, Images(images))| images)
+}
+
+fn symmetric(model: &Model) -> Option<(Mirror<'_>, Images)> {
+    let mirror = Mirror::new(model)?;
+    let images = mirror.images()?;
+    let is_symmetric =
+        mirror.triangles(&images) && mirror.surfaces(&images) && mirror.conditions(&images);
+    is_symmetric.then_some((mirror, images))
 }
 
 /// The line about which a model may be symmetric.

@@ -35,20 +35,6 @@ impl Decimal {
         }
     }
 
-    /// Returns the smallest number of one digit that is not below `x` ≥ 0, or nothing for 0; where
-    /// `finer`, a number that starts with 1 or 2 has two digits. `x` counts with six digits, so
-    /// that 0.1 + 0.2 is 0.3.
-    pub fn at_least(x: f64, finer: bool) -> Option<Self> {
-        let text = format!("{x:.5e}");
-        let (mantissa, exponent) = split(&text);
-        let digits: u32 = mantissa.replace('.', "").parse().expect("six digits");
-        match digits.div_ceil(10_000) {
-            0 => None,
-            tenths if finer && tenths < 30 => Some(Self { digits: tenths, place: exponent - 1 }),
-            tenths => Some(Self { digits: tenths.div_ceil(10), place: exponent }),
-        }
-    }
-
     /// Returns the place of its last digit: −2 for hundredths.
     pub fn last_place(self) -> i32 {
         self.place

@@ -2,13 +2,13 @@
 //! leaves them, and typeset in pictures.
 
 mod decimal;
+mod digits;
 mod typeset;
-mod uncertain;
 mod undefined;
 
 pub use decimal::Decimal;
+pub use digits::{Digits, figure, percent};
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
-pub use uncertain::uncertain;
 pub use undefined::reason;
 
 pub use base::plain::six_digits;
@@ -25,19 +25,6 @@ pub fn short(x: f64) -> String {
         size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
         _ => format!("{x:.3e}"),
     }
-}
-
-/// Writes a part of 1 in per cent: 0.125 with one decimal is `12.5 %`; `-` stands for what is no
-/// number.
-pub fn percent(part: f64, decimals: usize) -> String {
-    let percent = 100.0 * part;
-    if !percent.is_finite() {
-        return "-".into();
-    }
-    let text = format!("{percent:.decimals$} %");
-    // What is rounded to nothing has no sign.
-    let is_nothing = !text.contains(|c| ('1'..='9').contains(&c));
-    if is_nothing { text.trim_start_matches('-').into() } else { text }
 }
 
 /// Returns a point as text, `x, y`.

@@ -1,7 +1,7 @@
 //! How far a run is from the reference solution and from the equilibrium under friction.
 
 use crate::model::{Cell, Report, Table};
-use crate::numbers::{percent, quantity, reason, short};
+use crate::numbers::{Digits, figure, percent, quantity, reason};
 use crate::pressure;
 use engine::error::Error;
 use engine::{Assessment, Solution, SolutionDistance};
@@ -9,13 +9,14 @@ use engine::{Assessment, Solution, SolutionDistance};
 /// Reports the distance of a run from the reference solution and from the equilibrium under the
 /// scene's own friction, or why there is none.
 pub fn distance(solution: &Solution, assessment: &Assessment) -> Report {
+    let error = super::error_of_mesh(assessment);
     let others = [
         ("reference solution", &assessment.reference),
         ("equilibrium under the scene's own friction and geometry", &assessment.equilibrium),
     ];
     let known = others.iter().filter_map(|(what, other)| Some((what, other.as_ref()?)));
     known.fold(Report::default(), |report, (what, other)| {
-        report.then(distance_from(solution, what, other))
+        report.then(distance_from(solution, what, other, error))
     })
 }
 
@@ -23,6 +24,7 @@ fn distance_from(
     solution: &Solution,
     what: &str,
     other: &Result<SolutionDistance, Error>,
+    error: Option<f64>,
 ) -> Report {
     let measured = match other {
         Err(why) => return Report::default().heading(format!("No {what} to compare with: {why}")),
@@ -36,13 +38,17 @@ fn distance_from(
         reference.request.contact.geometry,
         reference.in_contact().count()
     );
+    let of_both = distance.bodies.iter().flat_map(|b| [b.von_mises_stress, b.reference]);
+    let digits = Digits::of(of_both.fold(0.0, f64::max), error);
     let table = Table::from_rows(&distance.bodies)
         .column("body", |body| body.name.clone())
-        .column(quantity("largest von Mises stress", &units.stress), |body| body.von_mises_stress)
-        .column("there", |body| body.reference)
-        .column("difference", |body| Cell::percent(body.relative, 2).because(reason("relative")));
+        .column(quantity("largest von Mises stress", &units.stress), |body| {
+            Cell::of_digits(body.von_mises_stress, digits)
+        })
+        .column("there", |body| Cell::of_digits(body.reference, digits))
+        .column("difference", |body| Cell::percent(body.relative).because(reason("relative")));
     let relative = match distance.displacement_relative {
-        relative if relative.is_finite() => format!(" = {}", percent(relative, 2)),
+        relative if relative.is_finite() => format!(" = {}", percent(relative)),
         _ => String::new(),
     };
     Report::default()
@@ -50,7 +56,7 @@ fn distance_from(
         .note(format!(
             "{}: {}{relative}",
             quantity("largest difference of a displacement", &units.length),
-            short(distance.displacement)
+            figure(distance.displacement, error)
         ))
-        .note(format!("energy norm of the difference: {}", percent(distance.energy_relative, 2)))
+        .note(format!("energy norm of the difference: {}", percent(distance.energy_relative)))
 }

@@ -37,7 +37,7 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
              surfaces",
             length(height),
             length(least),
-            percent(height / least, 0)
+            percent(height / least)
         )
     });
     let geometry = (found.shape_change > 0.0).then(|| {
@@ -46,7 +46,7 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
     });
     let nearest = found.nearest.as_ref().map(nearest_decision);
     let lines = [nearest, springs, unseen, inside, facets, geometry].into_iter().flatten();
-    lines.fold(uniqueness(solution, &found.uniqueness), Report::line)
+    lines.fold(uniqueness(solution, &found.uniqueness), Report::note)
 }
 
 /// Says how near the contact state is to another one.
@@ -97,7 +97,7 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
             with_unit(&short(other.change), &solution.request.scene.units.length)
         )
     };
-    Report::default().line(format!("Equilibrium: {words}")).notes(others.iter().map(other))
+    Report::default().note(format!("Equilibrium: {words}")).details(others.iter().map(other))
 }
 
 /// Names the contact states that were tried for other equilibria, and those that were not.

@@ -2,7 +2,7 @@
 
 use crate::layout::{counted, first_line};
 use crate::model::Report;
-use crate::numbers::{or_dash, percent, short, uncertain, with_unit};
+use crate::numbers::{or_dash, percent, short, with_unit};
 use engine::estimates::{
     BodyEstimates, Certainty, ContactChange, ErrorEstimates, NoLimit, Perturbed,
 };
@@ -43,49 +43,48 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
     };
     Report::default()
         .heading("Error estimates")
-        .notes(displacement(assessment, errors, units, is_bounded))
-        .notes(errors.bodies.iter().filter_map(|body| stress(body, units, is_bounded)))
         .note(error_of_mesh(solution, errors))
+        .notes(displacement(errors, units, is_bounded))
+        .notes(errors.bodies.iter().filter_map(|body| stress(body, units, is_bounded)))
         .notes(rounding)
 }
 
 /// Says what there is to say of the largest displacement: that it diverges, or what rounding does to it.
-fn displacement(
-    assessment: &Assessment,
-    errors: &ErrorEstimates,
-    units: &Units,
-    is_bounded: bool,
-) -> Option<String> {
-    let largest = assessment.bodies.iter().map(|body| body.max_displacement).fold(0.0, f64::max);
+fn displacement(errors: &ErrorEstimates, units: &Units, is_bounded: bool) -> Option<String> {
     let value = match errors.displacement_no_limit {
-        Some((node, cause)) => format!(
-            "{} on this mesh; in the plane it diverges under refinement: at node {node}, {cause}",
-            with_unit(&short(largest), &units.length)
-        ),
-        None if is_bounded => uncertain(largest, &units.length, errors.displacement_arithmetic),
-        None => return None,
+        Some((node, cause)) => {
+            format!("in the plane it diverges under refinement: at node {node}, {cause}")
+        }
+        None => moved_by_rounding(errors.displacement_arithmetic, &units.length, is_bounded)?,
     };
     Some(format!("largest |u|: {value}"))
 }
 
 /// Says the same of a body's largest stress.
 fn stress(body: &BodyEstimates, units: &Units, is_bounded: bool) -> Option<String> {
-    let own = with_unit(&short(body.von_mises_stress), &units.stress);
-    let bounded = match is_bounded {
-        true => uncertain(body.von_mises_stress, &units.stress, body.arithmetic),
-        false => own.clone(),
-    };
+    let rounding = moved_by_rounding(body.arithmetic, &units.stress, is_bounded);
     let value = match &body.no_limit {
         Some(NoLimit { node, cause, is_largest: true }) => {
-            format!("{own} on this mesh; it diverges under refinement: at node {node}, {cause}")
+            format!("it diverges under refinement: at node {node}, {cause}")
         }
         Some(NoLimit { node, cause, is_largest: false }) => {
-            format!("{bounded}, away from node {node}, {cause}, where it diverges under refinement")
+            let away =
+                format!("away from node {node}, {cause}, where it diverges under refinement");
+            away + &rounding.map_or(String::new(), |rounding| format!("; {rounding}"))
         }
-        None if is_bounded => bounded,
-        None => return None,
+        None => rounding?,
     };
     Some(format!("largest von Mises stress, {}: {value}", body.name))
+}
+
+/// Says what rounding may do to a number, where bounds are kept.
+fn moved_by_rounding(by: Option<f64>, unit: &str, is_bounded: bool) -> Option<String> {
+    is_bounded.then(|| match by {
+        Some(by) => {
+            format!("rounding moves it by at most {}", with_unit(&format!("{by:.1e}"), unit))
+        }
+        None => "what rounding does to it is not known".into(),
+    })
 }
 
 /// Says the error of the mesh in the energy norm, and what measures that of one number.
@@ -99,7 +98,7 @@ fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
     format!(
         "error of the mesh: {} in the energy norm, {UNDERESTIMATE}; trade --only mesh measures that of one \
          displacement or stress",
-        percent(relative, 1)
+        percent(relative)
     )
 }
 

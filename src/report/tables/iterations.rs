@@ -1,8 +1,8 @@
 //! The iterations of a run, or the steps of its load.
 
 use crate::layout::counted;
-use crate::model::{Report, Table};
-use crate::numbers::{percent, quantity, short, with_unit};
+use crate::model::{Cell, Report, Table};
+use crate::numbers::{Digits, percent, quantity, short, six_digits, with_unit};
 use crate::quantities;
 use engine::contact::Status;
 use engine::{
@@ -13,41 +13,64 @@ use engine::{
 /// the same: where nodes change their status within steps, both may miss when.
 const UNCHANGED: f64 = 1e-6;
 
-/// The most iterations that are listed; of more, as many at the start and at the end.
-const LISTED: usize = 24;
+/// The most rows of a table of iterations, unless all are asked for.
+const LISTED: usize = 25;
 
-/// Lists the iterations, where they are many the first and the last; of those of a shape that was reached on
-/// springs, the last.
-pub fn iterations(solution: &Solution) -> Report {
+/// Lists the iterations; of those of a shape that was reached on springs, the last. Where there are many, the
+/// first, those with a new contact state, and the last, unless `all` are asked for.
+pub fn iterations(solution: &Solution, assessment: &Assessment, all: bool) -> Report {
     let springs = |step: &Step| step.unilateral().map_or(0.0, |own| own.springs);
     let is_shown = |k: usize| {
         let own = springs(&solution.steps[k]);
         own == 0.0 || solution.steps.get(k + 1).is_none_or(|next| springs(next) != own)
     };
     let rows = IterationRow::all(solution).into_iter().enumerate();
-    let mut rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
-    let found = rows.len();
-    if found > LISTED {
-        rows.drain(LISTED / 2..found - LISTED / 2);
-    }
+    let rows: Vec<_> = rows.filter(|(k, _)| is_shown(*k)).map(|(_, row)| row).collect();
+    let (rows, left_out) = shortened(rows, all, |row| row.cycle.is_none());
+    // The whole load stands below.
+    let is_column =
+        |name| name != "target_force" || rows.iter().any(|row| row.target_share.is_none());
+    let columns = IterationRow::QUANTITIES.iter().filter(|quantity| is_column(quantity.name));
     let units = &solution.request.scene.units;
-    let table = quantities::table(&rows, IterationRow::QUANTITIES, units);
-    let left_out = (found > LISTED).then(|| {
-        format!(
-            "{found} iterations, of which the first and the last {} are listed; result.json has all",
-            LISTED / 2
-        )
-    });
+    let table = quantities::table(&rows, columns, units, super::error_of_mesh(assessment));
     let report = Report::default().table("Iterations", table).notes(left_out);
     let [fx, fy] = solution.model.total_load();
     match fx.hypot(fy) {
         0.0 => report,
-        load => report.note(format!("the whole load is {}", with_unit(&short(load), &units.force))),
+        load => {
+            report.note(format!("the whole load is {}", with_unit(&six_digits(load), &units.force)))
+        }
     }
 }
 
+/// Leaves of many rows the first, the changes and the last; where these are many too, the first and the last of
+/// them. Says how many there are.
+fn shortened<R>(
+    rows: Vec<R>,
+    all: bool,
+    is_change: impl Fn(&R) -> bool,
+) -> (Vec<R>, Option<String>) {
+    let found = rows.len();
+    if all || found <= LISTED {
+        return (rows, None);
+    }
+    let rows = rows.into_iter().enumerate();
+    let rows = rows.filter(|(k, row)| *k == 0 || k + 1 == found || is_change(row));
+    let mut rows: Vec<R> = rows.map(|(_, row)| row).collect();
+    let changes = rows.len();
+    let words = match changes > LISTED {
+        true => {
+            rows.drain(LISTED / 2..changes - LISTED / 2);
+            format!("the first and the last {} changes of the contact state are", LISTED / 2)
+        }
+        false => "the first, those with a new contact state, and the last are".into(),
+    };
+    let words = format!("of {found} {words} listed; --iterations prints all, result.json has them");
+    (rows, Some(words))
+}
+
 /// Lists the last iteration under each load of a path.
-pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> Report {
+pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment, all: bool) -> Report {
     let units = &solution.request.scene.units;
     let last = last_under_each_load(&solution.steps);
     let step = |row: &usize| &solution.steps[last[*row]];
@@ -56,20 +79,36 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment) -> 
     let count = |row: &usize, is_counted: fn(&Status) -> bool| {
         own(row).statuses.iter().filter(|status| is_counted(status)).count()
     };
-    let table = Table::from_rows(0..last.len())
+    let error = super::error_of_mesh(assessment);
+    let statuses = |row: &usize| &own(row).statuses;
+    let is_change = |row: &usize| row.checked_sub(1).is_none_or(|k| statuses(&k) != statuses(row));
+    let (rows, left_out) = shortened((0..last.len()).collect(), all, is_change);
+    let digits = |value: fn(&Step) -> f64| {
+        let largest = rows.iter().map(|row| value(step(row)).abs()).fold(0.0, f64::max);
+        Digits::of(largest, error)
+    };
+    let [u, gap] = [digits(|step| step.max_displacement), digits(Step::contact_residual)];
+    let table = Table::from_rows(rows)
         .column("load", |row| own(row).load)
         .column("iterations", |row| last[*row] + 1 - first(row))
         .column("stick", |row| count(row, |status| *status == Status::Stick))
         .column("slip", |row| count(row, |status| matches!(status, Status::Slip(_))))
-        .column(quantity("largest |u|", &units.length), |row| step(row).max_displacement)
-        .column(quantity("gap or overlap left", &units.length), |row| step(row).contact_residual())
-        .column(quantity("force on target", &units.force), |row| step(row).target_force);
+        .column(quantity("largest |u|", &units.length), |row| {
+            Cell::of_digits(step(row).max_displacement, u)
+        })
+        .column(quantity("gap or overlap left", &units.length), |row| {
+            Cell::of_digits(step(row).contact_residual(), gap)
+        })
+        .column(quantity("force on target", &units.force), |row| {
+            Cell::of_digits(step(row).target_force, Digits::of(step(row).target_force, Some(0.0)))
+        });
     let halved = match path.halved {
         0 => String::new(),
         n => format!(", {n} halved because no equilibrium was found"),
     };
     Report::default()
         .table("Path of the load", table)
+        .notes(left_out)
         .note(format!("{} steps a stage{halved}", path.steps))
         .notes(released(path.start))
         .note(match assessment.path_change {
@@ -107,7 +146,7 @@ fn step_error(solution: &Solution, path: &Path, change: f64) -> String {
     let words = format!(
         "Half as many steps change a displacement component by at most {} = {} of the largest |u|",
         with_unit(&short(change), &solution.request.scene.units.length),
-        percent(part, 2)
+        percent(part)
     );
     if path.changes == 0 || change > UNCHANGED * largest {
         return words;

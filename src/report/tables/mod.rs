@@ -5,6 +5,7 @@ mod distance;
 mod equilibrium;
 mod estimates;
 mod iterations;
+mod result;
 
 pub use call::{figure_numbers, pairs};
 pub use distance::distance;
@@ -13,7 +14,6 @@ pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{short, with_unit};
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
 use engine::{Assessment, BodySummary, Solution, beyond_range};
@@ -21,27 +21,27 @@ use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::{ContactModel, Variant};
 
-/// What is said of a run in which contact passes no load on.
-const NOTHING_TRANSMITTED: &str =
-    "Nothing transmitted: no load reaches the target, an audit result";
-
-/// Reports the end of a run: what is in contact, whether that is the only equilibrium, its bodies and its
-/// contact surface.
+/// Reports the end of a run: its result, its bodies and its contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
-    let equilibrium = solution.equilibrium.as_ref();
+    let error = error_of_mesh(assessment);
     heading(solution)
-        .then(contact_set(solution))
-        .then(equilibrium.map_or(Report::default(), |found| equilibrium::lines(solution, found)))
-        .then(bodies(solution, &assessment.bodies))
-        .then(contact_surface(solution))
+        .then(result::result(solution, assessment))
+        .then(bodies(solution, &assessment.bodies, error))
+        .then(contact_surface(solution, error))
 }
 
-/// Reports how a run came to its end: its iterations, or the steps of its load.
-pub fn steps(solution: &Solution, assessment: &Assessment) -> Report {
+/// Returns the relative error by which all figures of a run are written: that of the mesh in the energy norm.
+fn error_of_mesh(assessment: &Assessment) -> Option<f64> {
+    assessment.estimates.as_ref()?.errors.mesh_energy_relative
+}
+
+/// Reports how a run came to its end: its iterations, or the steps of its load, of many those that change
+/// something unless `all` are asked for.
+pub fn steps(solution: &Solution, assessment: &Assessment, all: bool) -> Report {
     let path = solution.equilibrium.as_ref().and_then(|found| found.path.as_ref());
     match path {
-        Some(path) => iterations::load_steps(solution, path, assessment),
-        None => iterations::iterations(solution),
+        Some(path) => iterations::load_steps(solution, path, assessment, all),
+        None => iterations::iterations(solution, assessment, all),
     }
 }
 
@@ -111,24 +111,7 @@ fn contact_set(solution: &Solution) -> Report {
     let is_printed = solution.request.is_as_printed();
     let (reading, shape) = (&solution.request.reading, &solution.last().shape);
     let hidden = is_printed.then(|| direction(&solution.model, reading, shape)).flatten();
-    let transmitted = solution.transmits_nothing().then_some(NOTHING_TRANSMITTED);
-    Report::default()
-        .notes(transmitted)
-        .notes(hidden)
-        .line(format!("In contact at the end: {nodes}"))
-        .notes(peak(solution))
-}
-
-/// Names the contact node under the largest pressure. The pressures of `printed` stay in the contact body.
-fn peak(solution: &Solution) -> Option<String> {
-    let pressed = solution.in_contact().filter_map(|node| Some((node.pressure?, node)));
-    let (pressure, at) = pressed.max_by(|(a, _), (b, _)| a.total_cmp(b))?;
-    let units = &solution.request.scene.units;
-    let [x, y] = solution.model.nodes[at.node.index()].map(short);
-    let place = with_unit(&format!("{x}, {y}"), &units.length);
-    let pressure = with_unit(&short(pressure), &units.stress);
-    (solution.request.variant != Variant::Printed)
-        .then(|| format!("Peak contact pressure {pressure} at node {}: {place}", at.node))
+    Report::default().notes(hidden).note(format!("In contact at the end: {nodes}"))
 }
 
 /// Says that no node is in contact because of the direction of the target's edges.
@@ -136,21 +119,23 @@ fn direction(model: &Model, reading: &Reading, shape: &[[f64; 2]]) -> Option<Str
     hidden(model, reading, shape).map(|why| format!("No node is in contact: {why}"))
 }
 
-fn bodies(solution: &Solution, bodies: &[BodySummary]) -> Report {
-    let table = quantities::table(bodies, BodySummary::QUANTITIES, &solution.request.scene.units);
+fn bodies(solution: &Solution, bodies: &[BodySummary], error: Option<f64>) -> Report {
+    let has_equals = bodies.iter().any(|body| body.as_large > 0);
+    let shown = BodySummary::QUANTITIES.iter().filter(|q| q.name != "as_large" || has_equals);
+    let table = quantities::table(bodies, shown, &solution.request.scene.units, error);
     let beyond = beyond_range(&solution.model, &solution.elements, &solution.u);
     Report::default().table("Bodies", table).notes(beyond.map(|what| format!("NOTE: {what}")))
 }
 
 /// Lists the nodes in contact at the end.
-fn contact_surface(solution: &Solution) -> Report {
+fn contact_surface(solution: &Solution, error: Option<f64>) -> Report {
     let nodes: Vec<ContactNode> = solution.in_contact().cloned().collect();
     if nodes.is_empty() {
         return Report::default();
     }
     // All of them are in contact.
     let shown = ContactNode::QUANTITIES.iter().filter(|quantity| quantity.name != "dy");
-    let table = quantities::table(&nodes, shown, &solution.request.scene.units);
+    let table = quantities::table(&nodes, shown, &solution.request.scene.units, error);
     let variant = solution.request.variant;
     let uncoupled = (variant == Variant::Printed).then_some(
         "The pressures are carried by the blocks that Km adds to a body's own equations; nothing \

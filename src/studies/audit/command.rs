@@ -8,7 +8,7 @@ use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Compared};
 use crate::audit::range::{Range, range};
-use crate::audit::{Audit, Case, audit, screen, steps};
+use crate::audit::{Audit, Case, audit, first_screen, screen, steps};
 use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
 use ::report::folder::FolderOptions;
 use ::report::{folder, pressure};
@@ -216,21 +216,25 @@ fn whole(args: &Args) -> Result<()> {
         print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
     let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
-    let found = audit(&case, &places, &|| bar.inc(1));
+    let watch = || bar.inc(1);
+    let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
+    let found = if is_whole { audit(&case, &places, &watch) } else { first_screen(&case, &watch) };
     bar.finish_and_clear();
     let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
-    let json = report::json(&found, &conclusion, &case.scene);
-    let report = report::report(&found, &conclusion, &case.scene);
-    if let Some(out) = &args.out {
-        write(out, &case, &found, &report.text(usize::MAX), &json)?;
+    if is_whole {
+        let json = report::json(&found, &conclusion, &case.scene);
+        let report = report::report(&found, &conclusion, &case.scene);
+        if let Some(out) = &args.out {
+            write(out, &case, &found, &report.text(usize::MAX), &json)?;
+        }
+        if args.tables.json {
+            return print(&json);
+        }
+        if args.full {
+            return args.tables.print(report);
+        }
+        args.tables.write(&report)?;
     }
-    if args.tables.json {
-        return print(&json);
-    }
-    if args.full {
-        return args.tables.print(report);
-    }
-    args.tables.write(&report)?;
     print(&screen::report(&found, &conclusion, &case.scene).text(width().min(screen::WIDTH)))
 }
 

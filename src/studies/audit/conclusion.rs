@@ -77,6 +77,8 @@ pub struct NearRun {
     pub at: String,
     /// The distance from the equilibrium in the energy norm, relative.
     pub energy: f64,
+    /// Whether its contact state alternates, so that the distance is that of one of several states.
+    pub unsettled: bool,
 }
 
 /// The largest von Mises stress and strain of each body, under the nearest variant and in equilibrium.
@@ -84,6 +86,8 @@ pub struct NearRun {
 pub struct Fields {
     /// The nearest of the paper's variants, and those that are equally near; none where none ran.
     pub variants: Vec<Variant>,
+    /// Whether the contact state of one of them alternates.
+    pub unsettled: bool,
     /// Whether rounding decides on another variant, which is left out.
     pub by_rounding: bool,
     /// The largest relative difference of a body's largest von Mises stress or strain between the two.
@@ -156,6 +160,7 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
                 reading: None,
                 at: format!("/variants/{k}/distance/energy_relative"),
                 energy: distance.as_ref()?.energy_relative,
+                unsettled: end.is_unsettled(),
             }),
         }
     }
@@ -173,6 +178,7 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
             reading: Some(effect.reading.clone()),
             at: format!("/readings/{k}/equilibrium_error"),
             energy,
+            unsettled: effect.unsettled,
         };
         match effect.apart {
             true => apart.push(run),
@@ -207,6 +213,8 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     let ended: Vec<(f64, (Variant, &Vec<BodySummary>))> = ended.collect();
     let nearest = least(&ended).unwrap_or_default();
     let theirs = nearest.first().map_or(Vec::new(), |k| ended[*k].1.1.clone());
+    let variants: Vec<Variant> = nearest.iter().map(|k| ended[*k].1.0).collect();
+    let is_unsettled = |row: &VariantRow| variants.contains(&row.variant) && row.end.is_unsettled();
     let differences = theirs.iter().zip(&own).flat_map(|(theirs, own)| {
         [
             over(theirs.max_von_mises_stress - own.max_von_mises_stress, own.max_von_mises_stress),
@@ -214,7 +222,8 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
         ]
     });
     Some(Fields {
-        variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
+        unsettled: rows.iter().any(is_unsettled),
+        variants,
         difference: differences
             .map(|x| beyond_noise(x.abs()))
             .filter(|x| x.is_finite())

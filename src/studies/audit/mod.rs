@@ -81,6 +81,8 @@ pub struct Compared {
     pub target_share: f64,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
+    /// The error of the mesh in the energy norm, relative; nothing where it is not known.
+    pub mesh_error: Option<f64>,
     /// The decision of its contact state that is nearest to another one.
     pub nearest: Option<NearestDecision>,
     /// What changes of the input in the last digits do to it.
@@ -92,10 +94,21 @@ pub fn steps() -> usize {
     FINDINGS.len() + prices::runs() + 5
 }
 
+/// Audits a scene for the first screen alone: what only the whole report has is left out, which is the claims
+/// under each other reading, the contact under other coefficients of friction, and what rounding does to the
+/// solutions that others are compared with.
+pub fn first_screen(case: &Case, watch: &(dyn Fn() + Sync)) -> Audit {
+    made(case, &Vec::new(), false, watch)
+}
+
 /// Audits a scene: claims, readings, findings and variants, each against the default, and what each printed
 /// fault costs; claims also at the `places` of the range of what the paper leaves open, and under each other
 /// reading. `watch` is called after each step.
 pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
+    made(case, places, true, watch)
+}
+
+fn made(case: &Case, places: &Range, whole: bool, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
     let measured = |finding: &'static Finding| {
@@ -107,8 +120,12 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
     let readings = || watched(readings::effects(case), watch);
     let variants = || watched(variants::side_by_side(case), watch);
     let claims = || watched(claims::judge(CLAIMS, case, places), watch);
-    let by_reading = || watched(claims::by_reading(CLAIMS, case), watch);
-    let friction = || case.model().target().map_or(Vec::new(), |_| friction(case));
+    let by_reading = || match whole {
+        true => watched(claims::by_reading(CLAIMS, case), watch),
+        false => watched(Vec::new(), watch),
+    };
+    let friction =
+        || case.model().target().filter(|_| whole).map_or(Vec::new(), |_| friction(case));
     let prices = || prices::on(case, watch);
     // All at once: each alone would end with one long run on one core.
     let ((readings, (claims, by_reading)), (findings, (variants, (friction, prices)))) =
@@ -116,8 +133,10 @@ pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
             || rayon::join(readings, || rayon::join(claims, by_reading)),
             || rayon::join(findings, || rayon::join(variants, || rayon::join(friction, prices))),
         );
-    let (equilibrium, reference) =
-        rayon::join(|| case.equilibrium().map(compared), || case.reference().map(compared));
+    let (equilibrium, reference) = rayon::join(
+        || case.equilibrium().map(|solution| compared(solution, whole)),
+        || case.reference().map(|solution| compared(solution, whole)),
+    );
     Audit {
         claims,
         by_reading,
@@ -138,14 +157,15 @@ fn watched<T>(computed: T, watch: &(dyn Fn() + Sync)) -> T {
     computed
 }
 
-fn compared(solution: &Solution) -> Compared {
+fn compared(solution: &Solution, whole: bool) -> Compared {
     Compared {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
         target_share: variants::target_share(solution),
         bodies: summaries(solution),
+        mesh_error: variants::mesh_error(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
-        rounding: perturbed(solution),
+        rounding: if whole { perturbed(solution) } else { None },
     }
 }
 

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::Case;
+use super::claims::{Elsewhere, JudgedClaim};
+use super::evidence::BY_ROUNDING;
 use crate::benchmark::Strand;
 use base::choices;
 use base::error::Result;
@@ -115,6 +117,45 @@ pub fn range(reading: Reading) -> Result<Range> {
 /// The number of places that differ: the paper's example as we assume it is in the range of every parameter.
 pub fn distinct(places: impl Iterator<Item = ParameterValue> + Clone) -> usize {
     places.clone().filter(|place| !place.own).count() + usize::from(places.clone().any(|p| p.own))
+}
+
+/// Writes claim P12 at the places of the range, a row each: the parameter, its value, whether it is the paper's
+/// example as we assume it, and the distance of the nearest run from the equilibrium.
+pub fn table(claims: &[JudgedClaim]) -> String {
+    let p12 = claims.iter().filter(|judged| judged.claim.id == "P12");
+    let row = |other: &Elsewhere| {
+        let ParameterValue { parameter, value, own } = other.place;
+        let error = other.measured.figure(|error| format!("{error:.4}"));
+        format!("{parameter}\t{value}\t{own}\t{error}\n")
+    };
+    let rows: String = p12.flat_map(|judged| judged.elsewhere.iter().map(row)).collect();
+    format!("parameter\tvalue\town\terror\n{rows}")
+}
+
+/// What `range.tsv` has of the places that are not the example as we assume it.
+pub struct Recorded {
+    /// The places that have a distance of the nearest run from the equilibrium.
+    pub places: usize,
+    /// The least and the largest such distance.
+    pub error: [f64; 2],
+    /// The places on which rounding decides.
+    pub by_rounding: usize,
+}
+
+/// Reads `range.tsv`, which a test makes of [`table`].
+pub fn recorded() -> Recorded {
+    let rows = include_str!("range.tsv").lines().skip(1).map(|row| row.split('\t').collect());
+    let errors = rows.filter(|row: &Vec<&str>| row[2] == "false").map(|row| row[3]);
+    let errors: Vec<&str> = errors.collect();
+    let known: Vec<f64> = errors.iter().filter_map(|error| error.parse().ok()).collect();
+    Recorded {
+        places: known.len(),
+        error: [
+            known.iter().copied().fold(f64::MAX, f64::min),
+            known.iter().copied().fold(0.0, f64::max),
+        ],
+        by_rounding: errors.iter().filter(|error| **error == BY_ROUNDING).count(),
+    }
 }
 
 /// Whether a scene is the paper's example, whose parameters are known: the embedded `strand`.

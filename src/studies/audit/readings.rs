@@ -46,6 +46,8 @@ pub struct Effect {
     /// Whether the reading has another plane problem, with an equilibrium of its own (R6).
     #[serde(skip)]
     pub apart: bool,
+    /// Whether the contact state of the run alternates, so that its figures are those of one of several states.
+    pub unsettled: bool,
     /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,
     /// Why the reading cannot be run on this scene, or that rounding decides on its figures.
@@ -137,6 +139,7 @@ impl Effect {
             size: run.map_or(1.0, |run| max_displacement(&run.u)),
             variant,
             apart: false,
+            unsettled: false,
             of: match row.trial {
                 Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
                 Trial::Printed => format!("displacement under {}", Variant::Printed),
@@ -163,6 +166,7 @@ impl Effect {
         let other = solve(&request, &mut |_| ())?;
         self.equilibrium_error = equilibrium_error(case, &request, &other);
         self.apart = other.model.plane != case.model().plane;
+        self.unsettled = other.last().cycle.as_ref().is_some_and(|cycle| cycle.length > 1);
         let own = case.run(variant).map_err(|why| format!("as it is read: {why}"))?;
         self.displacement = Some(largest_difference(own, &other));
         Ok(())

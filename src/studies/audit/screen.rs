@@ -8,14 +8,15 @@ use crate::audit::conclusion::{Conclusion, Coupled, NearRun, of_the_paper};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::range::is_example;
-use crate::audit::variants::{End, VariantRow};
+use crate::audit::variants::{End, PressedAcross, VariantRow};
 use crate::audit::{Assumption, Audit, Compared};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
+use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
-use report::numbers::{or_dash, percent, significant, with_unit};
+use report::numbers::{figure, or_dash, percent, with_unit};
 use report::tables::UNDERESTIMATE;
 
 /// The most columns of the screen.
@@ -71,14 +72,17 @@ pub struct Faults<'a> {
 impl<'a> Screen<'a> {
     /// Collects the parts.
     pub fn new(audit: &'a Audit, conclusion: &Conclusion, scene: &Scene) -> Self {
+        // That of the nearest run stands in the verdict.
+        let others = of_the_paper(&audit.variants).filter(|(_, row)| !is_nearest(conclusion, row));
+        let evidence = others.filter_map(|(_, row)| evidence(row, scene));
         let contact = conclusion.coupled.as_ref().map(|_| OfContact {
             runs: runs(audit, scene),
-            notes: error_of_the_mesh(conclusion).into_iter().chain(inside(audit, scene)).collect(),
+            notes: error_of_the_mesh(conclusion).into_iter().chain(evidence).collect(),
             statements: statements(&audit.claims),
             faults: faults(&audit.prices),
             assumed: &audit.assumptions,
         });
-        Screen { verdict: verdict(audit, conclusion), contact }
+        Screen { verdict: verdict(audit, conclusion, scene), contact }
     }
 }
 
@@ -110,41 +114,67 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
             Err(why) => vec![why],
         })
         .line(format!(
-            "Assumed, as the paper is silent: {}.",
+            "{}: {}.",
+            assumed_in(scene),
             assumed.iter().map(Assumption::to_string).collect::<Vec<_>>().join("; ")
         ))
         .line(more(scene))
 }
 
 /// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
-fn verdict(audit: &Audit, conclusion: &Conclusion) -> Vec<String> {
+fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String> {
     let coupled = match &conclusion.coupled {
         Some(Coupled { joins: Some(0), share: Some(share), .. }) => format!(
             "As printed, Km adds no entry that joins the two bodies (K1): {} of the load reaches the target.",
-            percent(*share, 0)
+            percent(*share)
         ),
         other => conclusion::coupling(other.as_ref()),
     };
-    let nearest = conclusion.nearest.as_ref().map(|nearest| {
-        let runs = &nearest.runs;
-        format!(
+    let nearest = match &conclusion.nearest {
+        Some(nearest) => Some(format!(
             "Of {} {} {} nearest to the equilibrium: {} from it in the energy norm, on the same mesh.",
             counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
-            listed(runs.iter().map(short_name)),
-            if runs.len() == 1 { "is" } else { "are equally" },
-            percent(runs[0].energy, 0)
-        )
-    });
+            listed(nearest.runs.iter().map(short_name)),
+            if nearest.runs.len() == 1 { "is" } else { "are equally" },
+            percent(nearest.runs[0].energy)
+        )),
+        None if conclusion.coupled.is_none() => None,
+        None if conclusion.fields.is_none() => Some(
+            "There is no equilibrium to compare with: no run, fault or statement is judged by its distance from one."
+                .into(),
+        ),
+        None => Some("No run of the paper's algorithm ends with a result.".into()),
+    };
+    let is_example = is_example(scene);
+    let range = (is_example && conclusion.reading == Reading::default()).then(conclusion::recorded);
+    let strongest = of_the_paper(&audit.variants).filter(|(_, row)| is_nearest(conclusion, row));
+    let strongest = strongest.filter_map(|(_, row)| evidence(row, scene));
     let other_code = audit.claims.iter().find(|judged| judged.claim.id == "P13");
-    let other_code = other_code.filter(|judged| judged.measured.verdict == Verdict::NotCheckable);
+    let other_code =
+        other_code.filter(|judged| is_example && judged.measured.verdict == Verdict::NotCheckable);
     let other_code =
         other_code.map(|_| "Agreement with the commercial code cannot be checked (P13).".into());
-    std::iter::once(coupled).chain(nearest).chain(other_code).collect()
+    std::iter::once(coupled)
+        .chain(nearest)
+        .chain(range)
+        .chain(strongest)
+        .chain(other_code)
+        .collect()
+}
+
+/// Whether a variant is one of the nearest, whose evidence stands in the verdict.
+fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
+    let mut runs = conclusion.nearest.iter().flat_map(|nearest| &nearest.runs);
+    runs.any(|run| run.reading.is_none() && run.variant == row.variant)
 }
 
 /// Names a run, with its reading where that is not the default.
-fn short_name(NearRun { variant, reading, .. }: &NearRun) -> String {
-    reading.as_ref().map_or(variant.to_string(), |reading| format!("{variant} ({reading})"))
+fn short_name(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
+    let unsettled = if *unsettled { ", unsettled" } else { "" };
+    match reading {
+        None => format!("{variant}{unsettled}"),
+        Some(reading) => format!("{variant} ({reading}{unsettled})"),
+    }
 }
 
 /// The paper's variants, and the equilibrium.
@@ -163,23 +193,23 @@ fn run(row: &VariantRow) -> Vec<Cell> {
     let name = row.variant.to_string().into();
     match &row.end {
         End::Failure { failure } => vec![name, Cell::Empty, failure.in_short().into()],
-        End::Result { in_contact, target_share, cycle, bodies, distance, .. } => {
+        End::Result { in_contact, target_share, cycle, bodies, distance, mesh_error, .. } => {
             let nodes = match cycle {
                 Some(cycle) if cycle.length > 1 => {
                     let mut counts: Vec<usize> =
                         cycle.members.iter().map(|k| in_contact[k - 1]).collect();
                     counts.sort_unstable();
                     counts.dedup();
-                    format!("alternates, {}", listed(counts))
+                    format!("unsettled: {}", listed(counts))
                 }
                 _ => in_contact.last().map_or("-".into(), usize::to_string),
             };
-            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative, 0));
+            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative));
             vec![
                 name,
-                Cell::percent(*target_share, 0),
+                Cell::percent(*target_share),
                 nodes.into(),
-                stresses(bodies).into(),
+                stresses(bodies, *mesh_error).into(),
                 error.into(),
             ]
         }
@@ -190,50 +220,64 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
     let nodes = found.in_contact.to_string();
     vec![
         "equilibrium".into(),
-        Cell::percent(found.target_share, 0),
+        Cell::percent(found.target_share),
         nodes.into(),
-        stresses(&found.bodies).into(),
+        stresses(&found.bodies, found.mesh_error).into(),
         Cell::Empty,
     ]
 }
 
 /// CalculiX's recorded figures.
 fn calculix() -> Vec<Cell> {
-    let stresses = RECORDED.map(|(_, stress)| significant(stress, 3)).join(" / ");
+    let stresses = RECORDED.map(|(_, stress)| stress.to_string()).join(" / ");
     vec!["CalculiX, recorded".into(), Cell::Empty, Cell::Empty, stresses.into()]
 }
 
-fn stresses(bodies: &[BodySummary]) -> String {
-    let each = bodies.iter().map(|body| significant(body.max_von_mises_stress, 3));
+fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
+    let each = bodies.iter().map(|body| figure(body.max_von_mises_stress, error));
     each.collect::<Vec<_>>().join(" / ")
 }
 
 fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
-    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error, 0)))
+    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error)))
 }
 
-/// Says which node ends deepest inside the target, and how many in contact pull, under the paper's variants that
-/// pass a load on.
-fn inside(audit: &Audit, scene: &Scene) -> Vec<String> {
-    let said = |row: &VariantRow| match &row.end {
-        End::Result { penetration: Some(found), pulling, transmits_nothing: false, .. }
-            if found.depth > 0.0 =>
-        {
-            let depth = with_unit(&significant(found.depth, 2), &scene.units.length);
-            let status = if found.in_contact { "in contact" } else { "not in contact" };
-            let pulls = match pulling.len() {
-                0 => String::new(),
-                n => format!("; {}", counted(n, "node in contact pulls", "nodes in contact pull")),
-            };
-            Some(format!(
-                "{}: node {}, {status}, ends {depth} inside the target{pulls}.",
-                row.variant, found.node
-            ))
-        }
-        End::Result { .. } | End::Failure { .. } => None,
+/// Says what is wrong with a run that passes a load on: which node is pressed across an open gap, which ends inside
+/// the target, how many pull, and how far a symmetric scene answers unsymmetrically.
+fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
+    let End::Result {
+        penetration,
+        pulling,
+        transmits_nothing: false,
+        across,
+        asymmetry,
+        mesh_error,
+        ..
+    } = &row.end
+    else {
+        return None;
     };
-    of_the_paper(&audit.variants).filter_map(|(_, row)| said(row)).collect()
+    let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
+    let across = across.map(|PressedAcross { node, pressure, gap }| {
+        let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
+        format!("node {node} is pressed with {pressure} across an open gap of {}", length(gap))
+    });
+    let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
+        let status = if found.in_contact { "though in contact" } else { "carries nothing" };
+        format!("node {}, {} inside the target, {status}", found.node, length(found.depth))
+    });
+    let pulls = (!pulling.is_empty())
+        .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
+    let mirrored = asymmetry.filter(|part| *part > 0.0).map(|part| {
+        format!(
+            "the symmetric scene answers unsymmetrically, by {} of the largest |u|",
+            percent(part)
+        )
+    });
+    let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
+    let unsettled = if row.end.is_unsettled() { " (unsettled)" } else { "" };
+    (!faults.is_empty()).then(|| format!("{}{unsettled}: {}.", row.variant, faults.join("; ")))
 }
 
 /// The statements by verdict, in a row for each scope.
@@ -266,11 +310,12 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let fatal = of(Weight::Fatal).map(|price| ("fatal".to_string(), price));
     let shifts = conclusion::shifts(prices).into_iter().map(|k| {
         let price = &prices[k];
-        let far = or_dash(price.outcome.from_equilibrium(), |far| percent(far, 0));
+        let far = or_dash(price.outcome.from_equilibrium(), percent);
         (if price.outcome.is_settled() { far } else { format!("{far}, does not settle") }, price)
     });
     let rounding = of(Weight::Rounding).map(|price| (Weight::Rounding.to_string(), price));
-    let own = or_dash(prices[0].outcome.from_equilibrium(), |own| percent(own, 0));
+    let own = prices[0].outcome.from_equilibrium();
+    let own = own.map_or("no equilibrium to compare with".into(), percent);
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
     let free =
@@ -281,6 +326,11 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
         dear: fatal.chain(shifts).chain(rounding).collect(),
         others: std::iter::once(free).chain(none).collect(),
     })
+}
+
+/// Says what stands before the assumptions.
+pub fn assumed_in(scene: &Scene) -> &'static str {
+    if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" }
 }
 
 fn more(scene: &Scene) -> String {

@@ -12,6 +12,7 @@ use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::findings::{Evidence, Finding, Repair};
 use crate::audit::prices::Price;
 use crate::audit::prices::table as prices;
+use crate::audit::range::is_example;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
 use crate::audit::{Assumption, Audit, Compared, FrictionContact};
@@ -24,7 +25,7 @@ use problem::scene::Scene;
 use report::json;
 use report::layout::listed;
 use report::model::{Cell, Report, Table};
-use report::numbers::{or_dash, short};
+use report::numbers::{figure, or_dash, short};
 use report::tables::{nearest_decision, perturbed};
 
 /// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants
@@ -40,10 +41,14 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
 pub fn opening(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
     Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
-        .line(
-            "Judged are the two listings as printed, and this project's runs of them; figure 5 itself is not. \
-             Misprints are possible, and the authors may have run another listing. They were not asked.",
-        )
+        .line(format!(
+            "Judged are the two listings as printed, and this project's runs of them{}. Misprints are possible, and \
+             the authors may have run another listing. They were not asked.",
+            match is_example(scene) {
+                true => "; figure 5 itself is not",
+                false => " on a scene that is not the paper's example",
+            }
+        ))
         .then(conclusion::report(&conclusion::answers(audit, conclusion, scene)))
 }
 
@@ -83,7 +88,7 @@ fn readings(effects: &[Effect]) -> Report {
         .column("MJS entries changed", |effect| effect.entries)
         .column("largest difference", |effect| effect.displacement)
         .column("error in energy norm", |effect| {
-            effect.equilibrium_error.map(|error| Cell::percent(error, 2))
+            effect.equilibrium_error.map(|error| Cell::percent(error))
         })
         .column("of what", remark);
     Report::default()
@@ -159,6 +164,7 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
         distance,
         friction_needed,
         pulling,
+        mesh_error,
         ..
     } = &row.end
     {
@@ -166,18 +172,18 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
             (Variant::Unilateral, _) => "in equilibrium".to_string(),
             (_, None) => "new in the last iteration".into(),
             (_, Some(Cycle { length: 1, .. })) => "settled".into(),
-            (_, Some(cycle)) => format!("cycle of {}", cycle.length),
+            (_, Some(cycle)) => format!("unsettled, cycle of {}", cycle.length),
         };
         let nothing = if *transmits_nothing { ", nothing transmitted" } else { "" };
         let distance = distance.as_ref();
         cells.extend([
             in_contact.last().copied().into(),
             (state + nothing).into(),
-            Cell::percent(*target_share, 1),
+            Cell::percent(*target_share),
             (*eq1_residual).into(),
-            stresses(bodies).into(),
-            distance.map(|from| Cell::percent(from.displacement_relative, 2)).into(),
-            distance.map(|from| Cell::percent(from.energy_relative, 2)).into(),
+            stresses(bodies, *mesh_error).into(),
+            distance.map(|from| Cell::percent(from.displacement_relative)).into(),
+            distance.map(|from| Cell::percent(from.energy_relative)).into(),
             (*friction_needed).into(),
             pulling.len().into(),
         ]);
@@ -186,13 +192,22 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
 }
 
 /// Writes the largest von Mises stress of each body behind its name.
-fn stresses(bodies: &[BodySummary]) -> String {
-    listed(bodies.iter().map(|body| format!("{} {}", body.name, short(body.max_von_mises_stress))))
+fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
+    let stress = |body: &BodySummary| figure(body.max_von_mises_stress, error);
+    listed(bodies.iter().map(|body| format!("{} {}", body.name, stress(body))))
 }
 
 /// Reports a solution that others are compared with, and what rounding does to it.
 fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
-    let Some(Compared { model, in_contact, target_share: _, bodies, nearest, rounding }) = other
+    let Some(Compared {
+        model,
+        in_contact,
+        target_share: _,
+        bodies,
+        mesh_error,
+        nearest,
+        rounding,
+    }) = other
     else {
         return Report::default().note(format!("{what}: there is none"));
     };
@@ -203,7 +218,7 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
             model.coupling,
             model.friction,
             model.geometry,
-            stresses(bodies)
+            stresses(bodies, *mesh_error)
         ))
         .details(rounding.iter().flat_map(perturbed))
         .details(nearest.as_ref().map(nearest_decision))

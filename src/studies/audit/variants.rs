@@ -6,10 +6,13 @@ use serde::Serialize;
 use super::case::Case;
 use super::evidence::{Measured, NoFigures, beyond_noise, repeated};
 use engine::contact::pulling;
+use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
+use numbers::finite;
 use problem::model::NodeId;
 use problem::modelling::Variant;
+use problem::scene::symmetry::images;
 
 /// A variant and what came of its run.
 #[derive(Clone, Debug, Serialize)]
@@ -52,6 +55,13 @@ pub enum End {
         pulling: Vec<NodeId>,
         /// The deepest contact node at the end; nothing where none faces the target.
         penetration: Option<Penetration>,
+        /// The node that is pressed hardest across an open gap at the end; nothing where none is.
+        across: Option<PressedAcross>,
+        /// Of a scene that is its own mirror image, the largest difference of a displacement from that of the
+        /// mirrored node, over the largest displacement; nothing of another scene.
+        asymmetry: Option<f64>,
+        /// The error of the mesh in the energy norm, relative; nothing where it is not known.
+        mesh_error: Option<f64>,
     },
     /// It has none.
     Failure {
@@ -61,6 +71,11 @@ pub enum End {
 }
 
 impl End {
+    /// Returns whether its contact state alternates, so that its figures are those of one of several states.
+    pub fn is_unsettled(&self) -> bool {
+        matches!(self, End::Result { cycle: Some(cycle), .. } if cycle.length > 1)
+    }
+
     /// Returns why it has none.
     pub fn failure(&self) -> Option<&NoFigures> {
         match self {
@@ -142,6 +157,45 @@ impl Penetration {
     }
 }
 
+/// A node that is pressed though it does not touch the target.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PressedAcross {
+    /// The node.
+    pub node: NodeId,
+    /// The pressure, stress.
+    pub pressure: f64,
+    /// The distance from the target, length.
+    pub gap: f64,
+}
+
+impl PressedAcross {
+    /// The part of the largest displacement from which a gap is open.
+    const OPEN: f64 = 1e-6;
+
+    /// Finds the node under the largest pressure among those that are apart from the target.
+    fn of(solution: &Solution) -> Option<Self> {
+        let least = Self::OPEN * max_displacement(&solution.u);
+        let apart = solution.in_contact().filter(|contact| contact.gap > least);
+        let pressed = apart.filter_map(|contact| {
+            let pressure = contact.pressure.filter(|pressure| *pressure > 0.0)?;
+            Some(PressedAcross { node: contact.node, pressure, gap: contact.gap })
+        });
+        pressed.max_by(|a, b| a.pressure.total_cmp(&b.pressure))
+    }
+}
+
+/// Returns how far the displacements are from their mirror image, over the largest; nothing where the scene is
+/// not its own mirror image.
+fn asymmetry(solution: &Solution) -> Option<f64> {
+    let images = images(&solution.model)?;
+    let u = solution.displacements();
+    let apart = u.iter().zip(images).map(|([x, y], image)| {
+        let [other_x, other_y] = u[image.index()];
+        (x + other_x).hypot(y - other_y)
+    });
+    Some(beyond_noise(over(apart.fold(0.0, f64::max), max_displacement(&solution.u))))
+}
+
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let end = |variant| repeated(case, |case| end(case, variant));
@@ -170,6 +224,11 @@ pub(super) fn target_share(solution: &Solution) -> f64 {
     if load == 0.0 { 0.0 } else { solution.target_force() / load }
 }
 
+/// Returns the error of the mesh in the energy norm, relative; nothing where it is not known.
+pub(super) fn mesh_error(solution: &Solution) -> Option<f64> {
+    finite(Discretisation::new(&solution.model, &solution.elements).relative())
+}
+
 fn end(case: &Case, variant: Variant) -> End {
     let solution = match case.run(variant) {
         Ok(solution) => solution,
@@ -189,5 +248,8 @@ fn end(case: &Case, variant: Variant) -> End {
         friction_needed: needed.reduce(f64::max),
         pulling: pulling(&solution.contact, solution.model.load.amax()),
         penetration: Penetration::of(solution),
+        across: PressedAcross::of(solution),
+        asymmetry: asymmetry(solution),
+        mesh_error: mesh_error(solution),
     }
 }

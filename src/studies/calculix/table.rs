@@ -145,7 +145,7 @@ fn bodies(comparison: &Comparison) -> Table<Vec<&BodyStress>> {
         .column("here", |body| body.ours)
         .column("CalculiX", |body| body.calculix)
         .column("difference over CalculiX's", |body| {
-            body.relative().map(|relative| Cell::percent(relative, 1))
+            body.relative().map(|relative| Cell::percent(relative))
         })
 }
 

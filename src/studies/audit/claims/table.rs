@@ -160,7 +160,7 @@ fn entry(judged: &JudgedClaim) -> Report {
 /// Says the error of the mesh in each run that was measured.
 fn error_of_the_mesh(errors: &[MeshError]) -> Option<String> {
     let each = errors.iter().map(|MeshError { run, energy_relative }| {
-        format!("{run} {}", or_dash(*energy_relative, |error| percent(error, 1)))
+        format!("{run} {}", or_dash(*energy_relative, percent))
     });
     (!errors.is_empty()).then(|| {
         format!(

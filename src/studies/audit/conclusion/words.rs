@@ -10,7 +10,7 @@ use crate::audit::conclusion::{Conclusion, Coupled, Fields, NearRun, Nearest, Sp
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
-use crate::audit::range::is_example;
+use crate::audit::range::{self, Recorded, is_example};
 use engine::BodySummary;
 use engine::estimates::BodyEstimates;
 use paper::mirror::Reading;
@@ -18,7 +18,7 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::Report;
-use report::numbers::{coordinates, or_dash, percent, short, with_unit};
+use report::numbers::{coordinates, figure, or_dash, percent, short, with_unit};
 
 /// A relative difference that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -92,7 +92,7 @@ pub fn coupling(coupled: Option<&Coupled>) -> String {
             };
             match (share, failure) {
                 (Some(share), _) => {
-                    let share = percent(*share, 1);
+                    let share = percent(*share);
                     format!("{entries}, and under printed {share} of the load reaches the target.")
                 }
                 (None, Some(why)) => {
@@ -144,7 +144,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
             let tie = if runs.len() == 1 { "" } else { ", all equally near" };
             let others = if *by_rounding == 0 { "" } else { " of the others" };
             let apart = apart.iter().map(|run| {
-                let far = percent(run.energy, 1);
+                let far = percent(run.energy);
                 format!(" Apart: {}, {far} from the equilibrium of that plane problem.", named(run))
             });
             format!(
@@ -153,7 +153,7 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
                  norm, on the same mesh.{}",
                 counted(*tried, "run", "runs"),
                 listed(runs.iter().map(named)),
-                percent(runs[0].energy, 1),
+                percent(runs[0].energy),
                 apart.collect::<String>()
             )
         }
@@ -169,10 +169,11 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
 }
 
 /// Names a run.
-fn named(NearRun { variant, reading, .. }: &NearRun) -> String {
+fn named(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
+    let unsettled = if *unsettled { " (unsettled: it alternates)" } else { "" };
     match reading {
-        None => format!("{variant} under the default reading"),
-        Some(reading) => format!("{variant} under the reading {reading}"),
+        None => format!("{variant} under the default reading{unsettled}"),
+        Some(reading) => format!("{variant} under the reading {reading}{unsettled}"),
     }
 }
 
@@ -187,11 +188,16 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
                     let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
                     format!(
                         "{word}. Under {} the largest von Mises stress is {}. The largest von Mises strain is {}. \
-                         One of these values differs by {} from that of the equilibrium on the same mesh. {own}",
+                         One of these values differs by {} from that of the equilibrium on the same mesh.{} {own}",
                         nearest_variants(&fields.variants, fields.by_rounding),
-                        largest_stress(&fields.theirs, scene),
-                        listed(fields.theirs.iter().map(strain)),
-                        percent(difference, 1)
+                        largest_stress(fields, scene),
+                        listed(fields.theirs.iter().map(|body| strain(body, fields))),
+                        percent(difference),
+                        if fields.unsettled {
+                            " The run is unsettled: its contact state alternates."
+                        } else {
+                            ""
+                        }
                     )
                 }
                 None => format!("Not decided here: no variant of the paper has a result. {own}"),
@@ -229,7 +235,10 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     let decimals = (3.0 - size.log10()).ceil().max(0.0) as usize;
     let errors = fields.own.iter().zip(&fields.errors.bodies);
     let stresses = errors.map(|(body, error)| {
-        let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
+        let stress = with_unit(
+            &figure(body.max_von_mises_stress, fields.errors.mesh_energy_relative),
+            &scene.units.stress,
+        );
         // 0 added to −0 is 0.
         let scale = 10f64.powi(decimals as i32);
         let centre = body.centre.map(|x| (x * scale).round() / scale + 0.0);
@@ -245,7 +254,7 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
          The largest von Mises strain is {}.{limit}",
         scene.word,
         listed(stresses),
-        listed(fields.own.iter().map(strain))
+        listed(fields.own.iter().map(|body| strain(body, fields)))
     )
 }
 
@@ -257,15 +266,16 @@ fn error_of_mesh(error: &BodyEstimates) -> String {
     })
 }
 
-fn largest_stress(bodies: &[BodySummary], scene: &Scene) -> String {
-    listed(bodies.iter().map(|body| {
-        let stress = with_unit(&short(body.max_von_mises_stress), &scene.units.stress);
-        format!("{stress} in body {}", body.name)
+fn largest_stress(fields: &Fields, scene: &Scene) -> String {
+    listed(fields.theirs.iter().map(|body| {
+        let stress = figure(body.max_von_mises_stress, fields.errors.mesh_energy_relative);
+        format!("{} in body {}", with_unit(&stress, &scene.units.stress), body.name)
     }))
 }
 
-fn strain(body: &BodySummary) -> String {
-    format!("{} in body {}", short(body.max_von_mises_strain), body.name)
+fn strain(body: &BodySummary, fields: &Fields) -> String {
+    let strain = figure(body.max_von_mises_strain, fields.errors.mesh_energy_relative);
+    format!("{strain} in body {}", body.name)
 }
 
 fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) -> Answer {
@@ -279,7 +289,11 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
     let answer = match &known {
         Err(why) => why.clone(),
         Ok(prices) => {
-            let own = prices[0].outcome.from_equilibrium();
+            let own = match prices[0].outcome.from_equilibrium() {
+                Some(own) => format!("is {} from the equilibrium", percent(own)),
+                None => "cannot be compared, as there is no equilibrium under the scene's friction"
+                    .into(),
+            };
             let none = prices::of_weight(prices, Weight::NoFault);
             let no_fault = if none.is_empty() {
                 String::new()
@@ -288,13 +302,12 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
             };
             format!(
                 "{} printed faults were put back, each alone, into the corrected algorithm (listings/corrected/), which \
-                 has no friction and is {} from the equilibrium. Fatal (the run stops, or no load passes): {}. \
+                 has no friction and {own}. Fatal (the run stops, or no load passes): {}. \
                  Farther or nearer, each with its distance from the equilibrium: {}. Decided by rounding: {}. Without \
                  effect: {}.{no_fault} Present, but not put back: {}. A finding that the print's \
                  own run does not trigger can cost something here, as the corrected algorithm comes to other \
                  shapes.",
                 prices.len() - 1,
-                or_dash(own, |own| percent(own, 1)),
                 or_none(prices::of_weight(prices, Weight::Fatal)),
                 or_none(shifts(prices).into_iter().map(|k| shift(&prices[k]))),
                 or_none(prices::of_weight(prices, Weight::Rounding)),
@@ -330,7 +343,7 @@ pub fn shifts(prices: &[Price]) -> Vec<usize> {
 /// Says how far a fault leaves the solution from the equilibrium.
 fn shift(price: &Price) -> String {
     let name = price.name.as_deref().expect("the corrected algorithm shifts nothing");
-    let far = or_dash(price.outcome.from_equilibrium(), |far| percent(far, 1));
+    let far = or_dash(price.outcome.from_equilibrium(), percent);
     let settles = if price.outcome.is_settled() { "" } else { " (does not settle)" };
     format!("{name} {far}{settles}")
 }
@@ -341,17 +354,49 @@ fn or_none(words: impl IntoIterator<Item = impl Display>) -> String {
     if words.is_empty() { "none".into() } else { words }
 }
 
+/// The last question, and its value.
+const OPEN: &str = "What does the paper not give, and how far could that move the verdict?";
+const MOST: &str = "largest distance of the nearest variant from the equilibrium over the range, in the energy norm, relative";
+
+/// Says how far the nearest run is from the equilibrium on other geometries of the paper's example.
+pub fn recorded() -> String {
+    let Recorded { places, error: [least, most], by_rounding } = range::recorded();
+    let rounding = match by_rounding {
+        0 => String::new(),
+        n => format!("; at {n} more rounding decides"),
+    };
+    format!(
+        "At {places} other choices of what the paper leaves open (clearance, radius, mesh, stamp, c_tol) the nearest run \
+         is {} to {} from it{rounding}.",
+        percent(least),
+        percent(most)
+    )
+}
+
 fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
     let Conclusion { open, range, .. } = conclusion;
     let given = match open.len() {
         0 => "The scene has no contact that could stand for the paper's.".to_string(),
         n => format!("{n} things: {}.", listed(open)),
     };
+    if !is_example(scene) && range.is_none() {
+        return Answer {
+            question: OPEN,
+            answer: "The scene is not the paper's example: what the paper leaves open is here as the scene has it. \
+                     audit strand judges the example."
+                .into(),
+            value: None,
+            of: MOST,
+            command: format!("audit {} --json", scene.word),
+            at: None,
+        };
+    }
     let moved = match range {
         None => {
-            "How far that could move the verdict was not tried here: audit --range tries it on the \
-                 paper's example; golden/tables/range.md has what it gives."
-                .to_string()
+            format!(
+                "{} golden/tables/range.md has what else that moves; audit --range makes it again.",
+                recorded()
+            )
         }
         Some(Spread { places, error: [least, most], changes, true_from }) => {
             let verdicts = match changes.len() {
@@ -361,8 +406,8 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
             format!(
                 "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} \
                  from the equilibrium; {verdicts}.{}",
-                percent(*least, 1),
-                percent(*most, 1),
+                percent(*least),
+                percent(*most),
                 true_from
                     .iter()
                     .map(|(id, value)| {
@@ -381,11 +426,10 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
         Some(_) => "audit --range --json".into(),
     };
     Answer {
-        question: "What does the paper not give, and how far could that move the verdict?",
+        question: OPEN,
         answer: format!("{given}{clearance}{wider} {moved}"),
         value: most,
-        of: "largest distance of the nearest variant from the equilibrium over the range, in the energy \
-             norm, relative",
+        of: MOST,
         command,
         at: most.map(|_| "/conclusion/range/error/1".into()),
     }

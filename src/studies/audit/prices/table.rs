@@ -276,7 +276,7 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
         }
         Outcome::Result { .. } if !corrected.is_settled() => "does not settle on this scene".into(),
         Outcome::Result { .. } if corrected.error() > 0.0 => {
-            format!("is {} from the solution on this scene", percent(corrected.error(), 1))
+            format!("is {} from the solution on this scene", percent(corrected.error()))
         }
         Outcome::Result { .. } => return None,
     };

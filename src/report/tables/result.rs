@@ -1,0 +1,170 @@
+//! What a reader asks of a run first.
+
+use super::{contact_set, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
+use crate::layout::counted;
+use crate::model::Report;
+use crate::numbers::{coordinates, figure, percent, six_digits, with_unit};
+use engine::estimates::NoLimit;
+use engine::{Assessment, Cycle, Solution};
+use numbers::largest::largest;
+use problem::model::NodeId;
+use problem::modelling::Variant;
+
+/// The part of the largest |u| from which a gap is open.
+const OPEN: f64 = 1e-6;
+
+/// Reports whether contact passes the load on, its pressure and width, the largest displacement and stresses,
+/// how exact they are, and whether this is the only equilibrium.
+pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
+    let error = error_of_mesh(assessment);
+    let report = Report::default()
+        .heading("Result")
+        .notes(passes_on(solution))
+        .then(contact_set(solution))
+        .notes(peak(solution, error))
+        .notes(width(solution))
+        .notes(displacement(solution, error))
+        .notes(stresses(assessment, solution, error))
+        .notes(error.map(|error| {
+            format!("Error of the mesh {} in the energy norm, {UNDERESTIMATE}", percent(error))
+        }));
+    match &solution.equilibrium {
+        Some(found) => report.then(equilibrium::lines(solution, found)),
+        None => report.notes(end(solution)).notes(from_equilibrium(assessment)),
+    }
+}
+
+/// Says first where nothing is in contact, or passes the load on; else how much of the load that is.
+fn passes_on(solution: &Solution) -> Option<String> {
+    solution.model.target()?;
+    let none = solution.touches_nothing();
+    if solution.transmits_nothing() {
+        let why = if none { "no node is in contact" } else { "contact couples nothing" };
+        return Some(format!(
+            "Nothing transmitted: no load reaches the target, an audit result: {why}"
+        ));
+    }
+    if none {
+        return Some("Nothing in contact: no node is, at the end".into());
+    }
+    let units = &solution.request.scene.units;
+    let force = with_unit(&six_digits(solution.target_force()), &units.force);
+    let [fx, fy] = solution.model.total_load();
+    let load = fx.hypot(fy);
+    Some(match load > 0.0 {
+        true => {
+            let share = percent(solution.target_force() / load);
+            format!("Contact passes on {share} of the load: force on the target {force}")
+        }
+        false => format!("Contact presses without a load: force on the target {force}"),
+    })
+}
+
+/// Names the contact node under the largest pressure. The pressures of `printed` stay in the contact body.
+fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
+    let pressed: Vec<_> =
+        solution.in_contact().filter_map(|node| Some((node.pressure?, node))).collect();
+    let found = largest(pressed.iter().map(|(pressure, _)| *pressure))?;
+    let (pressure, at) = pressed[found.first];
+    let units = &solution.request.scene.units;
+    let pressure = with_unit(&figure(pressure, error), &units.stress);
+    let is_open = at.gap > OPEN * engine::max_displacement(&solution.u);
+    let gap = with_unit(&figure(at.gap, error), &units.length);
+    let across = if is_open { format!(", across an open gap of {gap}") } else { String::new() };
+    (solution.request.variant != Variant::Printed).then(|| {
+        let at = place(solution, at.node);
+        format!("Peak contact pressure {pressure} at {at}{}{across}", others(found.others))
+    })
+}
+
+/// Says how wide the contact is: from its first node to its last, whose edges leave the error.
+fn width(solution: &Solution) -> Option<String> {
+    let nodes: Vec<_> = solution.in_contact().collect();
+    let (first, last) = (nodes.first()?, nodes.last()?);
+    let wide = (last.arc - first.arc).abs();
+    let wide = figure(wide, Some(1.0 / (nodes.len() as f64 - 1.0)).filter(|_| nodes.len() > 1));
+    let wide = with_unit(&wide, &solution.request.scene.units.length);
+    (nodes.len() > 1).then(|| {
+        format!(
+            "Contact width {wide} along the surface, from node {} to node {}",
+            first.node, last.node
+        )
+    })
+}
+
+/// Names the node that moves farthest.
+fn displacement(solution: &Solution, error: Option<f64>) -> Option<String> {
+    let sizes: Vec<f64> = solution.displacements().iter().map(|[x, y]| x.hypot(*y)).collect();
+    let found = largest(sizes.iter().copied())?;
+    let node = solution.model.node_ids().nth(found.first).expect("it has a displacement");
+    let size = figure(sizes[found.first], error);
+    let size = with_unit(&size, &solution.request.scene.units.length);
+    Some(format!("Largest |u| {size} at {}{}", place(solution, node), others(found.others)))
+}
+
+/// Says where each body has its largest von Mises stress, and whether that has a limit.
+fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) -> Vec<String> {
+    let units = &solution.request.scene.units;
+    let limits = assessment.estimates.as_ref().map(|estimates| &estimates.errors.bodies);
+    let line = |(k, body): (usize, &engine::BodySummary)| {
+        let limit = limits.and_then(|bodies| bodies.get(k)?.no_limit.as_ref());
+        let diverges = match limit {
+            Some(NoLimit { node, is_largest: true, .. }) => {
+                format!("; a finer mesh has more, without limit, at node {node}")
+            }
+            Some(NoLimit { is_largest: false, .. }) | None => String::new(),
+        };
+        let at = with_unit(&coordinates(body.centre, decimals(solution)), &units.length);
+        format!(
+            "Largest von Mises stress, {}: {} at {at}{}{diverges}",
+            body.name,
+            with_unit(&figure(body.max_von_mises_stress, error), &units.stress),
+            others(body.as_large)
+        )
+    };
+    assessment.bodies.iter().enumerate().map(line).collect()
+}
+
+/// Says that no equilibrium is sought, and whether the contact state came to rest.
+fn end(solution: &Solution) -> Option<String> {
+    solution.model.target()?;
+    let last = solution.last();
+    let state = match &last.cycle {
+        None => "the contact state is new in the last iteration".into(),
+        Some(Cycle { length: 1, .. }) => "the contact state is that of the iteration before".into(),
+        Some(cycle) => format!(
+            "UNSETTLED: the contact state alternates with a period of {}, and all figures are those of \
+             iteration {}",
+            cycle.length, last.k
+        ),
+    };
+    Some(format!("No equilibrium is sought under {}; {state}", solution.request.variant))
+}
+
+/// Says how far the run is from the equilibrium under the scene's own friction, or the reference solution where
+/// that is the same.
+fn from_equilibrium(assessment: &Assessment) -> Option<String> {
+    let other = assessment.equilibrium.as_ref().or(assessment.reference.as_ref())?;
+    Some(match other {
+        Ok(other) => {
+            let far = percent(other.distance.energy_relative);
+            format!("{far} from the equilibrium, in the energy norm on the same mesh")
+        }
+        Err(_) => "There is no equilibrium to compare with".into(),
+    })
+}
+
+fn place(solution: &Solution, node: NodeId) -> String {
+    let place = coordinates(solution.model.coordinates(node), decimals(solution));
+    format!("node {node}: {}", with_unit(&place, &solution.request.scene.units.length))
+}
+
+/// Returns the decimals of places: four digits of the size of the bodies.
+fn decimals(solution: &Solution) -> usize {
+    (4.0 - solution.model.bounds().larger_side().log10()).ceil().clamp(0.0, 12.0) as usize
+}
+
+/// Says how many other places have the same value to 1e-9 of it, as mirror images have.
+fn others(n: usize) -> String {
+    if n == 0 { String::new() } else { format!(" ({} as large)", counted(n, "other", "others")) }
+}
