@@ -16,7 +16,7 @@ use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
-use report::numbers::{figure, or_dash, percent, significant, with_unit};
+use report::numbers::{figure, or_dash, percent, with_unit};
 use report::tables::UNDERESTIMATE;
 
 /// The most columns of the screen.
@@ -72,9 +72,12 @@ pub struct Faults<'a> {
 impl<'a> Screen<'a> {
     /// Collects the parts.
     pub fn new(audit: &'a Audit, conclusion: &Conclusion, scene: &Scene) -> Self {
+        // That of the nearest run stands in the verdict.
+        let others = of_the_paper(&audit.variants).filter(|(_, row)| !is_nearest(conclusion, row));
+        let evidence = others.filter_map(|(_, row)| evidence(row, scene));
         let contact = conclusion.coupled.as_ref().map(|_| OfContact {
             runs: runs(audit, scene),
-            notes: error_of_the_mesh(conclusion).into_iter().collect(),
+            notes: error_of_the_mesh(conclusion).into_iter().chain(evidence).collect(),
             statements: statements(&audit.claims),
             faults: faults(&audit.prices),
             assumed: &audit.assumptions,
@@ -112,7 +115,7 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
         })
         .line(format!(
             "{}: {}.",
-            if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" },
+            assumed_in(scene),
             assumed.iter().map(Assumption::to_string).collect::<Vec<_>>().join("; ")
         ))
         .line(more(scene))
@@ -226,7 +229,7 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
 
 /// CalculiX's recorded figures.
 fn calculix() -> Vec<Cell> {
-    let stresses = RECORDED.map(|(_, stress)| significant(stress, 3)).join(" / ");
+    let stresses = RECORDED.map(|(_, stress)| stress.to_string()).join(" / ");
     vec!["CalculiX, recorded".into(), Cell::Empty, Cell::Empty, stresses.into()]
 }
 
@@ -323,6 +326,11 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
         dear: fatal.chain(shifts).chain(rounding).collect(),
         others: std::iter::once(free).chain(none).collect(),
     })
+}
+
+/// Says what stands before the assumptions.
+pub fn assumed_in(scene: &Scene) -> &'static str {
+    if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" }
 }
 
 fn more(scene: &Scene) -> String {

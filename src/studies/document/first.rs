@@ -7,7 +7,7 @@ use super::{Contents, Picture, pictures};
 use crate::audit::claims::{CLAIMS, Claim, table as claims};
 use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::FINDINGS;
-use crate::audit::screen::{FAULTS, Faults, JUDGED, OURS, OfContact, RUNS, Screen};
+use crate::audit::screen::{FAULTS, Faults, JUDGED, OURS, OfContact, RUNS, Screen, assumed_in};
 use crate::audit::{Assumption, Audit};
 use base::xml::escape;
 use paper::mirror::READINGS;
@@ -69,11 +69,12 @@ fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> Strin
     let runs = Report::default().table(RUNS, runs).notes(notes).html();
     format!(
         "{verdict}<div class=\"runs\">{}</div>\n<div class=\"statements\">{}</div>\n<div class=\"faults\">{}</div>\n{}\
-         <div class=\"assumed\"><h2>Assumed, as the paper is silent</h2><dl>{assumed}</dl></div>\n",
+         <div class=\"assumed\"><h2>{}</h2><dl>{assumed}</dl></div>\n",
         linked(&runs),
         linked(&statements),
         linked(&faults),
         key(&(statements.clone() + &others)),
+        assumed_in(contents.scene),
     )
 }
 
