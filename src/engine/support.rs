@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::ROUNDING_OF_A_FORCE;
 use super::elimination::{Constraint, Motion, sum};
+use super::solution::Solution;
 use numbers::scalar::Scalar;
 use problem::model::{Body, Dof, Hold, Model, NodeId, Restraint, Support};
 
@@ -102,24 +103,24 @@ pub fn reactions_of_supports(model: &Model, reactions: &DVector<f64>) -> Vec<[f6
 pub struct Resultant {
     /// The force on the target's body along x and y, force.
     pub force: [f64; 2],
-    /// The point of its line of action next to the middle of the contact nodes, in the undeformed shape, length;
+    /// The point of its line of action next to where contact presses on average, in the undeformed shape, length;
     /// None where it vanishes.
     pub through: Option<[f64; 2]>,
 }
 
 /// Returns what contact passes on: what restraints and loads leave of the contact body. None without contact, and
 /// where both surfaces are one body's.
-pub fn resultant(model: &Model, reactions: &DVector<f64>) -> Option<Resultant> {
+pub fn resultant(solution: &Solution) -> Option<Resultant> {
+    let (model, reactions) = (&*solution.model, &solution.reactions);
     let body = model.body_of(*model.contact.nodes.first()?)?;
     if model.target()? == body {
         return None;
     }
-    let count = model.contact.nodes.len() as f64;
-    let sum = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-        points.fold([0.0; 2], |[x, y], [px, py]| [x + px, y + py])
-    };
-    let places = &mut model.contact.nodes.iter().map(|node| model.coordinates(*node));
-    let middle = sum(places).map(|x| x / count);
+    let pressed = || solution.in_contact().filter_map(|at| Some((at.node, at.force?.max(0.0))));
+    let all: f64 = pressed().map(|(_, force)| force).sum();
+    let middle = [0, 1].map(|d| {
+        pressed().map(|(node, force)| force * model.coordinates(node)[d]).sum::<f64>() / all
+    });
     let (mut force, mut moment, mut sizes) = ([0.0; 2], 0.0, 0.0);
     for node in &body.nodes {
         let ([rx, ry], [px, py]) = (node.components(reactions), node.components(&model.load));
@@ -130,7 +131,7 @@ pub fn resultant(model: &Model, reactions: &DVector<f64>) -> Option<Resultant> {
     }
     let [fx, fy] = force;
     let size = fx.hypot(fy);
-    let through = (size > ROUNDING_OF_A_FORCE * sizes).then(|| {
+    let through = (size > ROUNDING_OF_A_FORCE * sizes && all > 0.0).then(|| {
         let arm = moment / (size * size);
         [middle[0] - arm * -fy, middle[1] - arm * fx]
     });

@@ -27,6 +27,17 @@ impl<T: Scalar> SparseSquare<T> {
         SparseSquare { columns: (0..matrix.ncols()).map(column).collect(), zero: T::zero() }
     }
 
+    /// Takes the entries of n rows, one row after the other, zeros left out.
+    pub fn from_rows(n: usize, entries: &[T]) -> Self {
+        let mut matrix = Self::zeros(n);
+        for (i, row) in entries.chunks(n.max(1)).enumerate() {
+            for (j, value) in row.iter().enumerate().filter(|(_, value)| !value.is_zero()) {
+                matrix.columns[j].push((i, *value));
+            }
+        }
+        matrix
+    }
+
     /// Returns the number of rows, which is that of the columns.
     pub fn size(&self) -> usize {
         self.columns.len()

@@ -195,7 +195,7 @@ impl ResultFile {
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
             reactions: SupportForce::all(solution),
-            resultant: engine::resultant(&solution.model, &solution.reactions),
+            resultant: engine::resultant(solution),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
             error_estimates: assessment

@@ -120,7 +120,7 @@ fn a_displaced_edge_presses_as_hooke_has_it() {
         let along = -s * top.reaction[0] + c * top.reaction[1];
         assert_relative_eq!(along, -2.0 * stress, max_relative = 1e-9);
         assert_relative_eq!(solution.target_force(), 2.0 * stress, max_relative = 1e-9);
-        let passed = resultant(&solution.model, &solution.reactions).expect("two bodies meet");
+        let passed = resultant(&solution).expect("two bodies meet");
         let back = |[x, y]: [f64; 2]| [c * x + s * y, c * y - s * x];
         let ([fx, fy], [x, _]) = (back(passed.force), back(passed.through.expect("it presses")));
         assert_relative_eq!(fx, 0.0, epsilon = 1e-9 * stress);

@@ -63,7 +63,7 @@ fn passes_on(solution: &Solution) -> Option<String> {
 
 /// Says what contact passes to the target's body, and where. It balances restraints and loads to rounding.
 fn resultant(solution: &Solution) -> Option<String> {
-    let Resultant { force, through } = engine::resultant(&solution.model, &solution.reactions)?;
+    let Resultant { force, through } = engine::resultant(solution)?;
     let units = &solution.request.scene.units;
     let at = with_unit(&coordinates(through?, decimals(solution)), &units.length);
     let digits = Digits::of(force[0].hypot(force[1]), Some(f64::EPSILON));
