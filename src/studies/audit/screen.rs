@@ -29,8 +29,7 @@ pub const JUDGED: [&str; 2] = [
 ];
 
 /// What a mark at a claim says.
-pub const OURS: &str =
-    "*: the threshold, or a part of the statement, is this audit's; the paper gives none.";
+pub const OURS: &str = "*: the threshold or the wording is this audit's; the paper gives none.";
 
 /// What the runs of the table are.
 pub const RUNS: &str =
@@ -51,8 +50,10 @@ pub struct Screen<'a> {
 pub struct OfContact<'a> {
     /// The runs beside the equilibrium.
     pub runs: Table,
-    /// What is to be said of the runs.
-    pub notes: Vec<String>,
+    /// The error of the mesh in the equilibrium.
+    pub mesh_error: Option<String>,
+    /// What is wrong with the runs that are not the nearest, whose faults stand in the verdict.
+    pub others: Vec<String>,
     /// The ids of the claims by verdict, in a row for each scope.
     pub statements: Table,
     /// What each fault costs, the dearest first; or why that is not known.
@@ -72,12 +73,11 @@ pub struct Faults<'a> {
 impl<'a> Screen<'a> {
     /// Collects the parts.
     pub fn new(audit: &'a Audit, conclusion: &Conclusion, scene: &Scene) -> Self {
-        // That of the nearest run stands in the verdict.
         let others = of_the_paper(&audit.variants).filter(|(_, row)| !is_nearest(conclusion, row));
-        let evidence = others.filter_map(|(_, row)| evidence(row, scene));
         let contact = conclusion.coupled.as_ref().map(|_| OfContact {
             runs: runs(audit, scene),
-            notes: error_of_the_mesh(conclusion).into_iter().chain(evidence).collect(),
+            mesh_error: error_of_the_mesh(conclusion),
+            others: others.filter_map(|(_, row)| evidence(row, scene)).collect(),
             statements: statements(&audit.claims),
             faults: faults(&audit.prices),
             assumed: &audit.assumptions,
@@ -97,12 +97,13 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     .line(JUDGED.join(" "))
     .heading("Verdict")
     .notes(verdict);
-    let Some(OfContact { runs, notes, statements, faults, assumed }) = contact else {
+    let Some(OfContact { runs, mesh_error, others, statements, faults, assumed }) = contact else {
         return report.line(more(scene));
     };
     report
         .table(RUNS, runs)
-        .notes(notes)
+        .notes(mesh_error)
+        .notes(others)
         .table(format!("The paper's {}", claims::counts()), statements)
         .note(format!("{OURS} audit --claim P12 explains one."))
         .heading(FAULTS)

@@ -52,7 +52,8 @@ fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> Strin
     let Screen { verdict, contact } = Screen::new(audit, conclusion, contents.scene);
     let verdict = linked(&prose(&verdict.join(" ")));
     let verdict = format!("<div class=\"verdict\"><h2>Verdict</h2><p>{verdict}</p></div>\n");
-    let Some(OfContact { runs, notes, statements, faults, assumed }) = contact else {
+    let Some(OfContact { runs, mesh_error, others: _, statements, faults, assumed }) = contact
+    else {
         return verdict;
     };
     let statements = Report::default()
@@ -66,7 +67,7 @@ fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> Strin
         format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
     });
     let assumed: String = assumed.collect();
-    let runs = Report::default().table(RUNS, runs).notes(notes).html();
+    let runs = Report::default().table(RUNS, runs).notes(mesh_error).html();
     format!(
         "{verdict}<div class=\"runs\">{}</div>\n<div class=\"statements\">{}</div>\n<div class=\"faults\">{}</div>\n{}\
          <div class=\"assumed\"><h2>{}</h2><dl>{assumed}</dl></div>\n",

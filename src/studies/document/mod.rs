@@ -11,6 +11,7 @@ use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
+use crate::audit::screen::Screen;
 use crate::audit::{Audit, relative_radius};
 use crate::audit::{
     claims::table as claims, conclusion::words as conclusion, prices::table as prices, screen,
@@ -109,7 +110,13 @@ fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Sc
             .then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
             .figure(format!("The smallest scene that shows {}", finding.id), picture)
     });
+    let others = Screen::new(audit, conclusion, scene).contact.map_or(Vec::new(), |it| it.others);
+    let others = match others.is_empty() {
+        true => Report::default(),
+        false => Report::default().heading("What is wrong with the other runs").notes(others),
+    };
     conclusion::report(&conclusion::answers(audit, conclusion, scene))
+        .then(others)
         .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
         .then(prices::section(conclusion.reading, &audit.prices, repairs, scene))
         .then(audit::evidence(audit))
