@@ -212,10 +212,7 @@ pub fn transpose(value: Value) -> Result<Value, Cause> {
 }
 
 pub fn identity(n: usize) -> Value {
-    // Memory of zeros takes no time.
-    let mut entries = vec![0.0; n * n];
-    entries.iter_mut().step_by(n + 1).for_each(|x| *x = 1.0);
-    Array::from_rows(n.max(1), entries).into()
+    Array::from_fn(n, n, |i, j| if i == j { 1.0 } else { 0.0 }).into()
 }
 
 /// Combines all numbers of the values by `f`, one after another: Mathcad's `min` and `max` flatten
