@@ -57,6 +57,10 @@ pub struct ReadingArg {
 pub struct RunArgs {
     #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
     variant: Option<Variant>,
+    /// Run the reference solution: unilateral with mortar, without friction, in small displacements.
+    #[arg(long, conflicts_with_all = ["variant", "coupling", "friction", "geometry", "load_steps", "status",
+        "scalar", "solver"])]
+    reference: bool,
     #[command(flatten)]
     method: MethodArgs,
 }
@@ -67,6 +71,9 @@ impl RunArgs {
     /// # Errors
     /// Those of [`ModelArgs::request`].
     pub fn request(&self, scene: &Scene) -> Result<Request> {
+        if self.reference {
+            return Ok(Request::new(scene).reading(self.method.reading.reading).reference());
+        }
         self.method.request(scene, self.variant)
     }
 }

@@ -145,6 +145,14 @@ impl Table {
 }
 
 impl<R> Table<R> {
+    /// Puts a column before the others that counts the rows from 1.
+    #[must_use]
+    pub fn numbered(mut self, heading: &str) -> Self {
+        self.headings.insert(0, heading.into());
+        self.cells.iter_mut().zip(1_usize..).for_each(|(row, n)| row.insert(0, n.into()));
+        self
+    }
+
     /// Whether a column stands to the right: it has numbers alone, or nothing in place of one.
     pub fn is_numeric(&self, column: usize) -> bool {
         self.cells.iter().all(|row| row[column].is_numeric())

@@ -76,6 +76,19 @@ pub fn table<'r, 'q, T: 'static>(
     table
 }
 
+/// Returns a table of the nodes, with a column for each component of their quantities.
+pub fn nodes(fields: &NodeFields, units: &Units) -> Table<Vec<usize>> {
+    let mut table = Table::from_rows(0..fields.nodes.len()).column("node", |n| n + 1);
+    for quantity in NodeFields::QUANTITIES {
+        let numbers = (quantity.value)(fields).numbers().unwrap_or_default();
+        for (k, symbol) in quantity.symbols.iter().enumerate() {
+            let heading = with_its_unit(symbol, quantity.unit.in_scene(units));
+            table = table.column(heading, |n| numbers[quantity.symbols.len() * n + k]);
+        }
+    }
+    table
+}
+
 /// Returns the title of each component of a quantity.
 fn titles<T>(quantity: &Quantity<T>) -> Vec<String> {
     match quantity.symbols {

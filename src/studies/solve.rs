@@ -21,8 +21,8 @@ use report::model::Report;
 use report::{self, tables};
 
 use commands::{
-    RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_stderr, progress,
-    read_listing, report_error, waiting,
+    RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_report, print_stderr,
+    progress, read_listing, report_error, waiting,
 };
 
 /// Run the iterations and write pictures and data.
@@ -36,7 +36,8 @@ Examples:
   plane-contact solve
   plane-contact solve strand --variant tied --out out/tied
   plane-contact solve fig1 --variant printed --reading R3=nested --json
-  plane-contact solve strand --variant unilateral --coupling mortar --friction 0
+  plane-contact solve my/block.json --csv out/tables
+  plane-contact solve strand --reference
   plane-contact solve fig1 --scalar exact --inputs decimal
   plane-contact solve strand --accuracy 1e-3
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
@@ -121,7 +122,11 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         .then(tables::steps(&solution, &assessment, args.changes.all_iterations()))
         .line(report::plan::line(&plan))
         .line(format!("Written to {}", shown(&out)));
-    args.tables.print(report)?;
+    if args.tables.is_whole() {
+        let fields = tables::fields(&solution, &assessment);
+        args.tables.write(&report.clone().then(fields))?;
+    }
+    print_report(report)?;
     Ok(status(&solution))
 }
 

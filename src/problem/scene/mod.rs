@@ -51,7 +51,7 @@ use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle
 use super::modelling::{ContactModel, Variant};
 use base::error::Result;
 use base::limits::check_steps;
-use base::plain::shell_word;
+use base::plain::{shell_word, six_digits};
 
 /// A scene that passed all checks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -191,7 +191,8 @@ impl Scene {
         fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
-        let slits = slit::notes(&mesh, &model);
+        let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
+        let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         Ok(Scene {
             name: name.into(),
             word: name.into(),
@@ -208,12 +209,31 @@ impl Scene {
                 .is_some_and(|c| c.friction_is_missing),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
-                notes: mesh.adapted.iter().cloned().chain(slits).collect(),
+                notes,
                 description,
                 mesh,
             })),
         })
     }
+}
+
+/// Says that the tolerance of the contact search is longer than the edges in which it searches, as where it is in
+/// another unit.
+fn wide_tolerance(model: &Model) -> Option<String> {
+    let length = |edge: &Edge| {
+        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.coordinates(node));
+        (bx - ax).hypot(by - ay)
+    };
+    let shortest = model.target_edges().map(length).reduce(f64::min)?;
+    let tolerance = model.contact.tolerance;
+    (tolerance > shortest).then(|| {
+        format!(
+            "c_tll = {} is longer than the shortest target edge, {}: the paper's variants tie nodes that are so far \
+             apart; is it in the mesh's unit?",
+            six_digits(tolerance),
+            six_digits(shortest)
+        )
+    })
 }
 
 /// Returns the nodes of an element of the mesh, which has `N`.

@@ -17,7 +17,9 @@ use crate::model::Report;
 use crate::numbers::{Digits, with_unit};
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
-use engine::{Assessment, BodySummary, Solution, SupportForce, beyond_range};
+use engine::{
+    Assessment, BodySummary, NodeFields, Solution, SupportForce, TriangleValues, beyond_range,
+};
 use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::{ContactModel, Variant};
@@ -35,6 +37,18 @@ pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
 /// Returns the relative error by which all figures of a run are written: that of the mesh in the energy norm.
 fn error_of_mesh(assessment: &Assessment) -> Option<f64> {
     assessment.estimates.as_ref()?.errors.mesh_energy_relative
+}
+
+/// Returns the values at all nodes, triangles and contact nodes as tables, which files have.
+pub fn fields(solution: &Solution, assessment: &Assessment) -> Report {
+    let units = &solution.request.scene.units;
+    let values = TriangleValues::all(solution, assessment.mesh_error().as_deref());
+    let triangles = quantities::table(&values, TriangleValues::QUANTITIES, units, None);
+    let contact = quantities::table(&solution.contact, ContactNode::QUANTITIES, units, None);
+    Report::default()
+        .table("Nodes", quantities::nodes(&NodeFields::new(solution), units))
+        .table("Triangles", triangles.numbered("triangle"))
+        .table("Contact", contact)
 }
 
 /// Reports how a run came to its end: its iterations, or the steps of its load, of many those that change

@@ -45,10 +45,15 @@ fn passes_on(solution: &Solution) -> Option<String> {
             "Nothing transmitted: no load reaches the target, an audit result: {why}"
         ));
     }
-    if none {
-        return Some("Nothing in contact: no node is, at the end".into());
-    }
     let units = &solution.request.scene.units;
+    if none {
+        let least = solution.contact.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+        let least = least.map_or("no contact node faces the target".into(), |at| {
+            let gap = with_unit(&figure(at.gap, None), &units.length);
+            format!("the least gap is {gap}, at node {}", at.node)
+        });
+        return Some(format!("Nothing in contact: no node is, at the end; {least}"));
+    }
     let force = with_unit(&six_digits(solution.target_force()), &units.force);
     let [fx, fy] = solution.model.total_load();
     let load = fx.hypot(fy);
