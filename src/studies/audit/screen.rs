@@ -278,7 +278,7 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     });
     let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
     let unsettled = if row.end.is_unsettled() { " (unsettled)" } else { "" };
-    (!faults.is_empty()).then(|| format!("{}{unsettled}: {}.", row.variant, faults.join("; ")))
+    (!faults.is_empty()).then(|| format!("Under {}{unsettled} {}.", row.variant, faults.join("; ")))
 }
 
 /// The statements by verdict, in a row for each scope.
