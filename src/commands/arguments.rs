@@ -145,13 +145,13 @@ impl ModelArgs {
             return Err(InputError::new("contact.friction", what, fix).into());
         }
         let contact = ContactModel {
-            coupling: self.coupling.unwrap_or(scene.contact.coupling),
+            coupling: self.coupling.unwrap_or(scene.coupling(variant)),
             friction: self.friction.unwrap_or(scene.contact.friction),
             geometry: self.geometry.unwrap_or(scene.contact.geometry),
             load_steps: self.load_steps.map_or(scene.contact.load_steps, |n| n as usize),
             status: self.status.unwrap_or(scene.contact.status),
         };
-        Ok(Request::new(scene).contact(contact).variant(variant).reading(reading.reading))
+        Ok(Request::new(scene).variant(variant).contact(contact).reading(reading.reading))
     }
 }
 

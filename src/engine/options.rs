@@ -85,7 +85,7 @@ impl Options {
             iterations: other(request.iterations, own.iterations),
             c_tll: request.tolerance,
             reading: request.reading,
-            coupling: other(contact.coupling, own.contact.coupling),
+            coupling: other(contact.coupling, request.scene.coupling(request.variant)),
             friction: other(contact.friction, own.contact.friction),
             geometry: other(contact.geometry, own.contact.geometry),
             load_steps: other(contact.load_steps, own.contact.load_steps),
@@ -113,8 +113,9 @@ impl Options {
             inputs,
         } = self;
         let own = Request::new(scene);
+        let own = variant.map_or(own.clone(), |variant| own.variant(variant));
         Request {
-            variant: variant.unwrap_or(own.variant),
+            variant: own.variant,
             iterations: iterations.unwrap_or(own.iterations),
             tolerance: c_tll,
             reading,

@@ -39,7 +39,7 @@ impl Request {
     /// Requests what the scene itself says, under the default reading, in `f64`.
     pub fn new(scene: &Scene) -> Self {
         Request {
-            contact: scene.contact,
+            contact: ContactModel { coupling: scene.coupling(scene.variant), ..scene.contact },
             variant: scene.variant,
             iterations: scene.iterations,
             reading: Reading::default(),
@@ -50,10 +50,14 @@ impl Request {
         }
     }
 
-    /// Returns the same request with another variant.
+    /// Returns the same request with another variant, and with the coupling that the scene has under it unless
+    /// another one is asked for.
     #[must_use]
     pub fn variant(self, variant: Variant) -> Self {
-        Request { variant, ..self }
+        let [own, other] = [self.variant, variant].map(|variant| self.scene.coupling(variant));
+        let is_own = self.contact.coupling == own;
+        let coupling = if is_own { other } else { self.contact.coupling };
+        Request { variant, contact: ContactModel { coupling, ..self.contact }, ..self }
     }
 
     /// Returns the same request under another reading.

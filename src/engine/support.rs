@@ -105,6 +105,7 @@ pub struct Resultant {
     pub force: [f64; 2],
     /// The point of its line of action next to where contact presses on average, in the undeformed shape, length;
     /// None where it vanishes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub through: Option<[f64; 2]>,
 }
 

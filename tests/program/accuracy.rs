@@ -81,7 +81,7 @@ impl Drawn {
                 { "node": 12, "fix": ["x"] }
             ],
             "loads": [{ "on": 20, "pressure": load }, { "on": 21, "traction": [-load, load / 3.0] }],
-            "contact": { "cnt": [7, 8, 9], "trg": [1, 2], "c_tll": C_TLL * unit },
+            "contact": { "cnt": [7, 8, 9], "trg": [1, 2], "c_tll": C_TLL * unit, "coupling": "nts" },
             "iterations": 3
         })
     }

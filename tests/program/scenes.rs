@@ -257,7 +257,7 @@ fn restraints_and_loads() {
     let e = refused(|s| s["restraints"][1]["node"] = json!(14));
     says(&e, "restraints[1].node", &["node number 14 is beyond R = 13"]);
     let e = refused(|s| s["restraints"][1]["on"] = json!(11));
-    says(&e, "restraints[1]", &["{on, fix} or {node, fix}"]);
+    says(&e, "restraints[1]", &["{on, fix}, {node, fix} or {at, fix}"]);
     let e = refused(|s| push(&mut s["loads"], json!({ "on": 21 })));
     says(
         &e,

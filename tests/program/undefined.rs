@@ -28,7 +28,7 @@ pub fn scene(load: f64, gap: f64) -> Value {
             { "node": 6, "fix": ["x", "y"] }, { "node": 7, "fix": ["x", "y"] }
         ],
         "loads": [{ "node": 5, "force": [0.0, load] }],
-        "contact": { "cnt": [5], "trg": [1], "c_tll": 0.1 },
+        "contact": { "cnt": [5], "trg": [1], "c_tll": 0.1, "coupling": "nts", "friction": "stick" },
         "variant": "unilateral"
     })
 }

@@ -37,9 +37,8 @@ impl StateSearch<'_> {
             }
             Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
-                let load = self.problem.model.free_part(&self.setting.load);
-                let load = t.load(&(load - self.problem.stiffness.times(t.shift())));
-                let motion = SparseCholesky::new(soft).ok().map(|k| t.expand(&k.solve(&load)));
+                let load = t.load(&self.problem.model.free_part(&self.setting.load));
+                let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(Outcome::Free { dof: t.dof(singular.column), motion })
             }
         }

@@ -323,9 +323,10 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node
-    /// and a node of its target across the normal, it does not.
+    /// and a node of its target along the same axis, more along the surface than across it, it does not: the normal
+    /// of an end of the surface is that of its last edge, and may be inclined to that line.
     pub(super) fn transmits_shear(&self, pairing: &Pairing) -> bool {
-        let across = [0, 1].map(|d| pairing.normal[1 - d].abs() > 1.0 - CONE);
+        let across = [0, 1].map(|d| pairing.normal[1 - d].abs() > pairing.normal[d].abs());
         let on_line = |d: usize| {
             let restrained = |node| self.model.restraints_of(node)[d];
             across[d]

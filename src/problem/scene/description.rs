@@ -300,6 +300,9 @@ pub struct Contact {
     /// Whether a scene file that is to run under `unilateral` says nothing of friction.
     #[serde(skip)]
     pub friction_is_missing: bool,
+    /// Whether a scene file that names no variant says nothing of the coupling.
+    #[serde(skip)]
+    pub coupling_is_missing: bool,
     /// The shape in which `unilateral` measures contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
@@ -321,6 +324,7 @@ impl Contact {
             coupling: Coupling::default(),
             friction: Friction::default(),
             friction_is_missing: false,
+            coupling_is_missing: false,
             geometry: Geometry::default(),
             load_steps: LOAD_STEPS,
             status: StatusRule::default(),

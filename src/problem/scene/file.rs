@@ -4,12 +4,12 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::modelling::{Coupling, Variant};
+use crate::modelling::Variant;
 use base::error::Result;
 use base::files::json;
 
@@ -17,25 +17,27 @@ use base::files::json;
 pub const SCENE: json::Kind =
     json::Kind { name: "scene file", fix: "see src/guide/scenes.md", has_values: false };
 
-/// Parses a scene file, with the source of its mesh still in it. Where it names no variant, it asks for contact as
-/// it is, which mortar couples.
+/// Parses a scene file, with the source of its mesh still in it.
 ///
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
     let mut description: Description = json::read(text, &SCENE)?;
-    let is_unilateral = match description.variant {
-        None | Some(Variant::Unilateral) => true,
-        Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
-    };
+    let is_unilateral = is_unilateral(&description);
     let stated: Stated = json::read(text, &SCENE)?;
     if let (Some(contact), Some(stated)) = (&mut description.contact, stated.contact) {
         contact.friction_is_missing = is_unilateral && stated.friction.is_none();
-        if description.variant.is_none() && stated.coupling.is_none() {
-            contact.coupling = Coupling::Mortar;
-        }
+        contact.coupling_is_missing = description.variant.is_none() && stated.coupling.is_none();
     }
     Ok(description)
+}
+
+/// Returns whether a scene runs under `unilateral` where nothing else is asked for.
+fn is_unilateral(description: &Description) -> bool {
+    match description.variant {
+        None | Some(Variant::Unilateral) => true,
+        Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
+    }
 }
 
 /// What a scene file says of contact, whatever it says.
@@ -54,7 +56,16 @@ struct StatedContact {
 /// for each field and, in a list of several, for each item. Fields with their default are left out.
 pub fn write(description: &Description, mesh: &str) -> String {
     let with_mesh = Description { mesh: Some(mesh.into()), ..description.clone() };
-    let fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
+    let mut fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
+    if let Some(contact) = description.contact.as_ref().filter(|_| is_unilateral(description)) {
+        // What a reader would take otherwise, or miss.
+        if !contact.friction_is_missing {
+            fields["contact"]["friction"] = json!(contact.friction);
+        }
+        if description.variant.is_none() && !contact.coupling_is_missing {
+            fields["contact"]["coupling"] = json!(contact.coupling);
+        }
+    }
     let fields = fields.as_object().expect("a description is an object").iter();
     let fields: Vec<_> =
         fields.map(|(key, value)| format!("  \"{key}\": {}", lines(value))).collect();

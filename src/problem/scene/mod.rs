@@ -48,7 +48,7 @@ pub use schema::schema;
 pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
-use super::modelling::{ContactModel, Variant};
+use super::modelling::{ContactModel, Coupling, Variant};
 use base::error::Result;
 use base::limits::check_steps;
 use base::plain::{shell_word, six_digits};
@@ -75,6 +75,8 @@ pub struct Scene {
     pub contact: ContactModel,
     /// Whether it is to run under `unilateral` and says nothing of friction.
     pub friction_is_missing: bool,
+    /// Whether it names neither a variant nor a coupling.
+    coupling_is_missing: bool,
     /// The description and mesh from which it was built; None for half a scene.
     source: Option<Arc<Source>>,
 }
@@ -129,6 +131,17 @@ impl Scene {
     /// Returns the description and the mesh from which the scene was built; None for half a scene.
     pub fn source(&self) -> Option<(&Description, &Mesh)> {
         self.source.as_deref().map(|source| (&source.description, &source.mesh))
+    }
+
+    /// Returns the coupling under a variant: of a scene that names neither mortar under `unilateral`, as contact is
+    /// asked for as it is, and that of `c_cnt` under the paper's.
+    pub fn coupling(&self, variant: Variant) -> Coupling {
+        match variant {
+            Variant::Unilateral if self.coupling_is_missing => Coupling::Mortar,
+            Variant::Unilateral | Variant::Printed | Variant::Tied | Variant::Stepped => {
+                self.contact.coupling
+            }
+        }
     }
 
     /// Says what the mesh file has in another form than the mesh here, and where the mesh has slits, in sentences.
@@ -207,6 +220,10 @@ impl Scene {
                 .contact
                 .as_ref()
                 .is_some_and(|c| c.friction_is_missing),
+            coupling_is_missing: description
+                .contact
+                .as_ref()
+                .is_some_and(|c| c.coupling_is_missing),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,

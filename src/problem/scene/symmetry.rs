@@ -55,6 +55,7 @@ pub fn half(scene: &Scene) -> Option<Half> {
         variant: scene.variant,
         contact: scene.contact,
         friction_is_missing: scene.friction_is_missing,
+        coupling_is_missing: scene.coupling_is_missing,
         source: None,
     };
     Some(Half { scene, nodes, triangles, at: mirror.at })

@@ -13,6 +13,7 @@ use crate::audit::{Assumption, Audit, Compared};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
 use paper::mirror::Reading;
+use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::{Cell, Report, Table};
@@ -133,10 +134,10 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
     };
     let nearest = match &conclusion.nearest {
         Some(nearest) => Some(format!(
-            "Of {} {} {} nearest to the equilibrium: {} from it in the energy norm, on the same mesh.",
-            counted(nearest.tried, "run of the paper's algorithm", "runs of the paper's algorithm"),
-            listed(nearest.runs.iter().map(short_name)),
-            if nearest.runs.len() == 1 { "is" } else { "are equally" },
+            "Of {} the nearest to the equilibrium, {}, {} {} from it in the energy norm, on the same mesh.",
+            counted(nearest.tried, "run", "runs"),
+            listed(nearest.runs.iter().map(described)),
+            if nearest.runs.len() == 1 { "is" } else { "are" },
             percent(nearest.runs[0].energy)
         )),
         None if conclusion.coupled.is_none() => None,
@@ -169,13 +170,17 @@ fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
     runs.any(|run| run.reading.is_none() && run.variant == row.variant)
 }
 
-/// Names a run, with its reading where that is not the default.
-fn short_name(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
+/// Names a run and says what it is, with its reading where that is not the default.
+fn described(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
+    let what = match variant {
+        Variant::Stepped => "eq. (1) in load steps",
+        Variant::Tied => "eq. (1) under the whole load",
+        Variant::Printed => "Km as printed",
+        Variant::Unilateral => "the contact solution",
+    };
+    let reading = reading.as_ref().map_or(String::new(), |reading| format!(", {reading}"));
     let unsettled = if *unsettled { ", unsettled" } else { "" };
-    match reading {
-        None => format!("{variant}{unsettled}"),
-        Some(reading) => format!("{variant} ({reading}{unsettled})"),
-    }
+    format!("\"{variant}\" ({what}{reading}{unsettled})")
 }
 
 /// The paper's variants, and the equilibrium.
@@ -278,7 +283,7 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     });
     let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
     let unsettled = if row.end.is_unsettled() { " (unsettled)" } else { "" };
-    (!faults.is_empty()).then(|| format!("{}{unsettled}: {}.", row.variant, faults.join("; ")))
+    (!faults.is_empty()).then(|| format!("Under {}{unsettled} {}.", row.variant, faults.join("; ")))
 }
 
 /// The statements by verdict, in a row for each scope.
@@ -319,8 +324,11 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let own = own.map_or("no equilibrium to compare with".into(), percent);
     let free = prices::of_weight(prices, Weight::Free);
     let none = prices::of_weight(prices, Weight::NoFault);
-    let free =
-        [own, listed(free), "no more than the corrected algorithm, which has no friction".into()];
+    let free = [
+        own,
+        listed(free),
+        "none of these costs anything: without friction, the corrected algorithm is as far".into(),
+    ];
     let none = (!none.is_empty())
         .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
     Ok(Faults {

@@ -195,30 +195,30 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "mkdir out; echo precious > victim; ln -s ../victim out/figure-4.svg; \
+        command: "mkdir out; echo precious > victim; ln -s ../victim out/mesh.svg; \
                   plane-contact report fig1 --no-audit --format markdown --out out/r.txt; status=$?; \
                   cat victim; ls out; exit $status",
         status: 2,
-        contains: &["figure-4.svg is in the way: it is a link", "precious"],
+        contains: &["mesh.svg is in the way: it is a link", "precious"],
         lacks: &["r.txt\n"],
     },
     Case {
         input: "",
-        command: "echo mine > figure-4.svg; plane-contact report fig1 --no-audit --format markdown \
-                  --out r.txt; rm figure-4.svg; \
+        command: "echo mine > mesh.svg; plane-contact report fig1 --no-audit --format markdown \
+                  --out r.txt; rm mesh.svg; \
                   plane-contact report fig1 --no-audit --format markdown --out r.txt && \
                   plane-contact report fig1 --no-audit --format markdown --out r.txt && head -1 r.txt",
         status: 0,
-        contains: &["figure-4.svg is in the way: r.txt does not tell", "<!-- plane-contact -->"],
+        contains: &["mesh.svg is in the way: r.txt does not tell", "<!-- plane-contact -->"],
         lacks: &[],
     },
     Case {
         input: "",
         command: "plane-contact lesson two-blocks --out -; plane-contact solve fig1 --out -; \
-                  plane-contact report fig1 --no-audit --format markdown --out figure-4.svg; s=$?; \
+                  plane-contact report fig1 --no-audit --format markdown --out mesh.svg; s=$?; \
                   ls; exit $s",
         status: 2,
-        contains: &["a file of that name is ./-", "two files are named figure-4.svg"],
+        contains: &["a file of that name is ./-", "two files are named mesh.svg"],
         lacks: &["Written"],
     },
     Case {

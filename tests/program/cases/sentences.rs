@@ -15,7 +15,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant tied",
         status: 0,
-        contains: &["force on target", " 12.60000 ", " 100.0 % "],
+        contains: &["force on the target 12.6", "passes on 100 %"],
         lacks: &["panicked"],
     },
     Case {
@@ -23,7 +23,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant stepped",
         status: 0,
-        contains: &[" 0.63000 ", " 12.60000 ", " 100.0 % "],
+        contains: &["force on the target 12.6", "passes on 100 %", " 5.0 % "],
         lacks: &["panicked"],
     },
     Case {
@@ -31,7 +31,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant unilateral",
         status: 0,
-        contains: &[" 0.78750", " 12.60000"],
+        contains: &["force on the target 12.6"],
         lacks: &["panicked"],
     },
     Case {
@@ -39,7 +39,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact audit d/scene.json --full",
         status: 0,
-        contains: &["force on target over load", "  100.0 %"],
+        contains: &["force on target over load", "  100 %"],
         lacks: &["panicked"],
     },
     // Under `printed` nothing couples the bodies.
@@ -48,8 +48,8 @@ const CASES: &[Case] = &[
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"cnt\": 20, \"trg\": 11/\"cnt\": 11, \
                   \"trg\": 20/' d/scene.json && plane-contact solve d/scene.json --variant printed",
         status: 0,
-        contains: &["nothing couples the bodies", " 0.0 % "],
-        lacks: &[" 100.0 % "],
+        contains: &["nothing couples the bodies", "Nothing transmitted"],
+        lacks: &["passes on 100 %"],
     },
     // A load on the target as well: it is no force of contact.
     Case {
@@ -58,7 +58,7 @@ const CASES: &[Case] = &[
                   { \"node\": 2, \"force\": [0.0, -100.0] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant tied",
         status: 0,
-        contains: &[" 12.60000 ", " 11.2 % ", "the whole load is 112.6"],
+        contains: &["force on the target 12.6", "passes on 11 %", "the whole load is 112.6"],
         lacks: &["panicked"],
     },
     // Opposite loads on both bodies: the sum is 0, and contact passes 12.6 all the same.
@@ -68,7 +68,7 @@ const CASES: &[Case] = &[
                   { \"node\": 2, \"force\": [0.0, 12.6] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant unilateral",
         status: 0,
-        contains: &[" 12.60000"],
+        contains: &["force on the target 12.6"],
         lacks: &["panicked"],
     },
     Case {

@@ -14,6 +14,7 @@ expected = {
     "points": nodes,
     "corners": np.array([row["nodes"] for row in result["elements"]]) - 1,
     "displacement": np.array(result["u"]),
+    "reaction": np.array(result["reaction"]),
     "von_mises_stress": np.array([row["von_mises_stress"] for row in result["elements"]]),
 }
 
@@ -21,7 +22,7 @@ expected = {
 def check(reader, found):
     for name, values in found.items():
         values, wanted = np.asarray(values), expected[name]
-        if name in ("points", "displacement"):
+        if name in ("points", "displacement", "reaction"):
             assert not values[:, 2].any(), (reader, name)
             values = values[:, :2]
         assert np.array_equal(values.reshape(wanted.shape), wanted), (reader, name)
@@ -32,6 +33,7 @@ check("meshio", {
     "points": mesh.points,
     "corners": mesh.cells_dict["triangle"],
     "displacement": mesh.point_data["displacement"],
+    "reaction": mesh.point_data["reaction"],
     "von_mises_stress": mesh.cell_data["von_mises_stress"][0],
 })
 assert bytes(mesh.field_data["scene"].astype("uint8")).decode() == result["scene"]
