@@ -138,11 +138,8 @@ impl ModelArgs {
         reading: &ReadingArg,
     ) -> Result<Request> {
         let variant = variant.unwrap_or(scene.variant);
-        if variant == Variant::Unilateral && scene.friction_is_missing && self.friction.is_none() {
-            let what = "nothing is said of friction between the surfaces";
-            let fix = "add \"friction\": 0, a coefficient such as \"friction\": 0.3, or \"friction\": \"stick\" \
-                       (nothing slides) to the scene's contact, or give --friction";
-            return Err(InputError::new("contact.friction", what, fix).into());
+        if variant == Variant::Unilateral && self.friction.is_none() {
+            check_friction(scene)?;
         }
         let contact = ContactModel {
             coupling: self.coupling.unwrap_or(scene.coupling(variant)),
@@ -153,6 +150,20 @@ impl ModelArgs {
         };
         Ok(Request::new(scene).variant(variant).contact(contact).reading(reading.reading))
     }
+}
+
+/// Checks that a scene says how its surfaces rub, where its own variant asks for that.
+///
+/// # Errors
+/// It says nothing of friction.
+pub fn check_friction(scene: &Scene) -> Result<()> {
+    if !scene.friction_is_missing {
+        return Ok(());
+    }
+    let what = "nothing is said of friction between the surfaces";
+    let fix = "add \"friction\": 0, a coefficient such as \"friction\": 0.3, or \"friction\": \"stick\" (nothing \
+               slides) to the scene's contact";
+    Err(InputError::new("contact.friction", what, fix).into())
 }
 
 /// What a run changes of its scene; the result is that of a scene file edited so.

@@ -109,12 +109,12 @@ pub struct Resultant {
     pub through: Option<[f64; 2]>,
 }
 
-/// Returns what contact passes on: what restraints and loads leave of the contact body. None without contact, and
-/// where both surfaces are one body's.
+/// Returns what contact passes on: what restraints and loads leave of the contact body. None without contact,
+/// where both surfaces are one body's, and where nothing is passed on.
 pub fn resultant(solution: &Solution) -> Option<Resultant> {
     let (model, reactions) = (&*solution.model, &solution.reactions);
     let body = model.body_of(*model.contact.nodes.first()?)?;
-    if model.target()? == body {
+    if model.target()? == body || solution.transmits_nothing() {
         return None;
     }
     let pressed = || solution.in_contact().filter_map(|at| Some((at.node, at.force?.max(0.0))));

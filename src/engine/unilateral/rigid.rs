@@ -18,10 +18,8 @@ const OPPOSED: f64 = 1e-9;
 /// The gap, over the deepest overlap, beyond which bodies are apart.
 const ROOM: f64 = 1e-3;
 
-/// The load, over the one that moves bodies by their deepest overlap on springs, and the motion over that overlap
-/// beyond which nothing holds them.
+/// The load, over the one that moves bodies by their deepest overlap on springs.
 const VANISHING: f64 = 1e-6;
-const FAR: f64 = 1e4;
 
 /// The number of edges that make an arc, and half an edge over the radius up to which it is a facet of one: of
 /// a circle of twelve edges, and no body's corner.
@@ -110,7 +108,7 @@ pub(super) enum Release {
 
 /// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, or else without
 /// slip, where they can come apart; None where they cannot, and where nothing is known. `pairings` have their gaps,
-/// length, and are `closed` up to one of these.
+/// length, are `closed` up to one of these, and hold within the `reach` of a motion.
 ///
 /// ```text
 ///   the least ½ ε dᵀ d − fᵀ d with A d + g ≥ 0
@@ -125,7 +123,7 @@ pub(super) fn release(
     (model, shape): (&Model, &[[f64; 2]]),
     pairings: &[(&Pairing, f64)],
     load: &DVector<f64>,
-    closed: f64,
+    [closed, reach]: [f64; 2],
 ) -> Option<Release> {
     let motions = RigidMotions::new(model, shape);
     let basis = free_part(&motions.restrained());
@@ -156,7 +154,7 @@ pub(super) fn release(
     let under_load = (f.norm() > OPPOSED * load.amax())
         .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
         .flatten()
-        .filter(|motion| motion.norm() <= FAR * deepest);
+        .filter(|motion| motion.norm() <= reach);
     if let Some(motion) = under_load {
         return Some(Release::There(in_all(motion)));
     }

@@ -136,6 +136,10 @@ impl Problem<'_> {
     /// They come apart in several ways, the load presses them together in none, and friction counts from there.
     pub(super) fn released(&self) -> Result<Option<(Start, DVector<f64>)>, NoEquilibrium> {
         let (mut start, mut u) = (Start::Released, DVector::zeros(self.model.dofs()));
+        // Beyond the shortest edge a node faces another one.
+        let lengths =
+            self.surfaces.edges(&self.model.nodes).into_iter().map(|(_, _, length)| length);
+        let reach = lengths.fold(f64::INFINITY, f64::min);
         for _ in 0..RELEASES {
             let config = self.configuration(&u);
             let gaps = self.gaps(&config, &u);
@@ -145,7 +149,12 @@ impl Problem<'_> {
                 return Ok(Some((start, u)));
             }
             let shape = if self.is_current() { &*config.shape } else { &self.model.nodes };
-            match rigid::release((self.model, shape), &facing, &self.load(1.0), self.closed) {
+            match rigid::release(
+                (self.model, shape),
+                &facing,
+                &self.load(1.0),
+                [self.closed, reach],
+            ) {
                 None => return Ok(None),
                 Some(Release::There(more)) => u += more,
                 Some(Release::Unslipped(more)) => (start, u) = (Start::Unslipped, u + more),

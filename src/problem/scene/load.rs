@@ -58,7 +58,10 @@ fn add(own: &[Force], f: &mut DVector<f64>, model: &Model, k: usize) -> Result<(
 
 /// Returns the number of stages of the load.
 fn stages(loads: &[Load], model: &Model) -> Result<usize> {
-    let numbers: BTreeSet<usize> = loads.iter().map(|load| load.stage.unwrap_or(1)).collect();
+    // Restraints displace nodes in the first stage.
+    let displaced = model.oblique().any(|(_, hold)| hold.displacement != 0.0).then_some(1);
+    let numbers: BTreeSet<usize> =
+        loads.iter().map(|load| load.stage.unwrap_or(1)).chain(displaced).collect();
     let last = numbers.last().copied().unwrap_or(1);
     if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
         let place = format!("{}.stage", load_field(k));

@@ -175,7 +175,8 @@ impl Scene {
         let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
-        let supports = support::supports(&mesh, &physical, &sides, &description.restraints)?;
+        let supports =
+            support::supports(&mesh, &physical, &sides, &dropped, &description.restraints)?;
         let mut restraints = vec![model::Restraint::Free; 2 * mesh.nodes.len()];
         let fixed = supports.iter().flat_map(|support| &support.holds).filter_map(Hold::dof);
         fixed

@@ -35,6 +35,7 @@ pub fn supports(
     mesh: &Mesh,
     groups: &Groups,
     sides: &Sides,
+    dropped: &[NodeId],
     restraints: &[Restraint],
 ) -> Result<Vec<Support>> {
     let mut held = Held { mesh, of_node: HashMap::new() };
@@ -44,7 +45,7 @@ pub fn supports(
     for (k, restraint) in restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
         let displacements = displacements(restraint, &place)?;
-        let (name, site) = site(mesh, groups, restraint, &place)?;
+        let (name, site) = site((mesh, dropped), groups, restraint, &place)?;
         let mut holds = Vec::new();
         for (axis, displacement) in restraint.fix.iter().zip(displacements) {
             if !done.insert(format!("{name} {axis:?} {displacement:e}")) {
@@ -70,7 +71,7 @@ enum Site<'a> {
 
 /// Returns the name of a restraint's place, and that place.
 fn site<'a>(
-    mesh: &Mesh,
+    (mesh, dropped): (&Mesh, &[NodeId]),
     groups: &Groups,
     restraint: &'a Restraint,
     place: &str,
@@ -85,7 +86,7 @@ fn site<'a>(
             Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
         }
         (None, None, Some(at)) => {
-            let n = node_at(mesh, at, &format!("{place}.at"))?;
+            let n = node_at(mesh, dropped, at, &format!("{place}.at"))?;
             Ok((format!("node {}", mesh.named(&[n])), Site::Node(n)))
         }
         _ => {
@@ -95,13 +96,15 @@ fn site<'a>(
     }
 }
 
-/// Returns the number of the node at a place.
-fn node_at(mesh: &Mesh, [x, y]: [f64; 2], place: &str) -> Result<usize> {
+/// Returns the number of the node at a place, of those that belong to a triangle.
+fn node_at(mesh: &Mesh, dropped: &[NodeId], [x, y]: [f64; 2], place: &str) -> Result<usize> {
     let points: Vec<[f64; 2]> = mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect();
-    let near = NEAR * Bounds::around(points.iter()).larger_side();
+    let is_kept = |n: &usize| dropped.binary_search(&NodeId::from_number(*n)).is_err();
+    let kept: Vec<usize> = (1..=points.len()).filter(is_kept).collect();
+    let near = NEAR * Bounds::around(kept.iter().map(|n| &points[n - 1])).larger_side();
     let distance = |n: &usize| (points[n - 1][0] - x).hypot(points[n - 1][1] - y);
-    let nearest = (1..=points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let all: Vec<usize> = (1..=points.len()).filter(|n| distance(n) <= near).collect();
+    let nearest = kept.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let all: Vec<usize> = kept.iter().copied().filter(|n| distance(n) <= near).collect();
     match (&all[..], nearest) {
         ([n], _) => Ok(*n),
         ([], Some(nearest)) => {

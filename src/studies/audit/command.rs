@@ -133,6 +133,7 @@ fn prices(args: &Args) -> Result<()> {
 /// Opens the case of the scene that is asked for.
 fn case(args: &Args) -> Result<Case> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
+    commands::check_friction(&scene)?;
     Ok(Case::within_memory(&scene, args.reading.reading)?)
 }
 

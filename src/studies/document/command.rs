@@ -96,6 +96,7 @@ pub fn run(args: &Args) -> Result<()> {
     commands::check_page(&args.out, &out)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
+    commands::check_friction(&scene)?;
     let case = if args.no_audit {
         Case::new(scene)
     } else {

@@ -9,6 +9,7 @@ use crate::lesson::page::{self as page, Chapter};
 use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
 use base::plain::shown;
 use engine::error::Result;
+use paper::door::check_restraints;
 use paper::edited::Edited;
 use problem::model::Model;
 use problem::scene::Scene;
@@ -58,6 +59,7 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn lesson(args: &Args) -> Result<String> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("fig1")))?;
+    check_restraints(&scene.model)?;
     let mut asked = vec![Switch::as_printed()];
     if let Some(file) = &args.listing {
         let edited = Edited::new(&shown(file), &read_listing(file)?)?;

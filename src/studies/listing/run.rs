@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use base::limits;
 use engine::Request;
 use engine::error::Result;
-use paper::door::Call;
+use paper::door::{Call, check_restraints};
 use problem::scene::Scene;
 use report::{json, matrix_market, tables};
 
@@ -97,6 +97,7 @@ fn km(args: &KmArgs) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
     limits::DENSE.check(model.dofs(), "the mesh")?;
+    check_restraints(&model)?;
     let call = match args.coupled_by {
         CoupledBy::CCnt => Call::c_cnt(&model, &reading, &model.nodes)?,
         CoupledBy::None => Call::without_contact(&model),

@@ -49,6 +49,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     args.tables.check()?;
     let scene = Scene::open(&args.scene)?;
+    commands::check_friction(&scene)?;
     let request = Request::new(&scene).reading(args.reading.reading);
     let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };

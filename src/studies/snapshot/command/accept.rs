@@ -7,8 +7,9 @@ use crate::snapshot::{accept, difference};
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
-use problem::scene::Scene;
+use problem::scene::{Scene, SceneFile};
 
+use super::record::from_folder_of;
 use super::verify::{scene_of, snapshot_of};
 use commands::{print_report, waiting, within};
 
@@ -39,7 +40,11 @@ pub fn run(args: &Args) -> Result<()> {
     let old = snapshot_of(&args.file, text)?;
     let (scene, said) = scene_of(&args.file, &old, given.as_ref())?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
-    let new = new.map_err(|error| within(error, &file))?;
+    let mut new = new.map_err(|error| within(error, &file))?;
+    if let Some(scene) = &args.scene {
+        let scene = SceneFile::read(scene)?;
+        new.scene_file = scene.path().and_then(|scene| from_folder_of(&args.file, scene));
+    }
     files::rewrite(&args.file, &was, &report::file(&new))?;
     let verified = Ok(difference(&old, &new));
     print_report(report::report(&[VerifiedFile { file, scene: said, verified }]))

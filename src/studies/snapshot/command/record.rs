@@ -84,7 +84,7 @@ pub fn run(args: &Args) -> Result<()> {
 
 /// Returns the path of a scene file from the folder of a snapshot, with `/`; None where there is none, as of
 /// standard input.
-fn from_folder_of(snapshot: &Path, scene: &str) -> Option<String> {
+pub fn from_folder_of(snapshot: &Path, scene: &str) -> Option<String> {
     let folder = snapshot.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     // A folder that is not there yet is below one that is.

@@ -112,7 +112,7 @@ pub fn scene_of(
             let [scene_sha256, mesh_sha256] = scene.hashes().expect("it is whole");
             let own = &snapshot.input;
             let is_same = *scene_sha256 == own.scene_sha256 && *mesh_sha256 == own.mesh_sha256;
-            (!is_same).then(|| format!("scene file {path} was edited since"))
+            (!is_same).then(|| format!("scene file {path}, or its mesh, was edited since"))
         }
     };
     Ok((scene, said))
