@@ -317,9 +317,9 @@ fn over_a_range_each_fault_has_its_least_and_its_greatest_cost() {
         ("the paper's example", "radius of the strand at the same clearance, mm: 2");
     // The middle node of two-blocks lies over the node that two edges share.
     assert_eq!(row("K2")[2..], ["41.58", own, "decided by rounding", blocks]);
-    assert_eq!(row("C3")[2..], ["0.00", blocks, "3.51", own]);
+    assert_eq!(row("C3")[2..], ["0", blocks, "3.51", own]);
     assert_eq!(row("K1")[2..], ["stops", own, "stops", own]);
-    assert_eq!(row("C2")[2..], ["0.00", own, "0.00", own]);
+    assert_eq!(row("C2")[2..], ["0", own, "0", own]);
     let text = report.text(usize::MAX);
     assert!(
         text.contains("Left out: radius of the strand at the same clearance, mm: 3: "),

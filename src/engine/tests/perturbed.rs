@@ -38,7 +38,7 @@ fn rounding_decides_nothing_in_the_references() {
 #[test]
 fn a_path_that_turns_on_the_last_digit_is_found() {
     let contact = json!({
-        "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": "stick", "geometry": "initial", "load_steps": 2
+        "cnt": [5], "trg": [1], "c_tll": 0.1, "coupling": "nts", "friction": "stick", "geometry": "initial", "load_steps": 2
     });
     let request = |gap: f64| {
         block_and_stamp([[0.3, gap], [2.0, 1.5], [0.0, 1.0]], &contact, Variant::Unilateral)
@@ -69,7 +69,7 @@ fn last_digits_between(mut near: f64, mut far: f64, holds: impl Fn(f64) -> bool)
 #[test]
 fn a_node_at_the_limit_of_what_it_faces_is_found() {
     let contact = json!({
-        "cnt": [5], "trg": [1], "c_tll": 0.1, "friction": 0, "geometry": "initial"
+        "cnt": [5], "trg": [1], "c_tll": 0.1, "coupling": "nts", "friction": 0, "geometry": "initial"
     });
     let request = |x: f64| {
         let stamp = [[x, 0.0], [2.0, 1.0], [0.0, 1.0]];
