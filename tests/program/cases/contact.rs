@@ -8,6 +8,26 @@ fn contact() {
 }
 
 const CASES: &[Case] = &[
+    // Half of a model under friction: on the line of symmetry both surfaces are held in x, and the normal of the end
+    // of a surface is inclined to that line. No shear acts there: nothing sticks or slides in another way.
+    Case {
+        input: "axis",
+        command: "plane-contact solve scene.json",
+        status: 0,
+        contains: &[
+            "Contact force on the target -0.1166, -12.7958",
+            "no other equilibrium found among all",
+        ],
+        lacks: &["NOT THE ONLY ONE"],
+    },
+    // An overlap of a thousandth: the load alone would move the punch by more than its own width before it touches.
+    Case {
+        input: "thrown",
+        command: "plane-contact solve scene.json",
+        status: 4,
+        contains: &["the start is not determined"],
+        lacks: &["Largest |u|"],
+    },
     Case {
         input: "ring",
         command: "plane-contact solve scene.json",
