@@ -45,8 +45,13 @@ const SCENES: &[(&str, &[(&str, &str)])] = &[
     ("an empty target", &[("/contact/trg", "[]")]),
     (
         "nodes between contact nodes left out",
-        &[("/contact/cnt", "[5, 7, 9]"), ("/variant", "\"unilateral\"")],
+        &[
+            ("/contact/cnt", "[5, 7, 9]"),
+            ("/variant", "\"unilateral\""),
+            ("/contact/friction", "0.3"),
+        ],
     ),
+    ("friction is left out", &[("/variant", "\"unilateral\"")]),
     ("a negative friction coefficient", &[("/contact/friction", "-0.3")]),
     ("friction is a word", &[("/contact/friction", "\"rough\"")]),
     (
@@ -58,6 +63,7 @@ const SCENES: &[(&str, &[(&str, &str)])] = &[
             ("/node/7/2", "-0.5"),
             ("/node/8/2", "-0.5"),
             ("/variant", "\"unilateral\""),
+            ("/contact/friction", "0.3"),
         ],
     ),
     ("a triangle runs clockwise", &[("/elem/9", "[10, 2, 2, 1, 1, 1, 2, 10]")]),
