@@ -18,6 +18,9 @@ use paper::mirror::Pairs;
 use problem::element::State;
 use problem::model::{Dof, Model, NodeId};
 
+/// The part of the largest displacement from which a gap is open.
+const APART: f64 = 1e-6;
+
 /// A step: one iteration of a published variant, or one of the active set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
@@ -488,6 +491,11 @@ impl Solution {
     /// Returns the contact nodes in contact at the end.
     pub fn in_contact(&self) -> impl Iterator<Item = &ContactNode> {
         self.contact.iter().filter(|node| node.in_contact)
+    }
+
+    /// Returns whether a contact node is apart from the target, by more than a millionth of the largest displacement.
+    pub fn is_apart(&self, contact: &ContactNode) -> bool {
+        contact.gap > APART * max_displacement(&self.u)
     }
 
     /// Returns the displacement of each node, length.

@@ -164,7 +164,8 @@ pub(super) fn support_force<T: Scalar>(
     load: &DVector<T>,
 ) -> [T; 2] {
     let mut total = [T::zero(), T::zero()];
-    for dof in receiver(model).into_iter().flat_map(dofs) {
+    let Some(receiver) = receiver(model) else { return total };
+    for dof in dofs(receiver) {
         if !restraints[dof.index()].is_free() {
             total[dof.direction()] += force[dof.index()];
         }
@@ -172,9 +173,7 @@ pub(super) fn support_force<T: Scalar>(
             total[dof.direction()] += load[dof.index()];
         }
     }
-    for dof in
-        oblique(model, restraints).filter(|dof| receiver(model).is_some_and(|b| b.has(dof.node())))
-    {
+    for dof in oblique(model, restraints).filter(|dof| receiver.has(dof.node())) {
         total[dof.direction()] += force[dof.index()];
     }
     total

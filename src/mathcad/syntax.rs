@@ -283,10 +283,10 @@ impl Statement {
     }
 }
 
-impl Step {
-    /// Returns the blocks below the statement.
-    pub fn blocks(&self) -> Vec<&[Statement]> {
-        match self {
+/// The blocks below a statement, as they are held or to be written.
+macro_rules! blocks {
+    ($step:expr) => {
+        match $step {
             Step::For { body, .. }
             | Step::While { body, .. }
             | Step::If { body, .. }
@@ -299,23 +299,18 @@ impl Step {
             | Step::Break
             | Step::Continue => vec![],
         }
+    };
+}
+
+impl Step {
+    /// Returns the blocks below the statement.
+    pub fn blocks(&self) -> Vec<&Vec<Statement>> {
+        blocks!(self)
     }
 
     /// Returns the same to be written.
     pub fn blocks_mut(&mut self) -> Vec<&mut Vec<Statement>> {
-        match self {
-            Step::For { body, .. }
-            | Step::While { body, .. }
-            | Step::If { body, .. }
-            | Step::Otherwise { body } => vec![body],
-            Step::Try { body, fallback } => vec![body, fallback],
-            Step::Assign { .. }
-            | Step::Spread { .. }
-            | Step::Evaluate { .. }
-            | Step::Return { .. }
-            | Step::Break
-            | Step::Continue => vec![],
-        }
+        blocks!(self)
     }
 
     /// Returns the names that the statement itself writes to.

@@ -55,10 +55,7 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     let at_nodes = at_nodes.filter_map(|quantity| node_array(quantity, &nodes, units));
     let contact = ContactNode::QUANTITIES.iter();
     let contact = contact.filter_map(|q| contact_array(q, &solution.contact, count, units));
-    let mut points: Vec<Array> = at_nodes.chain(contact).collect();
-    // The reactions last: meshio 5 rewrites offsets as it reads, and takes an array for another one where an old and
-    // a new offset are the same number, which in this order the files of the tests do not have.
-    points[1..].rotate_left(1);
+    let points: Vec<Array> = at_nodes.chain(contact).collect();
     let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
     let program = format!("plane-contact {VERSION}");
     let run = Options::from_request(&solution.request).name();
@@ -83,13 +80,19 @@ pub fn document(
 ) -> Vec<u8> {
     let mut arrays = Arrays::default();
     let coordinates = Array::new("Points", "", 2, points.as_flattened().to_vec());
+    // The last array is stored first: meshio 5 rewrites the offsets one by one as it reads, and takes the first
+    // element with an offset for the one that it looks for, which must be one that it has not rewritten.
+    let cells = arrays.cells(triangles);
+    let places = Element::new("Points").with(arrays.floats(&coordinates));
+    let of_triangles = arrays.results("CellData", at_triangles, triangles.len());
+    let of_points = arrays.results("PointData", at_points, points.len());
     let piece = Element::new("Piece")
         .set("NumberOfPoints", points.len().to_string())
         .set("NumberOfCells", triangles.len().to_string())
-        .with(arrays.results("PointData", at_points, points.len()))
-        .with(arrays.results("CellData", at_triangles, triangles.len()))
-        .with(Element::new("Points").with(arrays.floats(&coordinates)))
-        .with(arrays.cells(triangles));
+        .with(of_points)
+        .with(of_triangles)
+        .with(places)
+        .with(cells);
     let text = Element::new("VTKFile")
         .set("type", "UnstructuredGrid")
         .set("version", "1.0")
@@ -139,25 +142,27 @@ impl Arrays {
                 Some(array) => element.set(kind, array.name.clone()),
                 None => element,
             });
-        data.iter().fold(element, |element, array| {
+        let stored = |array: &Array| {
             let Array { name, components, values, .. } = array;
             assert_eq!(
                 values.len(),
                 components * count,
                 "{name}: {components} values for each of {count}"
             );
-            element.with(self.floats(array))
-        })
+            self.floats(array)
+        };
+        let stored: Vec<Element> = data.iter().rev().map(stored).collect();
+        element.with_all(stored.into_iter().rev())
     }
 
     fn cells(&mut self, triangles: &[[usize; 3]]) -> Element {
         let bytes = |number: usize| (number as i64).to_le_bytes();
         let corners: Vec<_> = triangles.as_flattened().iter().map(|n| bytes(*n)).collect();
         let offsets: Vec<_> = (1..=triangles.len()).map(|count| bytes(3 * count)).collect();
-        Element::new("Cells")
-            .with(self.array("Int64", "connectivity", corners.into_flattened()))
-            .with(self.array("Int64", "offsets", offsets.into_flattened()))
-            .with(self.array("UInt8", "types", vec![TRIANGLE; triangles.len()]))
+        let types = self.array("UInt8", "types", vec![TRIANGLE; triangles.len()]);
+        let offsets = self.array("Int64", "offsets", offsets.into_flattened());
+        let corners = self.array("Int64", "connectivity", corners.into_flattened());
+        Element::new("Cells").with(corners).with(offsets).with(types)
     }
 
     /// Adds floats with all their bits. A vector in the plane gets a third component, 0: viewers

@@ -286,6 +286,12 @@ impl Model {
         self.contact.target.iter().map(|id| self.edge(*id))
     }
 
+    /// Returns the length of an edge.
+    pub fn length(&self, edge: &Edge) -> f64 {
+        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| self.coordinates(node));
+        (bx - ax).hypot(by - ay)
+    }
+
     /// Returns the nodes of both contact surfaces.
     pub fn surface_nodes(&self) -> HashSet<NodeId> {
         let ends = self.target_edges().flat_map(|edge| edge.nodes);

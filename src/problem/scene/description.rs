@@ -279,7 +279,7 @@ impl<'de> Deserialize<'de> for Load {
 }
 
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.
-#[derive(Clone, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
+#[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// The contact (stamp) surface: a group of edges, or node numbers in order.
@@ -340,6 +340,42 @@ impl Contact {
             load_steps: self.load_steps,
             status: self.status,
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for Contact {
+    /// Reads all fields, and keeps which of those are missing that have no default of their own.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields, rename = "Contact")]
+        struct Fields {
+            cnt: Surface,
+            trg: Surface,
+            c_tll: f64,
+            #[serde(default, deserialize_with = "some_by_name")]
+            coupling: Option<Coupling>,
+            friction: Option<Friction>,
+            #[serde(default, deserialize_with = "by_name")]
+            geometry: Geometry,
+            #[serde(default = "load_steps")]
+            load_steps: usize,
+            #[serde(default, deserialize_with = "by_name")]
+            status: StatusRule,
+        }
+        let Fields { cnt, trg, c_tll, coupling, friction, geometry, load_steps, status } =
+            Fields::deserialize(deserializer)?;
+        Ok(Contact {
+            contact: cnt,
+            target: trg,
+            tolerance: c_tll,
+            coupling: coupling.unwrap_or_default(),
+            friction: friction.unwrap_or_default(),
+            friction_is_missing: friction.is_none(),
+            coupling_is_missing: coupling.is_none(),
+            geometry,
+            load_steps,
+            status,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{self, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Value, json};
 
 use super::description::{Description, Material, Materials};
@@ -23,11 +23,12 @@ pub const SCENE: json::Kind =
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
     let mut description: Description = json::read(text, &SCENE)?;
-    let is_unilateral = is_unilateral(&description);
-    let stated: Stated = json::read(text, &SCENE)?;
-    if let (Some(contact), Some(stated)) = (&mut description.contact, stated.contact) {
-        contact.friction_is_missing = is_unilateral && stated.friction.is_none();
-        contact.coupling_is_missing = description.variant.is_none() && stated.coupling.is_none();
+    let (is_unilateral, names_variant) =
+        (is_unilateral(&description), description.variant.is_some());
+    if let Some(contact) = &mut description.contact {
+        // The paper's variants have both.
+        contact.friction_is_missing &= is_unilateral;
+        contact.coupling_is_missing &= !names_variant;
     }
     Ok(description)
 }
@@ -38,18 +39,6 @@ fn is_unilateral(description: &Description) -> bool {
         None | Some(Variant::Unilateral) => true,
         Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
     }
-}
-
-/// What a scene file says of contact, whatever it says.
-#[derive(Deserialize)]
-struct Stated {
-    contact: Option<StatedContact>,
-}
-
-#[derive(Deserialize)]
-struct StatedContact {
-    friction: Option<IgnoredAny>,
-    coupling: Option<IgnoredAny>,
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line

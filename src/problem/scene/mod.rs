@@ -207,6 +207,7 @@ impl Scene {
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
+        let contact = description.contact.as_ref();
         Ok(Scene {
             name: name.into(),
             word: name.into(),
@@ -216,15 +217,9 @@ impl Scene {
             iterations: description.iterations,
             // A scene of one's own asks for contact as it is, not for the paper's algorithm.
             variant: description.variant.unwrap_or(Variant::Unilateral),
-            contact: description.contact.as_ref().map_or(ContactModel::default(), Contact::model),
-            friction_is_missing: description
-                .contact
-                .as_ref()
-                .is_some_and(|c| c.friction_is_missing),
-            coupling_is_missing: description
-                .contact
-                .as_ref()
-                .is_some_and(|c| c.coupling_is_missing),
+            contact: contact.map_or(ContactModel::default(), Contact::model),
+            friction_is_missing: contact.is_some_and(|contact| contact.friction_is_missing),
+            coupling_is_missing: contact.is_some_and(|contact| contact.coupling_is_missing),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,
@@ -238,11 +233,7 @@ impl Scene {
 /// Says that the tolerance of the contact search is longer than the edges in which it searches, as where it is in
 /// another unit.
 fn wide_tolerance(model: &Model) -> Option<String> {
-    let length = |edge: &Edge| {
-        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.coordinates(node));
-        (bx - ax).hypot(by - ay)
-    };
-    let shortest = model.target_edges().map(length).reduce(f64::min)?;
+    let shortest = model.target_edges().map(|edge| model.length(edge)).reduce(f64::min)?;
     let tolerance = model.contact.tolerance;
     (tolerance > shortest).then(|| {
         format!(

@@ -201,7 +201,7 @@ fn normals(
     let mut across: BTreeMap<NodeId, Vec<[f64; 2]>> = BTreeMap::new();
     for edge in groups.members(1, on, &place)? {
         let ends = [edge.nodes[0], edge.nodes[1]];
-        let [side] = sides.beside(ends.map(NodeId::from_number)) else {
+        let Some(side) = sides.boundary(ends.map(NodeId::from_number)) else {
             let number = edge.number;
             let what = format!("edge {number} (nodes {}) has no outer side", mesh.named(&ends));
             return Err(InputError::new(place, what, "name outer edges of a body"));

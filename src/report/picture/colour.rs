@@ -16,7 +16,7 @@ const UNIFORM: f64 = 1e-9;
 /// transparent one.
 pub const COLOURS: u8 = 255;
 
-/// How many colours a field has on a page: they can hardly be told apart, and a picture of fewer is smaller.
+/// How many colours a field has on a page: enough for the eye, and few enough for a small picture.
 pub const SHADES: u8 = 64;
 
 /// The height of the bar without its ticks, pixels.

@@ -10,9 +10,6 @@ use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
-/// The part of the largest |u| from which a gap is open.
-const OPEN: f64 = 1e-6;
-
 /// Reports whether contact passes the load on, its pressure and width, the largest displacement and stresses,
 /// how exact they are, and whether this is the only equilibrium.
 pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
@@ -87,9 +84,9 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
     let (pressure, at) = pressed[found.first];
     let units = &solution.request.scene.units;
     let pressure = with_unit(&figure(pressure, error), &units.stress);
-    let is_open = at.gap > OPEN * engine::max_displacement(&solution.u);
     let gap = with_unit(&figure(at.gap, error), &units.length);
-    let across = if is_open { format!(", across an open gap of {gap}") } else { String::new() };
+    let is_apart = solution.is_apart(at);
+    let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
     (solution.request.variant != Variant::Printed).then(|| {
         let at = place(solution, at.node);
         format!("Peak contact pressure {pressure} at {at}{}{across}", others(found.others))

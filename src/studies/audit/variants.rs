@@ -169,13 +169,9 @@ pub struct PressedAcross {
 }
 
 impl PressedAcross {
-    /// The part of the largest displacement from which a gap is open.
-    const OPEN: f64 = 1e-6;
-
     /// Finds the node under the largest pressure among those that are apart from the target.
     fn of(solution: &Solution) -> Option<Self> {
-        let least = Self::OPEN * max_displacement(&solution.u);
-        let apart = solution.in_contact().filter(|contact| contact.gap > least);
+        let apart = solution.in_contact().filter(|contact| solution.is_apart(contact));
         let pressed = apart.filter_map(|contact| {
             let pressure = contact.pressure.filter(|pressure| *pressure > 0.0)?;
             Some(PressedAcross { node: contact.node, pressure, gap: contact.gap })

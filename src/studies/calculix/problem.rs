@@ -7,7 +7,7 @@ use base::error::{InputError, Result};
 use engine::Detail;
 use engine::{Constraint, Motion, Solution, Step, support_constraints};
 use paper::mirror::Schedule;
-use problem::model::{Dof, Edge, Model, NodeId};
+use problem::model::{Dof, Model, NodeId};
 use problem::modelling::{Friction, Variant};
 use problem::scene::Scene;
 
@@ -123,13 +123,9 @@ impl Pair {
 
 /// Mean length of the target's edges; 1 where there is none.
 fn mean_edge(model: &Model) -> f64 {
-    let length = |edge: &Edge| {
-        let [[ax, ay], [bx, by]] = edge.nodes.map(|node| model.coordinates(node));
-        (bx - ax).hypot(by - ay)
-    };
     match model.contact.target.len() {
         0 => 1.0,
-        count => model.target_edges().map(length).sum::<f64>() / count as f64,
+        count => model.target_edges().map(|edge| model.length(edge)).sum::<f64>() / count as f64,
     }
 }
 

@@ -33,7 +33,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let file = shown(&args.file);
-    let given = args.scene.as_deref().map(Scene::open).transpose()?;
+    let given_file = args.scene.as_deref().map(SceneFile::read).transpose()?;
+    let given = given_file.as_ref().map(Scene::of_file).transpose()?;
     let text = files::read(&args.file);
     // What cannot be read is named below.
     let was = text.as_ref().ok().cloned().unwrap_or_default();
@@ -41,8 +42,7 @@ pub fn run(args: &Args) -> Result<()> {
     let (scene, said) = scene_of(&args.file, &old, given.as_ref())?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
-    if let Some(scene) = &args.scene {
-        let scene = SceneFile::read(scene)?;
+    if let Some(scene) = given_file {
         new.scene_file = scene.path().and_then(|scene| from_folder_of(&args.file, scene));
     }
     files::rewrite(&args.file, &was, &report::file(&new))?;
