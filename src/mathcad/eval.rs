@@ -74,7 +74,7 @@ impl<O: Observer> Run<'_, '_, O> {
         let values = self.cells.iter().filter_map(|cell| cell.value.as_ref());
         self.stored += values.map(Value::count).sum::<usize>();
         self.room(0)?;
-        if let Flow::Break | Flow::Continue = self.block(&self.listing.program)? {
+        if let Flow::Break | Flow::Continue = self.program()? {
             return Err(self.fail_line(Cause::OutsideLoop));
         }
         let Some(value) = self.last.take() else {
@@ -84,6 +84,34 @@ impl<O: Observer> Run<'_, '_, O> {
         let locals = names.filter(|(_, cell)| cell.local);
         let locals = locals.filter_map(|(name, cell)| Some((name.into(), cell.value?))).collect();
         Ok(Outcome { value, locals, trace_output: self.trace })
+    }
+
+    /// Executes the program, its first statements once where they read no argument.
+    fn program(&mut self) -> Fallible<Flow> {
+        let (first, rest) = self.listing.program.split_at(self.listing.unchanging);
+        if self.limits.steps < u64::MAX || first.is_empty() {
+            return self.block(&self.listing.program);
+        }
+        let listing = std::ptr::from_ref(self.listing);
+        let known = self.begun.borrow().get(&listing).cloned();
+        if let Some((values, last)) = known {
+            for (slot, value) in values {
+                self.store(slot, value)?;
+            }
+            self.last = last;
+        } else {
+            let flow = self.block(first)?;
+            if flow != Flow::Next {
+                return Ok(flow);
+            }
+            if self.trace.is_empty() {
+                let cells = self.cells.iter().enumerate().filter(|(_, cell)| cell.local);
+                let written = cells.filter_map(|(slot, cell)| Some((slot, cell.value.clone()?)));
+                let begun = (written.collect(), self.last.clone());
+                self.begun.borrow_mut().insert(listing, begun);
+            }
+        }
+        self.block(rest)
     }
 
     /// Returns the value of a program within an expression, whose names are those of the program around
@@ -801,6 +829,7 @@ impl<O: Observer> Run<'_, '_, O> {
             observer: &mut (),
             line: 0,
             spent: self.spent,
+            begun: self.begun,
             stored: self.stored,
             depth,
             last: None,

@@ -37,6 +37,8 @@ pub struct Listing {
     pub(super) assigned: Vec<bool>,
     /// How deep its blocks and expressions stand within each other.
     pub(super) depth: usize,
+    /// How many of its first statements neither read nor write a parameter.
+    pub(super) unchanging: usize,
 }
 
 /// The line between the two blocks of `try`.
@@ -66,6 +68,20 @@ fn uses(block: &[Statement], used: &mut [bool]) {
         statement.on_line().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
         statement.step.blocks().into_iter().for_each(|block| uses(block, used));
     }
+}
+
+/// Returns how many of the first statements neither read nor write a parameter: loops and assignments, each
+/// without a condition, on which an `otherwise` below could depend.
+fn unchanging(program: &[Statement], parameters: &[Slot], names: usize) -> usize {
+    let is_unchanging = |statement: &&Statement| {
+        let mut used = vec![false; names];
+        uses(std::slice::from_ref(*statement), &mut used);
+        survey(std::slice::from_ref(*statement), &mut |slot| used[slot] = true);
+        matches!(statement.step, Step::For { .. } | Step::Assign { .. })
+            && statement.guard.is_none()
+            && parameters.iter().all(|slot| !used[*slot])
+    };
+    program.iter().take_while(is_unchanging).count()
 }
 
 /// Hands over the names that programs within an expression write to.
@@ -147,7 +163,9 @@ impl Listing {
         let names = reader.names;
         let mut assigned = vec![false; names.len()];
         let depth = survey(&program, &mut |slot| assigned[slot] = true);
-        Ok(Listing { name: name.into(), names, parameters, program, lines, assigned, depth })
+        let unchanging = unchanging(&program, &parameters, names.len());
+        let name = name.into();
+        Ok(Listing { name, names, parameters, program, lines, assigned, depth, unchanging })
     }
 
     /// Returns the listing's name, as its header has it.

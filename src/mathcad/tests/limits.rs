@@ -1,5 +1,7 @@
 //! Hostile listings end in errors: no hang, no overflowing stack, no exhausted memory.
 
+use std::rc::Rc;
+
 use super::spelled::spelled;
 use super::{failure, one_of, program};
 use fastrand::Rng;
@@ -193,6 +195,35 @@ fn calls_within_calls_count_their_levels() {
     assert_eq!(run(6), Ok(5.0.into()));
     assert_eq!(run(5), Err(Cause::Limit { limit: 5, of: "levels of calls" }));
     assert_eq!(run(4), Err(Cause::Limit { limit: 4, of: "levels of calls" }));
+}
+
+/// Where steps are not counted, a program's first statements are executed once where they read no argument: its
+/// values, and what it fails with, stay the same.
+#[test]
+fn first_statements_that_read_no_argument() {
+    let bodies = [
+        "a[2] ← 7\n  for i ∈ 1 .. 3\n    a[i] ← a[i] + i·w\n  a[1] ← a[1] + x\n  a",
+        "w ← w + 1\n  w·x",
+        "for i ∈ 1 .. 3\n    return i if i = 2\n  x",
+        "a ← 1 / (w − 2)\n  x",
+        "a[1] ← w\n  b ← a\n  b[2] ← x\n  a[1] ← x\n  b",
+        "a ← w",
+        "a ← 3 if w = 1\n  otherwise\n    a ← x\n  a + x",
+        "a ← x + 1\n  b ← 2\n  a·b",
+    ];
+    for (body, w) in bodies.iter().flat_map(|body| [(body, 1.0), (body, 2.0)]) {
+        let mut sheet = Sheet::default();
+        let called = Listing::parse("f", &format!("f(x) :=\n  {body}")).unwrap();
+        sheet.define("w", w).define_program(Rc::new(called));
+        let text = "g() :=\n  for k ∈ 1 .. 3\n    a[k] ← f(k)\n  a";
+        let listing = Listing::parse("g", text).unwrap();
+        let [counted, uncounted] = [1 << 20, u64::MAX].map(|steps| {
+            let limits = Limits { steps, ..Limits::default() };
+            let outcome = listing.runner_in(&sheet, &Settings::default(), &limits).call(&[]);
+            outcome.map(|outcome| outcome.value).map_err(|failure| failure.to_string())
+        });
+        assert_eq!(counted, uncounted, "{body}, w = {w}");
+    }
 }
 
 /// Arrays within arrays, one deeper each turn.
