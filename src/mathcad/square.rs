@@ -2,7 +2,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use numbers::scalar::Scalar;
 
@@ -59,6 +59,18 @@ impl<T: Scalar> SparseSquare<T> {
         self.columns[j].iter()
     }
 
+    /// Returns the entries of the difference from another matrix of the size that are not 0.
+    pub fn differences<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = T> + 'a {
+        let own = self.entries().map(|(i, j, value)| value - other[(i, j)]);
+        let others = other.entries().filter(|(i, j, _)| self[(*i, *j)].is_zero());
+        own.chain(others.map(|(_, _, value)| -value)).filter(|value| !value.is_zero())
+    }
+
+    /// Returns the diagonal.
+    pub fn diagonal(&self) -> DVector<T> {
+        DVector::from_fn(self.size(), |i, _| self[(i, i)])
+    }
+
     /// Returns the matrix with `f` of each entry.
     pub fn map<U: Scalar>(&self, f: impl Fn(T) -> U) -> SparseSquare<U> {
         let column = |column: &Vec<(usize, T)>| column.iter().map(|(i, a)| (*i, f(*a))).collect();
@@ -89,5 +101,12 @@ impl<T: Scalar> IndexMut<(usize, usize)> for SparseSquare<T> {
             k
         });
         &mut self.columns[at.1][k].1
+    }
+}
+
+impl SparseSquare {
+    /// Returns the largest size of an entry.
+    pub fn amax(&self) -> f64 {
+        self.entries().fold(0.0, |most, (_, _, value)| most.max(value.abs()))
     }
 }

@@ -11,11 +11,12 @@
 use std::ops::IndexMut;
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::mirror::{self, Failure, Km, Pairs, Reading, ToleranceUnit, Worksheet, c_cnt};
 use base::error::InputError;
 use base::plain::six_digits;
+use mathcad::SparseSquare;
 use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use problem::element;
@@ -318,8 +319,8 @@ impl Call {
     ///
     /// # Errors
     /// An entry of the matrix overflows.
-    pub fn km(&self, reading: &Reading) -> Result<DMatrix<f64>, Failure> {
-        Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_sparse().dense())
+    pub fn km(&self, reading: &Reading) -> Result<SparseSquare, Failure> {
+        Ok(Km(&self.sheet, reading, &self.pairs.k_cnt)?.into_sparse())
     }
 
     /// Returns the row of `k_cnt` of a node: mate, weight, mate, weight.

@@ -87,7 +87,7 @@ fn assert_conditions(what: &str, model: &Model) {
     let of = |node: NodeId| [u[2 * node.index()], u[2 * node.index() + 1]];
     let mut free = model.clone();
     free.all_dofs().for_each(|dof| free.restrain(dof, Restraint::Free));
-    let stiffness = Call::without_contact(&free).km(&Reading::default()).unwrap();
+    let stiffness = Call::without_contact(&free).km(&Reading::default()).unwrap().dense();
     let mut force = &stiffness * &u - &model.load;
     let size = model.load.amax();
     let surfaces = Surfaces::new(model).unwrap();

@@ -10,11 +10,10 @@ use super::variants::apart;
 use engine::error::Error;
 use engine::estimates::moves;
 use engine::{Detail, Request, Solution, max_displacement, solve};
-use mathcad::array::Table;
-use mathcad::{Failure, Settings};
+use mathcad::{Failure, Settings, SparseSquare};
 use paper::door::{self, Call};
 use paper::listings::{self, Which};
-use paper::mirror::{Ambiguity, Change, Km, Pairs, READINGS, Reading, Trial, Value};
+use paper::mirror::{Ambiguity, Change, Pairs, READINGS, Reading, Trial, Value};
 use problem::element;
 use problem::modelling::Variant;
 
@@ -59,21 +58,28 @@ type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
-    let equivalents: Vec<(&Case, Blank)> =
-        [case].into_iter().chain(case.equivalents()).map(|case| (case, blank(case))).collect();
+    let cases = || [case].into_iter().chain(case.equivalents());
+    let as_read: Vec<(&Case, AsRead)> = cases().map(|case| (case, AsRead::new(case))).collect();
     let effect = |(row, other)| {
-        let mut effects =
-            equivalents.iter().map(|(case, blank)| Effect::new(row, other, case, blank));
+        let mut effects = as_read.iter().map(|(case, own)| Effect::new(row, other, case, own));
         effects.next().expect("the case itself").repeated(effects)
     };
     others(case).into_par_iter().map(effect).collect()
 }
 
-/// The two listings, executed under a blank worksheet's settings.
-type Blank = Result<Initial, Box<Failure>>;
+/// What the listings compute as a case is read.
+struct AsRead {
+    /// In the mirror.
+    mirror: Result<Initial, Error>,
+    /// Executed under a blank worksheet's settings.
+    blank: Result<Initial, Box<Failure>>,
+}
 
-fn blank(case: &Case) -> Blank {
-    executed(case, &Settings::default())
+impl AsRead {
+    fn new(case: &Case) -> Self {
+        let (mirror, blank) = (initial(case, case.reading()), executed(case, &Settings::default()));
+        AsRead { mirror, blank }
+    }
 }
 
 /// The values of the ambiguities that differ from what a case is read by, each with the reading that it
@@ -89,13 +95,13 @@ pub(super) fn others(case: &Case) -> Vec<(&'static Ambiguity, (&'static Value, R
 /// What `c_cnt` and `Km` compute at the initial shape.
 struct Initial {
     pairs: Pairs<f64>,
-    matrix: Table<f64>,
+    matrix: SparseSquare,
 }
 
 fn initial(case: &Case, reading: &Reading) -> Result<Initial, Error> {
     let model = case.request(case.scene.variant).reading(*reading).model()?;
     let call = Call::c_cnt(&model, reading, &model.nodes)?;
-    let matrix = Km(&call.sheet, reading, &call.pairs.k_cnt)?.to_table();
+    let matrix = call.km(reading)?;
     Ok(Initial { pairs: call.pairs, matrix })
 }
 
@@ -111,7 +117,7 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
     };
     let listing = Which::Km.under(&reading);
     let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, &mut ())?;
-    Ok(Initial { pairs, matrix })
+    Ok(Initial { pairs, matrix: SparseSquare::from_dense(matrix.as_matrix()) })
 }
 
 impl Effect {
@@ -119,7 +125,7 @@ impl Effect {
         row: &Ambiguity,
         (value, reading): (&Value, Reading),
         case: &Case,
-        blank: &Blank,
+        as_read: &AsRead,
     ) -> Self {
         let own = case.published_variant();
         let variant = match row.trial {
@@ -149,10 +155,10 @@ impl Effect {
             failure: None,
         };
         let outcome = match row.trial {
-            Trial::OwnVariant => effect.mirror(case, &reading, own),
-            Trial::Printed => effect.mirror(case, &reading, Variant::Printed),
+            Trial::OwnVariant => effect.mirror(case, as_read, &reading, own),
+            Trial::Printed => effect.mirror(case, as_read, &reading, Variant::Printed),
             Trial::EveryShape => effect.every_shape(case, &reading, own),
-            Trial::Worksheet => effect.worksheet(case, blank, value.change),
+            Trial::Worksheet => effect.worksheet(case, as_read, value.change),
             Trial::Strains => effect.strains(case, own),
         };
         effect.failure = outcome.err().map(NoFigures::fails);
@@ -160,8 +166,14 @@ impl Effect {
     }
 
     /// The mirror under the reading, beside the mirror under the default one.
-    fn mirror<'a>(&mut self, case: &'a Case, reading: &Reading, variant: Variant) -> Outcome<'a> {
-        self.compare(&initial(case, case.reading())?, &initial(case, reading)?);
+    fn mirror<'a>(
+        &mut self,
+        case: &'a Case,
+        as_read: &'a AsRead,
+        reading: &Reading,
+        variant: Variant,
+    ) -> Outcome<'a> {
+        self.compare(as_read.mirror.as_ref()?, &initial(case, reading)?);
         let request = case.request(variant).reading(*reading);
         let other = solve(&request, &mut |_| ())?;
         self.equilibrium_error = equilibrium_error(case, &request, &other);
@@ -197,11 +209,16 @@ impl Effect {
     }
 
     /// The listings under other settings of the worksheet, beside those under a blank one's.
-    fn worksheet<'a>(&mut self, case: &'a Case, blank: &Blank, change: Change) -> Outcome<'a> {
+    fn worksheet<'a>(
+        &mut self,
+        case: &'a Case,
+        as_read: &'a AsRead,
+        change: Change,
+    ) -> Outcome<'a> {
         let mut settings = Settings::default();
         change.set(&mut settings);
         let changed = executed(case, &settings)?;
-        let blank = blank.as_ref();
+        let blank = as_read.blank.as_ref();
         let blank =
             blank.map_err(|why| format!("runs; under a blank worksheet it fails: {why}"))?;
         self.compare(blank, &changed);
@@ -225,11 +242,10 @@ impl Effect {
     /// Counts the statuses and the entries in which the two differ by more than rounding.
     fn compare(&mut self, a: &Initial, b: &Initial) {
         let statuses = a.pairs.dy.iter().zip(b.pairs.dy.iter());
-        let (own, other) = (a.matrix.as_matrix(), b.matrix.as_matrix());
-        let least = ROUNDING * own.amax();
-        let entries = own.iter().zip(other);
+        let least = ROUNDING * a.matrix.amax();
         self.statuses = Some(statuses.filter(|(a, b)| a != b).count());
-        self.entries = Some(entries.filter(|(a, b)| (*a - *b).abs() > least).count());
+        let entries = a.matrix.differences(&b.matrix);
+        self.entries = Some(entries.filter(|change| change.abs() > least).count());
     }
 
     /// Whether anything of the result depends on the reading.

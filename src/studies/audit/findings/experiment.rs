@@ -1,10 +1,9 @@
 //! What the measures share: the shapes that a case leads to, how an experiment on them is summed
 //! up, and the contact surfaces seen from outside the listing.
 
-use nalgebra::DMatrix;
-
 use super::{Evidence, Outcome};
 use crate::audit::Case;
+use mathcad::SparseSquare;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::element::area;
@@ -86,7 +85,7 @@ pub(super) fn c_cnt(case: &Case, model: &Model, shape: &Shape) -> Result<Call, F
 }
 
 /// `Km` of the pairs found in a shape.
-pub(super) fn mjs(case: &Case, model: &Model, shape: &Shape) -> Result<DMatrix<f64>, Failure> {
+pub(super) fn mjs(case: &Case, model: &Model, shape: &Shape) -> Result<SparseSquare, Failure> {
     Ok(door::holding_dropped(model, c_cnt(case, model, shape)?.km(case.reading())?))
 }
 

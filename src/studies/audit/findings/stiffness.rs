@@ -1,14 +1,15 @@
 //! Findings of the stiffness matrix, `Km`, and of the iterations.
 
-use nalgebra::DMatrix;
+use std::collections::HashSet;
 
 use super::experiment::{
     ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
 };
 use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
-use engine::linear::DenseLu;
-use engine::{Constraint, Detail, Elimination, Solution, max_displacement};
+use engine::linear::SparseCholesky;
+use engine::{Constraint, Detail, Elimination, Solution, Stiffness, max_displacement};
+use mathcad::SparseSquare;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::model::{Body, Model, NodeId, Restraint, TriangleId};
@@ -22,13 +23,10 @@ pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
 }
 
 /// Entries of `mjs` in a row of `body` and a column of another.
-fn joins(mjs: &DMatrix<f64>, body: &Body) -> usize {
-    let mut of_body = vec![false; mjs.nrows()];
+fn joins(mjs: &SparseSquare, body: &Body) -> usize {
+    let mut of_body = vec![false; mjs.size()];
     body.nodes.iter().flat_map(|n| n.dofs()).for_each(|dof| of_body[dof.index()] = true);
-    let columns = mjs.column_iter().zip(&of_body).filter(|(_, inside)| !**inside);
-    columns
-        .map(|(c, _)| c.iter().zip(&of_body).filter(|(x, row)| **row && **x != 0.0).count())
-        .sum()
+    mjs.entries().filter(|(row, column, _)| of_body[*row] && !of_body[*column]).count()
 }
 
 fn target_moves(case: &Case) -> String {
@@ -107,7 +105,8 @@ pub(super) fn orphan(case: &Case) -> Outcome<'_> {
         let mut model = case.model().clone();
         orphan.into_iter().for_each(|restraint| model.add_node([0.0; 2], restraint));
         let mjs = Call::without_contact(&model).km(case.reading())?;
-        Ok(mjs.row_iter().filter(|row| row.iter().all(|x| *x == 0.0)).count())
+        let filled: HashSet<usize> = mjs.entries().map(|(row, ..)| row).collect();
+        Ok(mjs.size() - filled.len())
     };
     let [own, free, restrained] =
         [None, Some(Restraint::Free), Some(Restraint::Fixed)].map(zero_rows);
@@ -138,9 +137,8 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
 pub(super) fn pulls(case: &Case) -> Outcome<'_> {
     let model = case.model();
     let solution = case.run(Variant::Stepped)?;
-    let k = door::free_stiffness(&door::worksheet(model, |x| x), case.reading())?;
     // What eq. (1) adds at each equation; at a restrained one the support's reaction is part of it.
-    let force = k.as_matrix() * &solution.u - &model.load;
+    let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
     let rounding = ROUNDING * force.amax();
     let statuses = last_statuses(solution);
     let push = |i: usize| {
@@ -166,14 +164,15 @@ fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
 pub(super) fn hinge(case: &Case) -> Outcome<'_> {
     let call = first_in_contact(case)?;
-    let k = door::free_stiffness(&call.sheet, case.reading())?;
+    let stiffness = Stiffness::new(case.model(), |x| x);
     let linked = door::linked(&call.sheet, &call.pairs);
     let restraints = released(case.model(), case.model().contact.nodes[0]);
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few: Vec<Constraint> =
             linked.get(..count)?.iter().map(|bound| (*bound).into()).collect();
-        Some(DenseLu::new(Elimination::new(&restraints, &few).matrix(k.as_matrix())).is_err())
+        let reduced = stiffness.reduced(&Elimination::new(&restraints, &few));
+        Some(SparseCholesky::new(reduced).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {
