@@ -38,6 +38,7 @@ mod prose;
 mod quantities;
 mod result_file;
 mod scenes;
+mod shells;
 mod snapshots;
 mod statuses;
 mod sweeps;
