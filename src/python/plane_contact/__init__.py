@@ -29,7 +29,8 @@ import numpy as np
 
 from ._gmsh import write
 
-Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+File = Union[str, "os.PathLike[str]"]
+Scene = Union[File, Mapping[str, Any]]
 Result = dict[str, Any]
 
 
@@ -64,7 +65,7 @@ _ERRORS = {1: Differs, 2: InputError, 3: AlgorithmFails, 4: NoEquilibrium}
 def solve(scene: Scene = "strand", **options: Any) -> Result:
     """Runs the scene, as ``plane-contact solve`` does.
 
-    >>> plane_contact.solve("fig1", variant="tied", reading={"R5": "node_n"})["coupling"]
+    >>> solve("fig1", variant="tied", reading={"R5": "node_n"})["coupling"]
     'nts'
     """
     return _json(["solve"], scene, options)
@@ -102,17 +103,17 @@ def compare(scene: Scene, u: Any, **options: Any) -> Result:
     }
 
 
-def record(scene: Scene, out: Union[str, "os.PathLike[str]"], **options: Any) -> Result:
+def record(scene: Scene, out: File, **options: Any) -> Result:
     """Records a snapshot of what the scene gives in the file ``out``, and returns it."""
     path = os.path.abspath(out)
     _run(["snapshot", "record"], scene, {**options, "out": path})
-    return arrays(json.loads(Path(path).read_text(encoding="utf-8")))
+    recorded: Result = arrays(json.loads(Path(path).read_text(encoding="utf-8")))
+    return recorded
 
 
-def verify(*files: Union[str, "os.PathLike[str]"], scene: Optional[Scene] = None) -> Result:
+def verify(*files: File, scene: Optional[File] = None) -> Result:
     """Runs again what snapshots recorded. Raises `Differs`, whose ``result`` says what differs."""
-    options = {} if scene is None else {"scene": os.fspath(scene)}
-    return _json(["snapshot", "verify", *map(os.fspath, files)], None, options)
+    return _json(["snapshot", "verify", *map(str, files)], None, {"scene": scene})
 
 
 def arrays(value: Any) -> Any:
@@ -143,7 +144,8 @@ def program() -> str:
 
 
 def _json(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> Result:
-    return arrays(json.loads(_run(command, scene, {**options, "json": True})))
+    result: Result = arrays(json.loads(_run(command, scene, {**options, "json": True})))
+    return result
 
 
 def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> str:

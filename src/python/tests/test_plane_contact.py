@@ -38,7 +38,11 @@ def scene(mesh: skfem.MeshTri, bodies: dict, top: float, contact: bool) -> dict:
     sets = {name: [np.flatnonzero(is_in), None] for name, is_in in lines.items()}
     for name, (low, high) in bodies.items():
         sets[name] = [None, np.flatnonzero((centre[1] > low) & (centre[1] < high))]
-    cells = [("line", mesh.facets.T), ("triangle", mesh.t.T)]
+    # scikit-fem sorts the nodes of a triangle; here they run counter-clockwise.
+    (x1, x2, x3), (y1, y2, y3) = mesh.p[:, mesh.t]
+    turned = (x2 - x1) * (y3 - y1) < (x3 - x1) * (y2 - y1)
+    triangles = np.where(turned, mesh.t[[0, 2, 1]], mesh.t)
+    cells = [("line", mesh.facets.T), ("triangle", triangles.T)]
     description = {
         "mesh": meshio.Mesh(mesh.p.T, cells, cell_sets=sets),
         "plane": "strain",
