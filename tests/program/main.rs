@@ -36,6 +36,7 @@ mod printed;
 mod printed_numbers;
 mod prose;
 mod quantities;
+mod recipes;
 mod result_file;
 mod scenes;
 mod shells;
