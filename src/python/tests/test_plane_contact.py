@@ -175,6 +175,15 @@ def test_a_snapshot_is_recorded_and_verified(tmp_path):
     assert caught.value.result["same"] is False
 
 
+def test_the_example_of_the_front_page_runs(capsys):
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    exec(page.split("```python\n")[1].split("```")[0], {})
+    error, stress = map(float, capsys.readouterr().out.split())
+    tied = plane_contact.solve("fig1", variant="tied")
+    assert error == pytest.approx(tied["distance"]["energy_relative"], rel=1e-9)
+    assert stress > 12
+
+
 def test_it_is_typed():
     folder = Path(plane_contact.__file__).parent
     assert (folder / "py.typed").exists()
