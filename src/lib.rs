@@ -7,6 +7,24 @@
 //!                               ResultFile (written, read back) <--------------+--> compare
 //! ```
 //!
+//! The reference solution of a scene of your own, which is a file with its mesh beside it
+//! ([how to write one](guide::scenes)), or a [`SceneBuilder`]:
+//!
+//! ```
+//! use plane_contact::{Request, Scene, solve};
+//!
+//! let scene = Scene::open("golden/strand/scene.json")?;
+//! let reference = solve(&Request::new(&scene).reference(), &mut |_| ())?;
+//! let [_, uy] = reference.displacement(1).expect("there is a node 1");
+//! let [x, y] = scene.model.nodes[0];
+//! let [_, sigma_y, _] = reference.stress_at(x, y).expect("a node is in a triangle");
+//! let [_, force] = reference.reaction("axis").expect("the scene holds it");
+//! assert!(uy.is_finite() && sigma_y.is_finite() && force.is_finite());
+//! # Ok::<(), plane_contact::Error>(())
+//! ```
+//!
+//! A variant of the paper, and how far it is from that:
+//!
 //! ```
 //! use plane_contact::input::Variant;
 //! use plane_contact::{Request, Scene, compare, solve};
@@ -29,6 +47,24 @@
 //! - [`paper::mirror`] is the reference: each line of the paper's listings stands quoted above the line of Rust
 //!   that computes it.
 //!
+//! # How to depend on it
+//!
+//! ```toml
+//! [dependencies]
+//! # The address of the repository of plane-contact; without its feature cli there is no command line, and no clap.
+//! plane-contact = { git = "https://example.org/plane-contact.git", default-features = false }
+//! ```
+//!
+//! The feature `cli`, on by default, is the program and its studies, snapshots among them.
+//!
+//! `examples/own_scene.rs` matches an error and writes a file for ParaView, `examples/snapshot_in_a_test.rs` has a
+//! snapshot in a test of Cargo.
+//!
+//! # What is stable
+//!
+//! The names at the root of this library, [`input`], and the files of JSON, whose `format` changes with them. The
+//! public fields that are vectors of nalgebra or numbers of dashu are not: read them by [`Solution::displacement`],
+//! [`Solution::stress_at`] and [`Solution::reaction`].
 //! The other modules are the parts of the program, each of which uses those above it only. Tests use them; they are
 //! private in the sense that they may change with any version.
 //!
@@ -85,7 +121,9 @@ pub mod guide {
 }
 
 pub use base::{child, choices, error, exit, files, limits, plain, suggestion, xml};
-pub use {commands, engine, mathcad, numbers, paper, problem, report, studies};
+#[cfg(feature = "cli")]
+pub use {commands, studies};
+pub use {engine, mathcad, numbers, paper, problem, report};
 
 #[doc(inline)]
 pub use engine::error::Error;

@@ -3,6 +3,7 @@
 
 use std::io;
 use std::num::NonZero;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::mpsc::channel;
 use std::thread::{Builder, available_parallelism};
@@ -23,6 +24,8 @@ use plane_contact::{Error, commands};
     version,
     arg_required_else_help = true,
     args_conflicts_with_subcommands = true,
+    // Help names them in the words of the program; completions have them.
+    hide_possible_values = true,
     subcommand_value_name = "COMMAND",
     help_template = "\
 {about-with-newline}
@@ -40,15 +43,16 @@ Examples:
   plane-contact listing run c_cnt fig1
   plane-contact snapshot record fig1
   plane-contact scene copy fig1 --out my     a scene to edit
+  plane-contact guide                        what there is to read
   plane-contact --completions bash > /etc/bash_completion.d/plane-contact", exit_statuses())
 )]
 struct Cli {
-    /// Print the completions of a shell.
+    /// Print the completions of a shell: bash, elvish, fish, powershell, zsh.
     #[arg(long, value_name = "SHELL")]
     completions: Option<clap_complete::Shell>,
-    /// Print a man page.
-    #[arg(long, conflicts_with = "completions")]
-    man: bool,
+    /// Write the man pages of all commands to a folder.
+    #[arg(long, value_name = "DIR", conflicts_with = "completions")]
+    man: Option<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -84,10 +88,7 @@ fn main() -> ExitCode {
         Err(why) => return exit_code(commands::help(&why).map(|()| ExitStatus::Done), json),
     };
     let Some(command) = cli.command else {
-        return exit_code(
-            commands::print(&shell_files(&cli, grammar)).map(|()| ExitStatus::Done),
-            json,
-        );
+        return exit_code(shell_files(&cli, grammar).map(|()| ExitStatus::Done), json);
     };
     exit_code(command.run().map_err(named_by_option), json)
 }
@@ -124,14 +125,31 @@ fn exit_statuses() -> String {
     ExitStatus::ALL.iter().map(line).collect()
 }
 
-/// Returns the completions of a shell, or the man page: what is asked for in place of a command.
-fn shell_files(cli: &Cli, mut grammar: clap::Command) -> String {
-    let mut text = Vec::new();
-    match cli.completions {
-        Some(shell) => clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text),
-        None => clap_mangen::Man::new(grammar).render(&mut text).expect("memory can be written"),
+/// Prints the completions of a shell, or writes the man pages: what is asked for in place of a command.
+fn shell_files(cli: &Cli, mut grammar: clap::Command) -> Result<(), Error> {
+    if let Some(shell) = cli.completions {
+        let mut text = Vec::new();
+        clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text);
+        let text = String::from_utf8(text).expect("help is UTF-8");
+        // In bash, a command with a hyphen has two names (clap-rs/clap#6421).
+        commands::print(&text.replace("plane__subcmd__contact", "plane__contact"))?;
     }
-    String::from_utf8(text).expect("help is UTF-8")
+    if let Some(folder) = &cli.man {
+        grammar.build();
+        files::write_all(folder, &man_pages(&grammar))?;
+        commands::report_written(folder);
+    }
+    Ok(())
+}
+
+/// Returns the man pages of a command and of those in it, each with the name of its file.
+fn man_pages(command: &clap::Command) -> Vec<(String, Vec<u8>)> {
+    let inner = command.get_subcommands().filter(|command| command.get_name() != "help");
+    let mut pages: Vec<_> = inner.flat_map(man_pages).collect();
+    let (page, mut text) = (clap_mangen::Man::new(command.clone()), Vec::new());
+    page.render(&mut text).expect("memory can be written");
+    pages.push((page.get_filename(), text));
+    pages
 }
 
 /// Names the option where what is asked for is at fault: the library names the setting.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::print_report;
+use crate::{offered, offered_readings, print_report};
 use base::error::InputError;
 use base::files;
 use base::plain::{shown, six_digits};
@@ -22,14 +22,15 @@ use report::model::Report;
 /// The numbers and the solver of a run.
 #[derive(Clone, Copy, clap::Args)]
 pub struct ArithmeticArgs {
-    #[arg(long, value_name = "NAME", default_value = "f64", help = ScalarName::help())]
+    #[arg(long, value_name = "NAME", default_value = "f64", help = ScalarName::help(),
+        value_parser = offered::<ScalarName>(ScalarName::ALL))]
     scalar: ScalarName,
-    #[arg(long, value_name = "NAME", help = format!(
+    #[arg(long, value_name = "NAME", value_parser = offered::<Solver>(Solver::ALL), help = format!(
         "{} [default: sparse-cholesky; sparse-lu under printed in f64 and f64-bounded]",
         Solver::help()
     ))]
     solver: Option<Solver>,
-    #[arg(long, value_name = "NAME", default_value = "binary", help = format!(
+    #[arg(long, value_name = "NAME", default_value = "binary", value_parser = offered::<Inputs>(Inputs::ALL), help = format!(
         "What the numbers of the scene stand for. {}",
         Inputs::help()
     ))]
@@ -47,7 +48,7 @@ impl From<ArithmeticArgs> for Arithmetic {
 #[derive(clap::Args)]
 pub struct ReadingArg {
     /// The readings that differ from the default.
-    #[arg(long, value_name = "LIST", default_value = "", hide_default_value = true,
+    #[arg(long, value_name = "LIST", default_value = "", hide_default_value = true, value_parser = offered_readings(),
         help = Reading::help())]
     pub reading: Reading,
 }
@@ -55,7 +56,7 @@ pub struct ReadingArg {
 /// How a scene is run.
 #[derive(clap::Args)]
 pub struct RunArgs {
-    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()))]
+    #[arg(long, help = format!("{} [default: the scene's]", Variant::help()), value_parser = offered::<Variant>(Variant::ALL))]
     variant: Option<Variant>,
     /// Run the reference solution: unilateral with mortar, without friction, in small displacements.
     #[arg(long, conflicts_with_all = ["variant", "coupling", "friction", "geometry", "load_steps", "status",
@@ -103,14 +104,14 @@ impl MethodArgs {
 /// How contact is modelled beyond what the paper prints, in place of what the scene says.
 #[derive(clap::Args)]
 pub struct ModelArgs {
-    #[arg(long, help = format!("{} [default: the scene's]", Coupling::help()))]
+    #[arg(long, help = format!("{} [default: the scene's]", Coupling::help()), value_parser = offered::<Coupling>(Coupling::ALL))]
     coupling: Option<Coupling>,
     /// Under unilateral: Coulomb's coefficient, 0 (contact nodes slide freely), or stick (they never
     /// slide); under printed, tied and stepped it changes only the equilibrium that they are
     /// compared with [default: the scene's].
     #[arg(long, value_name = "MU")]
     friction: Option<Friction>,
-    #[arg(long, help = format!(
+    #[arg(long, value_parser = offered::<Geometry>(Geometry::ALL), help = format!(
         "Under unilateral, the shape in which contact is measured. {} [default: the scene's]",
         Geometry::help()
     ))]
@@ -119,7 +120,7 @@ pub struct ModelArgs {
     /// [default: the scene's, or 16].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     load_steps: Option<u32>,
-    #[arg(long, value_name = "RULE", help = format!(
+    #[arg(long, value_name = "RULE", value_parser = offered::<StatusRule>(StatusRule::ALL), help = format!(
         "Under tied and stepped, who is in contact. {} [default: the scene's]",
         StatusRule::help()
     ))]

@@ -2,7 +2,9 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod offered;
 mod output;
 
 pub use arguments::*;
+pub use offered::*;
 pub use output::*;

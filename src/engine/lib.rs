@@ -9,6 +9,7 @@ mod elimination;
 mod equations;
 pub mod error;
 pub mod estimates;
+mod fields;
 mod hertz;
 pub mod linear;
 pub mod options;

@@ -13,7 +13,7 @@ use numbers::scalar::Scalar;
 use problem::model::Model;
 use serde::Serialize;
 
-const NOTATION: &str = "see the notation in listings/README.md";
+const NOTATION: &str = "see `plane-contact guide notation`";
 
 /// The text of a listing that stands in place of one of the paper's; it can be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -4,8 +4,8 @@ use clap::Subcommand;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::{
-    audit, calculix, document, extremes, lesson, listing, scene, snapshot, solve, sweep, trade,
-    worksheet,
+    audit, calculix, document, extremes, guide, lesson, listing, scene, snapshot, solve, sweep,
+    trade, worksheet,
 };
 use base::exit::ExitStatus;
 use engine::error::Result;
@@ -31,6 +31,7 @@ pub enum Command {
     Snapshot(snapshot::command::Command),
     #[command(subcommand)]
     Scene(scene::Command),
+    Guide(guide::Args),
 }
 
 impl Command {
@@ -53,17 +54,19 @@ impl Command {
             Command::Mathcad(command) => worksheet::run(&command),
             Command::Snapshot(command) => snapshot::command::run(&command),
             Command::Scene(command) => scene::run(&command).map(done),
+            Command::Guide(args) => guide::run(&args).map(done),
         }
     }
 }
 
 /// The commands as the first page of help groups them.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &[&str]); 6] = [
     ("Compute", &["solve", "compare", "trade", "extremes", "sweep"]),
     ("Audit and teach", &["audit", "report", "lesson"]),
     ("Listings and Mathcad", &["listing", "mathcad"]),
     ("Snapshots", &["snapshot"]),
     ("Scenes", &["scene"]),
+    ("Guide", &["guide"]),
 ];
 
 /// Returns the list of the commands by group, each with what it does.

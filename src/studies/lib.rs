@@ -7,6 +7,7 @@ pub mod calculix;
 pub mod command;
 pub mod document;
 pub mod extremes;
+mod guide;
 pub mod lesson;
 mod listing;
 mod scene;

@@ -52,7 +52,7 @@ pub struct Args {
     run: RunArgs,
     #[command(flatten)]
     changes: SceneArgs,
-    /// Execute this edited listing in place of c_cnt (notation: listings/README.md).
+    /// Execute this edited listing in place of c_cnt (notation: plane-contact guide notation).
     #[arg(long, value_name = "FILE")]
     c_cnt: Option<PathBuf>,
     /// Execute this edited listing in place of Km; under tied and stepped it builds the matrix

@@ -218,6 +218,58 @@ fn what_changed_is_said_and_accepted() {
     assert_says(&ran(at, &["snapshot", "accept", "s.json"]), 0, &["same, 2 runs"]);
 }
 
+/// What went in is said where nothing that came out differs: it is in the snapshot too.
+#[test]
+fn a_change_without_an_effect_is_said_when_it_is_accepted() {
+    let folder = recorded();
+    let at = folder.path();
+    let mut scene = crate::common::embedded::scene_json("fig1");
+    scene["title"] = json!("another title");
+    std::fs::write(at.join("scene.json"), scene.to_string()).expect("written");
+    let accepted = ran(at, &["snapshot", "accept", "s.json", "--scene", "scene.json"]);
+    assert_says(
+        &accepted,
+        0,
+        &["same, 2 runs", "changed: scene title: \"another title\", was \"The"],
+    );
+}
+
+/// Of several who accept at once each changes what the one before it left, or is told that another was quicker.
+#[test]
+fn who_accepts_at_once_loses_nothing() {
+    let folder = recorded();
+    let at = folder.path();
+    let accept = &|tolerance: usize| {
+        let mut scene = crate::common::embedded::scene_json("fig1");
+        scene["contact"]["c_tll"] = json!(tolerance as f64);
+        let name = format!("scene{tolerance}.json");
+        std::fs::write(at.join(&name), scene.to_string()).expect("written");
+        (tolerance, ran(at, &["snapshot", "accept", "s.json", "--scene", &name]))
+    };
+    let mut left = Vec::new();
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (1..=8).map(|k| scope.spawn(move || accept(k))).collect();
+        for thread in threads {
+            let (tolerance, said) = thread.join().expect("it ran");
+            if said.0 == 0 {
+                let changed =
+                    said.1.split("contact.c_tll: ").nth(1).expect("a change").lines().next();
+                let was = changed.expect("a line").split(", was ").nth(1).expect("what it was");
+                left.push((was.parse::<f64>().expect("a number"), tolerance as f64));
+            } else {
+                assert_says(&said, 2, &["it was changed since it was read", "run it again"]);
+            }
+        }
+    });
+    // Each value that was replaced was replaced once, and the last one stands there.
+    let mut now = 0.001;
+    while let Some(place) = left.iter().position(|(was, _)| *was == now) {
+        now = left.swap_remove(place).1;
+    }
+    assert!(left.is_empty(), "{left:?} were accepted beside {now}");
+    assert_eq!(document(at)["input"]["scene"]["contact"]["c_tll"], json!(now));
+}
+
 #[test]
 fn a_run_that_fails_now_is_accepted_with_its_failure_printed() {
     let folder = TempDir::new().expect("a folder");

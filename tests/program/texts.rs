@@ -4,7 +4,6 @@
 //! it is rounding itself (below 1e-9): residuals and what rounding does to a displacement.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use plane_contact::problem::modelling::Variant;
 use tempfile::TempDir;
@@ -18,7 +17,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const NOISE: f64 = 1e-9;
 
 /// Prints what the program prints, without the folder that it was run in.
-fn printed(args: &[&str]) -> String {
+pub fn printed(args: &[&str]) -> String {
     let folder = TempDir::new().expect("a temporary folder");
     let output = run(folder.path(), args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -208,28 +207,65 @@ fn every_command_that_a_text_names_exists() {
     assert!(found > 100, "{found} commands are named");
 }
 
-/// Completions are a script that bash reads; the man page is one that `man` renders.
+/// Every page of the guide prints, and what it names instead of a link is there: a page, a command, a file of the
+/// repository.
 #[test]
-fn completions_and_a_man_page() {
-    let script = printed(&["--completions", "bash"]);
-    assert!(script.contains("plane__contact"), "{script}");
-    let folder = TempDir::new().expect("a folder");
-    let there = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, text).expect("it is written");
-        path
-    };
-    let bash = Command::new("bash").arg("-n").arg(there("c.bash", &script)).status();
-    assert!(bash.expect("bash").success());
-    for shell in ["elvish", "fish", "powershell", "zsh"] {
-        assert!(!printed(&["--completions", shell]).is_empty());
+fn every_link_of_the_guide_leads_somewhere() {
+    let list = printed(&["guide"]);
+    let names = list.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
+    let names: Vec<&str> = names.collect();
+    let (mut commands, mut links) = (0, 0);
+    for page in &names {
+        let text = printed(&["guide", page]);
+        assert!(!text.contains("]("), "{page}");
+        for named in text.split("plane-contact guide ").skip(1) {
+            let end = named.find(|c: char| !c.is_ascii_alphabetic() && c != '-');
+            let named = &named[..end.unwrap_or(named.len())];
+            assert!(names.contains(&named), "{page}: {named:?}");
+            commands += 1;
+        }
+        for link in text.split(" (`").skip(1).filter_map(|rest| rest.split_once("`)")) {
+            match link.0.strip_prefix("plane-contact ") {
+                Some(command) if command.starts_with("audit") => {
+                    let explained = printed(&command.split(' ').collect::<Vec<_>>());
+                    assert!(!explained.is_empty(), "{page}: {command}");
+                }
+                Some(_) => (),
+                None if link.0.contains('/') => {
+                    assert!(Path::new(ROOT).join(link.0).exists(), "{page}: {}", link.0);
+                }
+                None => continue,
+            }
+            links += 1;
+        }
+        let open: Vec<_> =
+            names.iter().filter(|name| text.contains(&format!("[{name}]"))).collect();
+        assert!(open.is_empty(), "{page}: {open:?}");
     }
-    let page = printed(&["--man"]);
-    for part in [".TH plane-contact 1", ".SH NAME", ".SH SYNOPSIS", "snapshot"] {
-        assert!(page.contains(part), "{part}: {page}");
+    assert!(commands > 30 && links > 30, "{commands} commands, {links} links");
+    for values in ["`unilateral`: ", "`f64x2`: ", "R2 ", "`mortar`: "] {
+        assert!(printed(&["guide", "options"]).contains(values), "{values}");
     }
-    let Ok(man) = Command::new("man").arg("-l").arg(there("page.1", &page)).output() else {
-        return;
+}
+
+/// No message, help or output cites a page by its file, which who installed the program does not have.
+#[test]
+fn pages_are_cited_by_the_command_that_prints_them() {
+    let mut texts = Vec::new();
+    let recorded = files(&Path::new(ROOT).join("golden"));
+    let of_program = |file: &&PathBuf| {
+        file.extension().is_some_and(|ending| ending == "snap") || file.ends_with("mistakes.md")
     };
-    assert!(man.status.success() && String::from_utf8_lossy(&man.stdout).contains("SYNOPSIS"));
+    for file in recorded.iter().filter(of_program) {
+        texts.push((file.display().to_string(), std::fs::read_to_string(file).expect("text")));
+    }
+    for command in commands() {
+        let args: Vec<&str> = command.split(' ').chain(["--help"]).collect();
+        texts.push((command.clone(), printed(&args)));
+    }
+    for (name, text) in texts {
+        for file in ["src/guide/", "golden/tables/", "listings/README", "src/mathcad/README"] {
+            assert!(!text.contains(file), "{name} cites {file}");
+        }
+    }
 }

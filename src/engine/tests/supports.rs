@@ -153,3 +153,25 @@ fn the_listings_hold_along_axes_alone() {
         assert!(!matches!(along_axes, Err(Error::Input(_))), "{along_axes:?}");
     }
 }
+
+/// Fields by node, point and restraint are those of the whole arrays.
+#[test]
+fn fields_are_read_by_node_point_and_restraint() {
+    let solution = solve(&on_a_slope(30.0), Variant::Unilateral).expect("there is an equilibrium");
+    assert_eq!(solution.displacement(0), None);
+    assert_eq!(solution.displacement(3), Some([solution.u[4], solution.u[5]]));
+    assert_eq!(solution.displacement(solution.model.nodes.len() + 1), None);
+    for (triangle, state) in solution.model.triangles.iter().zip(&solution.elements) {
+        let corners = triangle.nodes.map(|node| solution.model.nodes[node.index()]);
+        let [x, y] = [0, 1].map(|d| corners.iter().map(|corner| corner[d]).sum::<f64>() / 3.0);
+        assert_eq!(solution.stress_at(x, y), Some(state.sigma.into()));
+    }
+    assert_eq!(solution.stress_at(99.0, 99.0), None);
+    let rows = SupportForce::all(&solution);
+    for row in &rows {
+        let same = rows.iter().filter(|other| other.restraint == row.restraint);
+        let sum = same.fold([0.0; 2], |[x, y], row| [x + row.reaction[0], y + row.reaction[1]]);
+        assert_eq!(solution.reaction(&row.restraint), Some(sum));
+    }
+    assert_eq!(solution.reaction("no such group"), None);
+}

@@ -114,7 +114,7 @@ pub fn corrected(export: &CorrectedExport) -> String {
     let mut page = Page::default();
     page.heading(export.title);
     page.text(
-        "The corrected algorithm of plane-contact (listings/corrected/README.md) with the tables of one \
+        "The corrected algorithm of plane-contact (plane-contact guide corrected) with the tables of one \
          scene: what the findings ask for, in the notation of A. M. Filipov's and M. V. Khomenko's \
          listings. It is not the paper's. Nothing here was calculated by Mathcad yet.",
     );

@@ -22,7 +22,7 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    ReadingArg, TablesArgs, print, print_either, print_stderr, progress, waiting, width,
+    ReadingArg, TablesArgs, offered, print, print_either, print_stderr, progress, waiting, width,
 };
 
 /// Show what every ambiguity and every finding does on a scene.
@@ -62,16 +62,17 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     /// Explain one finding.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", value_parser = offered::<String>(FINDINGS.iter().map(|finding| finding.id)))]
     finding: Option<String>,
     /// Explain and judge one claim of the paper.
-    #[arg(long, value_name = "ID", conflicts_with = "finding")]
+    #[arg(long, value_name = "ID", conflicts_with = "finding",
+        value_parser = offered::<String>(CLAIMS.iter().map(|claim| claim.id)))]
     claim: Option<String>,
     /// Judge the claims over the range of what the paper leaves open too: clearance, radius, mesh,
     /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
-    /// Run the corrected algorithm of listings/corrected/, and the same with each printed fault put
+    /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault put
     /// back, and show what each costs. It takes half a minute on strand. Of --reading only what
     /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
     #[arg(long, conflicts_with_all = ["finding", "claim"])]

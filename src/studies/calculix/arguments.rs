@@ -8,7 +8,7 @@ use engine::{self, Solution};
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
-use commands::{ModelArgs, ReadingArg, waiting};
+use commands::{ModelArgs, ReadingArg, offered, waiting};
 
 base::choices! {
     /// A code that a scene is exported to and compared with.
@@ -23,10 +23,10 @@ base::choices! {
 pub struct DeckArgs {
     /// equation: the constraints of the last iteration; pair: the other code's own contact, by
     /// penalty.
-    #[arg(long, default_value_t = ContactKind::Equation)]
+    #[arg(long, default_value_t = ContactKind::Equation, value_parser = offered::<ContactKind>(ContactKind::ALL))]
     pub contact: ContactKind,
     /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
-    #[arg(long)]
+    #[arg(long, value_parser = offered::<Variant>(Variant::ALL))]
     pub variant: Option<Variant>,
     #[command(flatten)]
     pub reading: ReadingArg,

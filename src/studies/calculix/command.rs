@@ -10,7 +10,7 @@ use engine::error::Result;
 use engine::estimates::certain;
 
 use super::arguments::{Code, DeckArgs};
-use commands::{TablesArgs, folder, folder_name, print, waiting};
+use commands::{TablesArgs, folder, folder_name, offered, print, waiting};
 
 /// Run a scene here and in another code, and show the differences.
 #[derive(clap::Args)]
@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// The code.
-    #[arg(long, value_name = "CODE", default_value = "calculix")]
+    #[arg(long, value_name = "CODE", default_value = "calculix", value_parser = offered::<Code>(Code::ALL))]
     with: Code,
     #[command(flatten)]
     deck: DeckArgs,

@@ -21,7 +21,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
 
-use commands::{report_written, waiting};
+use commands::{offered, report_written, waiting};
 
 /// The most bytes of a chart of `trade`; one has some 30,000.
 const CHART: u64 = 1 << 24;
@@ -63,10 +63,10 @@ pub struct Args {
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: PathBuf,
     /// html: one page that opens offline; markdown: figures are files of SVG beside it.
-    #[arg(long, default_value_t)]
+    #[arg(long, default_value_t, value_parser = offered::<Format>(Format::ALL))]
     format: Format,
     /// The variants whose fields are shown [default: all; one that fails is left out].
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = offered::<Variant>(Variant::ALL))]
     variant: Vec<Variant>,
     /// Leave out claims, prices, readings and findings, and the runs that they are measured against.
     #[arg(long)]

@@ -23,8 +23,8 @@ Examples:
   plane-contact extremes offset steep-edge
   plane-contact extremes lengths --json --out out/lengths")]
 pub struct Args {
-    /// Generators [default: all].
-    #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(GENERATORS.iter().map(|g| g.name)))]
+    #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(GENERATORS.iter().map(|g| g.name)),
+        help = format!("Generators: {} [default: all]", GENERATORS.each_ref().map(|g| g.name).join(", ")))]
     names: Vec<String>,
     #[command(flatten)]
     tables: TablesArgs,

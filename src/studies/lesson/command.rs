@@ -15,7 +15,7 @@ use problem::model::Model;
 use problem::scene::Scene;
 use report::language::Language;
 
-use commands::{read_listing, report_written, waiting};
+use commands::{offered, read_listing, report_written, waiting};
 
 /// Write a lesson: both listings, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
@@ -42,7 +42,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     listing: Option<PathBuf>,
     /// The language of the page: en, ru; messages of the interpreter stay English.
-    #[arg(long, default_value_t)]
+    #[arg(long, default_value_t, value_parser = offered::<Language>(Language::ALL))]
     lang: Language,
     /// The file of the page [default: out/lesson.html].
     #[arg(long, value_name = "FILE")]

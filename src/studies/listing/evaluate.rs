@@ -20,8 +20,8 @@ use commands::{print, print_either, read_listing, report_error, waiting};
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The file holds one function or several, in the notation of listings/README.md. Rules, and where each
-was measured: src/mathcad/README.md.
+The file holds one function or several, in the notation that plane-contact guide notation
+describes. Rules, and where each was measured: plane-contact guide interpreter.
 
 Examples:
   plane-contact listing evaluate gauss.txt --call \"gauss(A, 2)\" --inputs '{\"A\": [[2, 1, 5], [1, 3, 10]]}'
@@ -55,7 +55,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitStatus> {
     let place = shown(&args.file);
     let text = read_listing(&args.file)?;
-    let notation = "see the notation in listings/README.md";
+    let notation = "see `plane-contact guide notation`";
     let programs = file::listings(&place, &text, &Limits::default())
         .map_err(|error| InputError::new(&place, error.to_string(), notation))?;
     let mut sheet = inputs(&args.inputs)?;
@@ -80,7 +80,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     };
     let fix = match failure.cause {
         Cause::Unsupported { .. } | Cause::Complex { .. } => {
-            "the program may be right: write it with what src/mathcad/README.md lists"
+            "the program may be right: write it with what `plane-contact guide interpreter` lists"
         }
         Cause::Limit { of: "steps", .. } => "correct the program, or give more steps by --limit",
         _ => "correct the program or its inputs",

@@ -61,7 +61,7 @@ pub struct KmArgs {
     /// Write to a file in place of standard output.
     #[arg(long, value_name = "FILE")]
     matrix_market: Option<PathBuf>,
-    /// The contact pairs that enter: those of c_cnt at the initial shape, or none.
+    /// The contact pairs that enter. c-cnt: those of c_cnt at the initial shape; none: no pair.
     #[arg(long, value_name = "PAIRS", default_value = "c-cnt")]
     coupled_by: CoupledBy,
     #[command(flatten)]

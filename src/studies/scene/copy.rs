@@ -9,7 +9,7 @@ use base::suggestion::did_you_mean;
 use engine::error::Result;
 use problem::scene::{Embedded, FINDING_SCENES, SCENES};
 
-use commands::print_fitted;
+use commands::{offered, print_fitted};
 
 /// Write a scene of the program to a folder, to edit it.
 #[derive(clap::Args)]
@@ -20,7 +20,7 @@ Examples:
   plane-contact solve my")]
 pub struct Args {
     /// A scene of the program, or a finding: plane-contact scene list lists them.
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", value_parser = offered::<String>(names()))]
     name: String,
     /// Folder for scene.json and its mesh [default: the scene's name].
     #[arg(long, value_name = "DIR")]
@@ -44,12 +44,20 @@ pub fn run(args: &Args) -> Result<()> {
 
 /// The scene of that name, or of the finding of that name.
 fn find(name: &str) -> Result<&'static Embedded, InputError> {
-    let all = || SCENES.iter().chain(FINDING_SCENES);
-    let short = |scene: &'static Embedded| scene.name.trim_start_matches("findings/");
     let is =
         |scene: &&'static Embedded| scene.name == name || short(scene).eq_ignore_ascii_case(name);
-    all().find(is).ok_or_else(|| {
-        let fix = did_you_mean(name, all().map(short)) + "plane-contact scene list lists them";
+    SCENES.iter().chain(FINDING_SCENES).find(is).ok_or_else(|| {
+        let fix = did_you_mean(name, names()) + "plane-contact scene list lists them";
         InputError::new("NAME", format!("there is no scene {name:?}"), fix)
     })
+}
+
+/// The names of all scenes of the program, those of findings short.
+fn names() -> impl Iterator<Item = &'static str> {
+    SCENES.iter().chain(FINDING_SCENES).map(short)
+}
+
+/// The name of a scene; that of a finding's is the finding.
+fn short(scene: &'static Embedded) -> &'static str {
+    scene.name.trim_start_matches("findings/")
 }

@@ -7,7 +7,7 @@ use base::files;
 use engine::error::Result;
 
 use crate::calculix::arguments::{Code, DeckArgs};
-use commands::write_or_print;
+use commands::{offered, write_or_print};
 
 /// Write a scene as an input deck of CalculiX.
 #[derive(clap::Args)]
@@ -26,7 +26,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// The code.
-    #[arg(long, value_name = "CODE", default_value = "calculix")]
+    #[arg(long, value_name = "CODE", default_value = "calculix", value_parser = offered::<Code>(Code::ALL))]
     to: Code,
     #[command(flatten)]
     deck: DeckArgs,

@@ -86,7 +86,7 @@ pub fn report(checked: &[VerifiedFile]) -> Report {
                     report.line(format!("{file}: {}", outcome(verified))).notes(scene.clone());
                 verified.runs.iter().fold(report, |report, run| {
                     let report = report.note(format!("{}: {}", run.name, verdict(run)));
-                    match run.differences.is_empty() {
+                    match run.differences.is_empty() && run.changes.is_empty() {
                         true => report,
                         false => report.code(run_words(run)),
                     }
@@ -182,7 +182,7 @@ struct RunRow<'a> {
     /// The iteration from which on rounding decides the path to the equilibrium, which is not compared
     /// from there on; null where the runs take the same path.
     path: Option<usize>,
-    /// What went in and differs too, where it differs.
+    /// What went in and differs.
     changes: &'a [Change],
     /// Where it first differs; null where it does not.
     first: &'a Option<First>,

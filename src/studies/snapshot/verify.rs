@@ -52,7 +52,7 @@ pub struct VerifiedRun {
     /// The iteration from which on rounding decides the path to the equilibrium, such as which of two
     /// nodes closes first. The two runs take different paths, which are not compared from there on.
     pub path: Option<usize>,
-    /// What went in and differs too, where it differs.
+    /// What went in and differs.
     pub changes: Vec<Change>,
     /// Where it first differs; None where it does not.
     pub first: Option<First>,
@@ -80,7 +80,7 @@ impl VerifiedRun {
 
     fn compared(name: String, old: Side, new: Side) -> Self {
         let (differences, compared) = compare(old.run, new.run);
-        let changes = if differences.is_empty() { Vec::new() } else { changes(old, new) };
+        let changes = changes(old, new);
         let first = first(old.run, new.run, &differences);
         let run = VerifiedRun::new(name, Presence::Both, new.run.clone());
         VerifiedRun { differences, compared, changes, first, ..run }

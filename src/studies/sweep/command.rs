@@ -10,7 +10,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::Result;
 
-use commands::{print, print_fitted, print_stderr, progress};
+use commands::{offered, print, print_fitted, print_stderr, progress};
 
 /// The most bytes of a sweep.
 const MOST: u64 = 1 << 22;
@@ -55,7 +55,7 @@ Examples:
     Export {
         #[command(flatten)]
         sweep: SweepArgs,
-        #[arg(long, value_name = "ENGINE", help = Engine::help())]
+        #[arg(long, value_name = "ENGINE", help = Engine::help(), value_parser = offered::<Engine>(Engine::ALL))]
         to: Engine,
     },
     /// Print the results as CSV, a row for each job, in order.

@@ -10,7 +10,7 @@ use engine::Request;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
+use commands::{ReadingArg, TablesArgs, folder, folder_name, offered, print, progress};
 
 /// The runs of each trial by default.
 const RUNS: u16 = 3;
@@ -35,7 +35,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    #[arg(long, value_name = "LIST", value_delimiter = ',', help = format!("What to vary: {} [default: all]", Varied::help()))]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = offered::<Varied>(Varied::ALL), help = format!("What to vary: {} [default: all]", Varied::help()))]
     only: Vec<Varied>,
     #[command(flatten)]
     reading: ReadingArg,

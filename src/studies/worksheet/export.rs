@@ -13,7 +13,7 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::exports::{CorrectedExport, Export, Run, mathcad, octave};
 
-use commands::{ReadingArg, print_stderr, waiting, write_or_print};
+use commands::{ReadingArg, offered, print_stderr, waiting, write_or_print};
 
 base::choices! {
     /// What executes the listings.
@@ -30,7 +30,7 @@ base::choices! {
 #[command(after_help = "\
 The listings are those printed, with the iterations of the variant printed and our results beside them.
 octave FILE.m executes the program, from any folder; MATLAB does from R2024a on, where FILE is a name
-of MATLAB's. --corrected writes the corrected algorithm of listings/corrected/ in place of the
+of MATLAB's. --corrected writes the corrected algorithm of plane-contact guide corrected in place of the
 listings: no friction, in the initial geometry.
 
 Examples:
@@ -42,7 +42,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: String,
     /// mathcad or octave.
-    #[arg(long, value_name = "PROGRAM", default_value = "mathcad")]
+    #[arg(long, value_name = "PROGRAM", default_value = "mathcad", value_parser = offered::<Target>(Target::ALL))]
     to: Target,
     /// Write the corrected algorithm.
     #[arg(long, conflicts_with = "reading")]

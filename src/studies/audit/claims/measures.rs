@@ -40,7 +40,7 @@ pub(super) fn how_good_is_the_estimate() -> String {
     quotients.sort_by(f64::total_cmp);
     format!(
         "Beside a mesh 64 times finer it was below the error in {} of {} runs, at the median {:.2} of it \
-         (golden/tables/mesh_errors.md)",
+         (plane-contact guide mesh-errors)",
         quotients.iter().filter(|quotient| **quotient < 1.0).count(),
         quotients.len(),
         quotients[quotients.len() / 2]

@@ -181,7 +181,7 @@ pub fn counts() -> String {
 fn printed_by(judged: &JudgedClaim) -> Option<String> {
     let (command, at) = (judged.command.join(" "), judged.at.join(" over "));
     match judged.claim.basis {
-        Basis::Random => Some("measured by a test: golden/tables/statuses.md".into()),
+        Basis::Random => Some("measured by a test: plane-contact guide statuses".into()),
         Basis::Nothing => None,
         Basis::Listing | Basis::Runs => {
             let at = if at.is_empty() { at } else { format!(", at {at}") };

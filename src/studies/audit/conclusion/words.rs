@@ -29,7 +29,7 @@ const CLEARANCE: &str = " The clearance of 0.1 mm is ours: with it contact spans
 
 /// What holds in wider ducts under the default reading, as golden/tables/range.md has it.
 pub const WIDER: &str = " From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both are true \
-     (golden/tables/range.md).";
+     (plane-contact guide range).";
 
 /// An answer of the conclusion.
 #[derive(Clone, Debug, Serialize)]
@@ -246,7 +246,7 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
         format!("{stress} in body {} at {at}{}", body.name, error_of_mesh(error))
     });
     let limit = match is_example(scene) {
-        true => " golden/tables/limit.md says what finer meshes with true arcs lead to.",
+        true => " `plane-contact guide limit` says what finer meshes with true arcs lead to.",
         false => "",
     };
     format!(
@@ -301,7 +301,7 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
                 format!(" No fault here, as no node slides in the equilibrium: {}.", listed(none))
             };
             format!(
-                "{} printed faults were put back, each alone, into the corrected algorithm (listings/corrected/), which \
+                "{} printed faults were put back, each alone, into the corrected algorithm (plane-contact guide corrected), which \
                  has no friction and {own}. Fatal (the run stops, or no load passes): {}. \
                  Farther or nearer, each with its distance from the equilibrium: {}. Decided by rounding: {}. Without \
                  effect: {}.{no_fault} Present, but not put back: {}. A finding that the print's \
@@ -394,7 +394,7 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
     let moved = match range {
         None => {
             format!(
-                "{} golden/tables/range.md has what else that moves; audit --range makes it again.",
+                "{} `plane-contact guide range` has what else that moves; audit --range makes it again.",
                 recorded()
             )
         }

@@ -91,7 +91,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         under(reading)
     ))
     .line(
-        "The corrected algorithm (listings/corrected/), and the same with one printed fault put back. It has \
+        "The corrected algorithm (plane-contact guide corrected), and the same with one printed fault put back. It has \
          no friction, and is compared with two solutions on the same mesh: the one that it has itself \
          (without friction, node to segment, in the initial geometry), and the equilibrium under the scene's \
          own friction.",
@@ -280,7 +280,7 @@ pub fn unsound(prices: &[Price]) -> Option<String> {
         }
         Outcome::Result { .. } => return None,
     };
-    let where_not = "listings/corrected/README.md says where it does not hold";
+    let where_not = "plane-contact guide corrected says where it does not hold";
     Some(format!("The corrected algorithm itself {why} ({where_not})"))
 }
 

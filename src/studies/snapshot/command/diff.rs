@@ -14,7 +14,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
 
-use commands::{print_either, waiting};
+use commands::{offered, offered_readings, print_either, waiting};
 
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
@@ -32,16 +32,16 @@ pub struct Args {
     #[arg(value_name = "A [B]", num_args = 1..=2, required = true)]
     sides: Vec<PathBuf>,
     /// The variants of both sides, or one for both [default: the scene's].
-    #[arg(long, value_name = "V,...", value_delimiter = ',')]
+    #[arg(long, value_name = "V,...", value_delimiter = ',', value_parser = offered::<Variant>(Variant::ALL))]
     variant: Vec<Variant>,
     /// The solvers of both sides, or one for both.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = offered::<Solver>(Solver::ALL))]
     solver: Vec<Solver>,
     /// The scalars of both sides, or one for both.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = offered::<ScalarName>(ScalarName::ALL))]
     scalar: Vec<ScalarName>,
     /// The readings of a side, as elsewhere; twice for both sides.
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, value_name = "LIST", value_parser = offered_readings())]
     reading: Vec<Reading>,
     /// Print JSON in place of text.
     #[arg(long)]

@@ -8,12 +8,12 @@ use crate::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
 use base::error::InputError;
 use base::files;
 use base::plain::shown;
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use engine::error::Result;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
 
-use commands::{MethodArgs, print_report, waiting};
+use commands::{MethodArgs, offered, print_report, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -33,15 +33,15 @@ pub struct Args {
     /// Paths of scenes, or names of embedded ones.
     #[arg(value_name = "SCENE", required = true)]
     scenes: Vec<PathBuf>,
-    #[arg(long, value_name = "V,...", value_delimiter = ',', help = format!(
+    #[arg(long, value_name = "V,...", value_delimiter = ',', value_parser = offered::<Variant>(Variant::ALL), help = format!(
         "Variants, each of which is run. {} [default: the scene's]",
         Variant::help()
     ))]
     variant: Vec<Variant>,
     #[command(flatten)]
     method: MethodArgs,
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(FIELDS.map(Quantity::name)), help = format!(
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',',
+        value_parser = PossibleValuesParser::new(FIELDS.map(offered_name)), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
         FIELDS.map(Quantity::name).join(", ")
     ))]
@@ -118,4 +118,9 @@ fn write_new(file: &Path, text: &str) -> Result<()> {
         return Err(InputError::new(place, what, fix).into());
     }
     Ok(())
+}
+
+/// Returns the name of a number; a shell would take one of several words apart.
+fn offered_name(field: Quantity) -> PossibleValue {
+    PossibleValue::new(field.name()).hide(field.name().contains(' '))
 }

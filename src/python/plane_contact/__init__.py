@@ -1,0 +1,214 @@
+"""Plane contact by finite elements: the program plane-contact, called from Python.
+
+A scene is a path, the name of a scene of the program, or a dict as a scene file has it; there
+``"mesh"`` may be a mesh of meshio, and lists may be arrays. A result is what the program prints as
+JSON: lists of numbers are numpy arrays, with nan for null, and a list of objects is a dict of its
+columns. Options are those of the command, with ``_`` for ``-``.
+
+>>> import plane_contact
+>>> result = plane_contact.reference("fig1")
+>>> result["u"].shape
+(13, 2)
+>>> bool(result["elements"]["von_mises_stress"].max() > 12)
+True
+>>> round(plane_contact.compare("fig1", result["u"])["energy_relative"], 12)
+0.0
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sysconfig
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from ._gmsh import write
+
+File = Union[str, "os.PathLike[str]"]
+Scene = Union[File, Mapping[str, Any]]
+Result = dict[str, Any]
+
+
+class Error(Exception):
+    """The program ended with another exit status than 0."""
+
+    def __init__(self, message: str, result: Optional[Result] = None):
+        super().__init__(message)
+        #: What the program printed as JSON, where it did.
+        self.result = result
+
+
+class InputError(Error):
+    """The input is at fault; the message says what, where, and how to fix it."""
+
+
+class AlgorithmFails(Error):
+    """The published algorithm fails as printed."""
+
+
+class NoEquilibrium(Error):
+    """No equilibrium was found, or more than one."""
+
+
+class Differs(Error):
+    """What was compared differs, or nothing could be compared."""
+
+
+_ERRORS = {1: Differs, 2: InputError, 3: AlgorithmFails, 4: NoEquilibrium}
+
+
+def solve(scene: Scene = "strand", **options: Any) -> Result:
+    """Runs the scene, as ``plane-contact solve`` does.
+
+    >>> solve("fig1", variant="tied", reading={"R5": "node_n"})["coupling"]
+    'nts'
+    """
+    return _json(["solve"], scene, options)
+
+
+def reference(scene: Scene = "strand", **options: Any) -> Result:
+    """Returns the reference solution: without friction, in small displacements, which is unique."""
+    return solve(scene, reference=True, **options)
+
+
+def audit(scene: Scene = "strand", **options: Any) -> Result:
+    """Judges what the paper claims on a scene, as ``plane-contact audit`` does."""
+    return _json(["audit"], scene, options)
+
+
+def compare(scene: Scene, u: Any, **options: Any) -> Result:
+    """Returns how far displacements ``u``, a row for each node, are from the reference solution.
+
+    The result has ``displacement`` (the largest difference of a node), ``displacement_relative``,
+    ``energy_relative`` (in the energy norm, over that of the reference solution), ``node`` (the
+    number of the node that differs most) and ``reference``.
+    """
+    exact = reference(scene, **options)
+    u = np.asarray(u, dtype=float)
+    if u.shape != exact["u"].shape:
+        raise ValueError(f"u has the shape {u.shape}; the scene's nodes have {exact['u'].shape}")
+    differences = np.linalg.norm(u - exact["u"], axis=1)
+    largest = np.linalg.norm(exact["u"], axis=1).max()
+    return {
+        "displacement": differences.max(),
+        "displacement_relative": _over(differences.max(), largest),
+        "energy_relative": _over(_energy_norm(exact, u - exact["u"]), _energy_norm(exact, exact["u"])),
+        "node": int(differences.argmax()) + 1,
+        "reference": exact,
+    }
+
+
+def record(scene: Scene, out: File, **options: Any) -> Result:
+    """Records a snapshot of what the scene gives in the file ``out``, and returns it."""
+    path = os.path.abspath(out)
+    _run(["snapshot", "record"], scene, {**options, "out": path})
+    recorded: Result = arrays(json.loads(Path(path).read_text(encoding="utf-8")))
+    return recorded
+
+
+def verify(*files: File, scene: Optional[File] = None) -> Result:
+    """Runs again what snapshots recorded. Raises `Differs`, whose ``result`` says what differs."""
+    return _json(["snapshot", "verify", *map(str, files)], None, {"scene": scene})
+
+
+def arrays(value: Any) -> Any:
+    """Returns JSON with arrays in place of lists of numbers, and columns in place of lists of objects."""
+    if isinstance(value, dict):
+        return {key: arrays(entry) for key, entry in value.items()}
+    if not isinstance(value, list):
+        return value
+    if value and all(isinstance(entry, dict) for entry in value):
+        keys = dict.fromkeys(key for entry in value for key in entry)
+        return {key: arrays([entry.get(key) for entry in value]) for key in keys}
+    try:
+        array = np.array(value)
+        # None becomes nan.
+        array = array.astype(float) if array.dtype == object else array
+    except (TypeError, ValueError):
+        return [arrays(entry) for entry in value]
+    return array if array.dtype.kind in "bif" else [arrays(entry) for entry in value]
+
+
+def program() -> str:
+    """Returns the path of the program: that of this installation, else the one on the PATH."""
+    here = sysconfig.get_path("scripts")
+    found = shutil.which("plane-contact", path=here) or shutil.which("plane-contact")
+    if found is None:
+        raise FileNotFoundError("the program plane-contact is neither beside Python nor on the PATH")
+    return found
+
+
+def _json(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> Result:
+    result: Result = arrays(json.loads(_run(command, scene, {**options, "json": True})))
+    return result
+
+
+def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> str:
+    """Returns what the program prints; a scene that is a dict is given to it on standard input."""
+    words = [program(), *command]
+    for option, value in options.items():
+        if value is not None and value is not False:
+            name = "--" + option.replace("_", "-")
+            words += [name] if value is True else [f"{name}={_word(value)}"]
+    with tempfile.TemporaryDirectory() as folder:
+        text, place = None, None
+        if isinstance(scene, Mapping):
+            scene = dict(scene)
+            if hasattr(scene.get("mesh"), "cells"):
+                write(os.path.join(folder, "mesh.msh"), scene["mesh"])
+                scene["mesh"], place = "mesh.msh", folder
+            text = json.dumps(scene, default=lambda array: array.tolist())
+            words.append("-")
+        elif scene is not None:
+            words += ["--", os.fspath(scene)]
+        ran = subprocess.run(words, input=text, capture_output=True, encoding="utf-8", cwd=place)
+    if ran.returncode != 0:
+        raise _error(ran)
+    return ran.stdout
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return ",".join(f"{key}={entry}" for key, entry in value.items())
+    return ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+
+
+def _error(ran: "subprocess.CompletedProcess[str]") -> Error:
+    try:
+        result = json.loads(ran.stdout)
+    except ValueError:
+        result = None
+    message = ran.stderr.strip() or f"plane-contact ended with {ran.returncode}"
+    if result is not None and "failure" in result:
+        message = result["failure"]["message"]
+    elif ran.returncode == 1 and result is not None:
+        names = [file["file"] for file in result.get("files", []) if not file["same"]]
+        message = f"{', '.join(names)}: not as recorded"
+    return _ERRORS.get(ran.returncode, Error)(message, arrays(result))
+
+
+def _energy_norm(result: Result, u: np.ndarray) -> float:
+    """Returns sqrt(uᵀ K u) of a field on the triangles of a result, whose strains are constant."""
+    at = result["elements"]["nodes"] - 1
+    x, y = result["nodes"][at].transpose(2, 0, 1)
+    # Twice the gradients of the shape functions times the area: differences to the nodes that follow.
+    dx, dy = np.roll(x, 1, 1) - np.roll(x, -1, 1), np.roll(y, -1, 1) - np.roll(y, 1, 1)
+    area = (x * dy).sum(1) / 2
+    ux, uy = u[at].transpose(2, 0, 1)
+    xx, yy = (ux * dy).sum(1), (uy * dx).sum(1)
+    xy = (ux * dx).sum(1) + (uy * dy).sum(1)
+    material = result["elements"]["material"] - 1
+    e, nu = (result["materials"][name][material] for name in ("E", "nu"))
+    shear = e / (2 * (1 + nu))
+    lame = 2 * shear * nu / (1 - (2 * nu if result["reading"]["R6"] == "strain" else nu))
+    density = lame * (xx + yy) ** 2 + 2 * shear * (xx**2 + yy**2) + shear * xy**2
+    return float(np.sqrt((density / (4 * area)).sum() * result["thickness"]))
+
+
+def _over(value: float, scale: float) -> float:
+    return float(value / scale) if scale > 0 else float(np.nan if value == 0 else np.inf)

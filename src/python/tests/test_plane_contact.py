@@ -1,0 +1,191 @@
+"""The package beside scikit-fem, an independent code, and what it does with scenes and errors."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+import skfem
+from scipy.sparse.linalg import spsolve
+from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+import plane_contact
+
+ROOT = Path(__file__).parents[3]
+LOWER, UPPER = (100.0, 0.25), (200.0, 0.3)
+PRESSURE = 1.5
+
+
+def block(bottom: float) -> skfem.MeshTri:
+    return skfem.MeshTri.init_tensor(np.linspace(0, 4, 17), np.linspace(bottom, bottom + 1, 5))
+
+
+def scene(mesh: skfem.MeshTri, bodies: dict, top: float, contact: bool) -> dict:
+    """A scene whose mesh is one of meshio: pressed on its top between x = 1 and 3, held below."""
+    middle = mesh.p[:, mesh.facets].mean(axis=1)
+    lines = {
+        "bottom": np.isclose(middle[1], -1),
+        "pressed": np.isclose(middle[1], top) & (abs(middle[0] - 2) < 1),
+    }
+    centre = mesh.p[:, mesh.t].mean(axis=1)
+    if contact:
+        on = np.isclose(middle[1], 0) & np.isin(np.arange(mesh.nfacets), mesh.boundary_facets())
+        of = np.isin(mesh.facets[0], mesh.t[:, centre[1] > 0])
+        lines |= {"face": on & of, "target": on & ~of}
+    sets = {name: [np.flatnonzero(is_in), None] for name, is_in in lines.items()}
+    for name, (low, high) in bodies.items():
+        sets[name] = [None, np.flatnonzero((centre[1] > low) & (centre[1] < high))]
+    # scikit-fem sorts the nodes of a triangle; here they run counter-clockwise.
+    (x1, x2, x3), (y1, y2, y3) = mesh.p[:, mesh.t]
+    turned = (x2 - x1) * (y3 - y1) < (x3 - x1) * (y2 - y1)
+    triangles = np.where(turned, mesh.t[[0, 2, 1]], mesh.t)
+    cells = [("line", mesh.facets.T), ("triangle", triangles.T)]
+    description = {
+        "mesh": meshio.Mesh(mesh.p.T, cells, cell_sets=sets),
+        "plane": "strain",
+        "materials": {
+            name: dict(zip(("E", "nu"), UPPER if name == "upper" else LOWER)) for name in bodies
+        },
+        "restraints": [{"on": "bottom", "fix": ["x", "y"]}],
+        "loads": [{"on": "pressed", "pressure": PRESSURE}],
+    }
+    if contact:
+        description["contact"] = {"cnt": "face", "trg": "target", "c_tll": 1e-6, "friction": 0}
+        description["restraints"].append({"at": [2.0, top], "fix": ["x"]})
+    return description
+
+
+def system(mesh: skfem.MeshTri, top: float):
+    """The stiffness matrix and the load of scikit-fem, with degrees of freedom node by node."""
+    centre = mesh.p[:, mesh.t].mean(axis=1)
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementTriP1()))
+    parts = []
+    for (e, nu), elements in [(LOWER, centre[1] < 0), (UPPER, centre[1] > 0)]:
+        part = skfem.Basis(mesh, basis.elem, elements=np.flatnonzero(elements))
+        if elements.any():
+            parts.append(linear_elasticity(*lame_parameters(e, nu)).assemble(part))
+    pressed = mesh.facets_satisfying(lambda x: np.isclose(x[1], top) & (abs(x[0] - 2) < 1))
+    facets = skfem.FacetBasis(mesh, basis.elem, facets=pressed)
+    load = skfem.LinearForm(lambda v, w: -PRESSURE * v[1]).assemble(facets)
+    return basis, sum(parts), load
+
+
+def test_a_block_as_scikit_fem_has_it():
+    mesh = block(-1)
+    basis, matrix, load = system(mesh, 0)
+    held = basis.get_dofs(lambda x: np.isclose(x[1], -1)).all()
+    u = skfem.solve(*skfem.condense(matrix, load, D=held))[basis.nodal_dofs].T
+    compared = plane_contact.compare(scene(mesh, {"lower": (-1, 0)}, 0, False), u)
+    assert compared["displacement_relative"] < 1e-11
+    assert compared["energy_relative"] < 1e-11
+
+
+def test_contact_that_recedes_as_scikit_fem_has_it(plane_contact_reference):
+    lower, upper = block(-1), block(0)
+    mesh = skfem.MeshTri(
+        np.hstack([lower.p, upper.p]), np.hstack([lower.t, upper.t + lower.nvertices])
+    )
+    basis, matrix, load = system(mesh, 1)
+    dofs = basis.nodal_dofs
+    node = lambda x, y, of: np.flatnonzero(np.isclose(mesh.p[0], x) & np.isclose(mesh.p[1], y) & of)[0]
+    is_lower = np.arange(mesh.nvertices) < lower.nvertices
+    pairs = [(node(x, 0, ~is_lower), node(x, 0, is_lower)) for x in np.linspace(0, 4, 17)]
+    held = np.append(dofs[:, np.isclose(mesh.p[1], -1)].ravel(), dofs[0, node(2, 1, ~is_lower)])
+    free = np.setdiff1d(np.arange(basis.N), held)
+    above, below = dofs[1, [a for a, _ in pairs]], dofs[1, [b for _, b in pairs]]
+    closed = np.ones(len(pairs), dtype=bool)
+    for _ in range(20):
+        rows = np.arange(closed.sum())
+        ones = np.ones(len(rows))
+        ties = sparse.coo_matrix((ones, (rows, above[closed])), (len(rows), basis.N)).tocsr()
+        ties -= sparse.coo_matrix((ones, (rows, below[closed])), (len(rows), basis.N)).tocsr()
+        both = sparse.bmat([[matrix[free][:, free], ties[:, free].T], [ties[:, free], None]])
+        solved = spsolve(both.tocsc(), np.append(load[free], np.zeros(len(rows))))
+        u = np.zeros(basis.N)
+        u[free] = solved[: len(free)]
+        force = np.zeros(len(pairs))
+        force[closed] = -solved[len(free) :]
+        wanted = np.where(closed, force > 0, u[above] < u[below])
+        if (wanted == closed).all():
+            break
+        closed = wanted
+    assert 3 <= closed.sum() < len(pairs), "the blocks part at their ends"
+    described = scene(mesh, {"lower": (-1, 0), "upper": (0, 1)}, 1, True)
+    compared = plane_contact.compare(described, u[dofs].T)
+    assert compared["displacement_relative"] < 1e-9
+    assert compared["energy_relative"] < 1e-9
+    contact = plane_contact_reference(described)["contact"]
+    order = np.argsort(mesh.p[0, contact["node"] - 1])
+    np.testing.assert_allclose(contact["force"][order], force, atol=1e-9 * force.max())
+
+
+def test_compare_is_the_distance_that_the_program_prints():
+    tied = plane_contact.solve("fig1", variant="tied")
+    compared = plane_contact.compare("fig1", tied["u"])
+    for name in ["displacement", "displacement_relative", "energy_relative"]:
+        assert compared[name] == pytest.approx(tied["distance"][name], rel=1e-9)
+
+
+def test_a_scene_is_a_path_a_name_or_a_dict_with_arrays(tmp_path):
+    path = ROOT / "golden/fig1/scene.json"
+    described = json.loads(path.read_text(encoding="utf-8"))
+    described["node"] = np.array(described["node"])
+    results = [plane_contact.solve(of)["u"] for of in ["fig1", path, str(path), described]]
+    for u in results[1:]:
+        assert (u == results[0]).all()
+
+
+def test_a_mesh_that_gmsh_wrote_is_the_same_through_meshio():
+    folder = ROOT / "golden/strand"
+    described = json.loads((folder / "scene.json").read_text(encoding="utf-8"))
+    described["mesh"] = meshio.read(folder / "strand.msh")
+    through, own = (plane_contact.reference(of)["u"] for of in [described, "strand"])
+    np.testing.assert_allclose(through, own, atol=1e-12 * abs(own).max())
+
+
+def test_errors_have_a_type_for_each_exit_status(tmp_path):
+    with pytest.raises(plane_contact.InputError, match="cannot be read") as caught:
+        plane_contact.solve("nowhere")
+    assert caught.value.result["failure"]["where"] == "nowhere"
+    with pytest.raises(plane_contact.AlgorithmFails, match="line 18"):
+        plane_contact.solve("fig1", reading={"R4": "eager"})
+    with pytest.raises(plane_contact.InputError, match="friction"):
+        plane_contact.record("fig1", tmp_path / "s.json", friction=-1)
+    with pytest.raises(ValueError, match="shape"):
+        plane_contact.compare("fig1", np.zeros((3, 2)))
+    described = json.loads((ROOT / "golden/fig1/scene.json").read_text(encoding="utf-8"))
+    described["restraints"] = described["restraints"][:1]
+    described["loads"] = [{"on": 21, "traction": [0.0, 6.3]}]
+    with pytest.raises(plane_contact.NoEquilibrium):
+        plane_contact.reference(described)
+
+
+def test_a_snapshot_is_recorded_and_verified(tmp_path):
+    path = tmp_path / "fig1.snapshot.json"
+    recorded = plane_contact.record("fig1", path, variant=["tied", "stepped"])
+    assert list(recorded["runs"]) == ["tied", "stepped"]
+    assert plane_contact.verify(path)["same"] is True
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('"iterations": 20', '"iterations": 19', 1), encoding="utf-8")
+    with pytest.raises(plane_contact.Differs, match="fig1.snapshot.json") as caught:
+        plane_contact.verify(path)
+    assert caught.value.result["same"] is False
+
+
+def test_the_example_of_the_front_page_runs(capsys):
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    exec(page.split("```python\n")[1].split("```")[0], {})
+    error, stress = map(float, capsys.readouterr().out.split())
+    tied = plane_contact.solve("fig1", variant="tied")
+    assert error == pytest.approx(tied["distance"]["energy_relative"], rel=1e-9)
+    assert stress > 12
+
+
+def test_it_is_typed():
+    folder = Path(plane_contact.__file__).parent
+    assert (folder / "py.typed").exists()
+    checked = subprocess.run(["mypy", "--strict", str(folder)], capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout

@@ -1,0 +1,185 @@
+//! The recipes of `src/guide/snapshots.md`, executed as they stand there, and `.pre-commit-hooks.yaml`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+use crate::common::program::run;
+use crate::common::tools::is_there;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// In place of `cargo install --git`: the options and the package are read by Cargo, from the sources here, and
+/// nothing is built. Only a Cargo that is to be developed has such a trial run.
+const CARGO: &str = r#"#!/bin/sh
+[ "$1 $2 $3 $4" = "install --locked --git $PLANE_CONTACT" ] && [ "$5" = plane-contact ] || exit 9
+RUSTC_BOOTSTRAP=1 exec "$REAL_CARGO" -Zunstable-options install --dry-run --locked --offline \
+    --root "$PWD/installed" --path "$ROOT" "$5"
+"#;
+
+/// The blocks of code of a language on the page.
+fn blocks(language: &str) -> Vec<String> {
+    let page =
+        fs::read_to_string(Path::new(ROOT).join("src/guide/snapshots.md")).expect("the page");
+    let start = format!("```{language}\n");
+    page.split(&start)
+        .skip(1)
+        .map(|rest| rest.split("```").next().expect("a block").into())
+        .collect()
+}
+
+/// A folder with a scene and its snapshot in `my`, and a folder of programs, in front of all others.
+fn repository() -> (TempDir, PathBuf) {
+    let folder = TempDir::new().expect("a folder");
+    let copied = run(folder.path(), &["scene", "copy", "fig1", "--out", "my"]);
+    assert!(copied.status.success());
+    fs::rename(folder.path().join("my/scene.json"), folder.path().join("my/block.json"))
+        .expect("moved");
+    let args = ["snapshot", "record", "my/block.json", "--out", "my/block.snapshot.json"];
+    assert!(run(folder.path(), &args).status.success());
+    let programs = folder.path().join("programs");
+    fs::create_dir(&programs).expect("a folder");
+    fs::copy(env!("CARGO_BIN_EXE_plane-contact"), programs.join("plane-contact")).expect("copied");
+    (folder, programs)
+}
+
+/// Edits the scene, which its snapshot then differs from.
+fn edit(folder: &Path) {
+    let scene = folder.join("my/block.json");
+    let text = fs::read_to_string(&scene).expect("the scene");
+    fs::write(&scene, text.replace("30000", "31000")).expect("written");
+}
+
+fn command(program: &str, args: &[&str], folder: &Path, programs: &Path) -> Command {
+    let path = std::env::var("PATH").expect("a path");
+    let mut command = Command::new(program);
+    command.args(args).current_dir(folder);
+    command.env("PATH", format!("{}:{path}", programs.display()));
+    command
+}
+
+#[track_caller]
+fn succeeds(output: &Output, what: &str) {
+    let text = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success(), "{what}: {}{}", text[0], text[1]);
+}
+
+/// Every `run:` line of the recipe of a forge, as the forge runs it.
+#[cfg(unix)]
+#[test]
+fn every_line_of_the_recipe_for_a_forge_runs() {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, programs) = repository();
+    fs::write(programs.join("cargo"), CARGO).expect("written");
+    fs::set_permissions(programs.join("cargo"), fs::Permissions::from_mode(0o755)).expect("set");
+    let recipe =
+        blocks("yaml").into_iter().find(|block| block.contains("jobs:")).expect("a recipe");
+    let steps = |line: &str| {
+        let output = command("bash", &["-e", "-c", line], folder.path(), &programs)
+            .env("PLANE_CONTACT", "https://example.org/plane-contact.git")
+            .env("GITHUB_STEP_SUMMARY", folder.path().join("summary"))
+            .env("REAL_CARGO", env!("CARGO"))
+            .env("ROOT", ROOT)
+            .output();
+        output.expect("bash")
+    };
+    let lines: Vec<&str> =
+        recipe.lines().filter_map(|line| line.trim().strip_prefix("- run: ")).collect();
+    assert_eq!(lines.len(), 3, "{lines:?}");
+    for line in &lines {
+        succeeds(&steps(line), line);
+    }
+    let summary = || fs::read_to_string(folder.path().join("summary")).expect("a summary");
+    assert!(summary().contains("block.snapshot.json: same"), "{}", summary());
+    let junit = fs::read_to_string(folder.path().join("verify.xml")).expect("a file of JUnit");
+    assert!(junit.contains("<testsuite"), "{junit}");
+    edit(folder.path());
+    assert_eq!(steps(lines[1]).status.code(), Some(1));
+    succeeds(&steps(lines[2]), lines[2]);
+    assert!(summary().contains("31000.0, was 30000.0"), "{}", summary());
+}
+
+#[cfg(unix)]
+#[test]
+fn the_recipe_for_a_shell_runs() {
+    let (folder, programs) = repository();
+    let lines = blocks("sh");
+    let line = lines.iter().find(|block| block.lines().count() == 1).expect("a line");
+    let status = || {
+        let output = command("sh", &["-c", line], folder.path(), &programs).output();
+        output.expect("sh").status.code()
+    };
+    assert_eq!(status(), Some(0));
+    edit(folder.path());
+    assert_eq!(status(), Some(1));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_recipe_for_ctest_runs() {
+    let mut ctest = Command::new("ctest");
+    ctest.arg("--version");
+    if !is_there(ctest, "REQUIRE_CTEST") {
+        return;
+    }
+    let (folder, programs) = repository();
+    let head = "cmake_minimum_required(VERSION 3.16)\nproject(my NONE)\nenable_testing()\n";
+    fs::write(folder.path().join("CMakeLists.txt"), head.to_string() + &blocks("cmake")[0])
+        .expect("written");
+    let ran = |program: &str, args: &[&str]| {
+        command(program, args, folder.path(), &programs).output().expect(program)
+    };
+    succeeds(&ran("cmake", &["-S", ".", "-B", "build"]), "cmake");
+    succeeds(&ran("ctest", &["--test-dir", "build", "--output-on-failure"]), "ctest");
+    edit(folder.path());
+    assert!(!ran("ctest", &["--test-dir", "build"]).status.success());
+}
+
+#[cfg(unix)]
+#[test]
+fn the_recipe_for_pytest_runs() {
+    let mut python = Command::new("python3");
+    python.args(["-c", "import numpy, pytest"]);
+    if !is_there(python, "REQUIRE_PYTEST") {
+        return;
+    }
+    let (folder, programs) = repository();
+    fs::write(folder.path().join("test_snapshots.py"), &blocks("python")[0]).expect("written");
+    let pytest = || {
+        let args =
+            ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "plane_contact.pytest_plugin"];
+        let output = command("python3", &args, folder.path(), &programs)
+            .env("PYTHONPATH", Path::new(ROOT).join("src/python"))
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .output();
+        output.expect("python3")
+    };
+    let output = pytest();
+    succeeds(&output, "pytest");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("2 passed"));
+    edit(folder.path());
+    let output = pytest();
+    assert!(String::from_utf8_lossy(&output.stdout).contains("Differs"), "{output:?}");
+}
+
+/// The hook finds the snapshots of a repository, whatever their folder.
+#[cfg(unix)]
+#[test]
+fn the_hook_verifies_the_snapshots_of_a_repository() {
+    let (folder, programs) = repository();
+    let hooks = fs::read_to_string(Path::new(ROOT).join(".pre-commit-hooks.yaml")).expect("hooks");
+    let entry =
+        hooks.lines().find_map(|line| line.trim().strip_prefix("entry: ")).expect("an entry");
+    for args in [&["init", "-q"][..], &["add", "my"]] {
+        succeeds(&command("git", args, folder.path(), &programs).output().expect("git"), "git");
+    }
+    let status = || {
+        let output = command("sh", &["-c", entry], folder.path(), &programs).output();
+        output.expect("sh").status.success()
+    };
+    assert!(status());
+    edit(folder.path());
+    assert!(!status());
+}

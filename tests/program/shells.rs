@@ -1,0 +1,123 @@
+//! Completions as shells read them, and the man pages.
+
+use std::path::Path;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use crate::common::tools::is_there;
+use crate::texts::{commands, printed};
+
+/// Completes as readline does: it calls the registered function with the command, the word and the word before.
+const BASH: &str = r#"
+    source ./script
+    COMP_WORDS=($1 '') COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    [[ $1 == *' ' ]] || { unset 'COMP_WORDS[-1]'; COMP_CWORD=$((COMP_CWORD - 1)); }
+    registered=$(complete -p plane-contact)
+    [[ $registered =~ -F\ ([^\ ]+) ]]
+    "${BASH_REMATCH[1]}" plane-contact "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD-1]}" 2>/dev/null
+    printf '%s\n' "${COMPREPLY[@]}"
+"#;
+
+const FISH: &str = "source ./script; complete -C $argv[1]";
+
+/// Presses Tab in a terminal.
+const ZSH: &str = r#"
+    zmodload zsh/zpty
+    zpty z zsh -f -i
+    zpty -w z 'autoload -U compinit; compinit -u -D; bindkey "^I" list-choices; source ./script; PROMPT="<${:-ready}>"'
+    zpty -r z shown '*<ready>*'
+    zpty -w -n z "$1"$'\t\C-u'
+    zpty -w z 'print "<${:-done}>"'
+    zpty -r z shown '*<done>*'
+    print -r -- "$shown"
+"#;
+
+/// Returns what a shell shows on Tab after `line`.
+fn offered(shell: &str, line: &str) -> String {
+    let folder = TempDir::new().expect("a folder");
+    let script = printed(&["--completions", shell]);
+    std::fs::write(folder.path().join("script"), script).expect("it is written");
+    let (program, more): (&str, &[&str]) = match shell {
+        "bash" => (BASH, &["--norc", "-c"]),
+        "fish" => (FISH, &["-c"]),
+        _ => (ZSH, &["-f", "-c"]),
+    };
+    let mut command = Command::new(shell);
+    command
+        .args(more)
+        .arg(program)
+        .args(if shell == "fish" { None } else { Some(shell) })
+        .arg(line);
+    let output = command.current_dir(folder.path()).env("HOME", folder.path()).output();
+    String::from_utf8_lossy(&output.expect(shell).stdout).into_owned()
+}
+
+#[test]
+fn shells_complete_commands_options_and_values() {
+    // Values of arguments without an option are not among what fish gets from clap.
+    let lines: [(&str, &[&str], bool); 8] = [
+        ("plane-contact so", &["solve"], true),
+        ("plane-contact snapshot re", &["record"], true),
+        ("plane-contact listing run ", &["c_cnt", "Km"], true),
+        ("plane-contact solve --no-p", &["--no-pictures"], true),
+        (
+            "plane-contact solve fig1 --variant ",
+            &["printed", "tied", "stepped", "unilateral"],
+            true,
+        ),
+        ("plane-contact audit --claim P1", &["P12"], true),
+        ("plane-contact solve --reading R5", &["R5=node_n"], true),
+        ("plane-contact guide sce", &["scenes"], false),
+    ];
+    for shell in ["bash", "zsh", "fish"] {
+        let mut version = Command::new(shell);
+        version.arg("--version");
+        if !is_there(version, "REQUIRE_SHELLS") {
+            continue;
+        }
+        for (line, wanted, in_fish) in lines {
+            if shell == "fish" && !in_fish {
+                continue;
+            }
+            let shown = offered(shell, line);
+            for word in wanted {
+                let word = word.split('=').next_back().expect("a part");
+                assert!(shown.contains(word), "{shell}: {line}: {word} is not in {shown:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_shell_has_a_script() {
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        assert!(!printed(&["--completions", shell]).is_empty());
+    }
+}
+
+/// Every command has a page, which `man` renders.
+#[test]
+fn every_command_has_a_man_page() {
+    let folder = TempDir::new().expect("a folder");
+    let pages = folder.path().join("man");
+    printed(&["--man", pages.to_str().expect("UTF-8")]);
+    let names = commands()
+        .into_iter()
+        .map(|command| format!("plane-contact-{}.1", command.replace(' ', "-")));
+    let names: Vec<String> = names.chain(["plane-contact.1".into()]).collect();
+    for name in &names {
+        let page = std::fs::read_to_string(pages.join(name)).expect(name);
+        for part in [".TH ", ".SH NAME", ".SH SYNOPSIS"] {
+            assert!(page.contains(part), "{part}: {page}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(&pages).expect("it is there").count(), names.len());
+    let rendered = |name: &String| {
+        let man = Command::new("man").arg("-l").arg(Path::new(&pages).join(name)).output();
+        man.is_ok_and(|man| String::from_utf8_lossy(&man.stdout).contains("SYNOPSIS"))
+    };
+    let mut man = Command::new("man");
+    man.arg("--version");
+    assert!(!is_there(man, "REQUIRE_SHELLS") || names.iter().all(rendered));
+}
