@@ -7,6 +7,7 @@ pub mod calculix;
 pub mod command;
 pub mod document;
 pub mod extremes;
+pub mod field;
 pub mod lesson;
 mod listing;
 mod scene;

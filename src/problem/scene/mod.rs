@@ -11,6 +11,7 @@ mod check;
 mod description;
 mod embedded;
 pub mod file;
+mod first;
 mod fold;
 pub mod gmsh;
 mod groups;
@@ -38,6 +39,7 @@ pub use description::{
     Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
 };
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
+pub use first::{FirstScene, first};
 pub use groups::GroupRef;
 use groups::Groups;
 pub use hashes::{sha256, sha256_of, source_hashes};

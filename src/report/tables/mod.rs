@@ -11,6 +11,7 @@ pub use call::{figure_numbers, pairs};
 pub use distance::distance;
 pub use equilibrium::nearest_decision;
 pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
+pub use result::decimals;
 
 use crate::layout::{counted, listed};
 use crate::model::Report;

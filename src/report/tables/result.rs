@@ -176,7 +176,7 @@ fn place(solution: &Solution, node: NodeId) -> String {
 }
 
 /// Returns the decimals of places: four digits of the size of the bodies.
-fn decimals(solution: &Solution) -> usize {
+pub fn decimals(solution: &Solution) -> usize {
     (4.0 - solution.model.bounds().larger_side().log10()).ceil().clamp(0.0, 12.0) as usize
 }
 
