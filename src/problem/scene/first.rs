@@ -88,12 +88,20 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         rest.next().map(|on| json!({ "on": on, "fix": ["x", "y"] })).into_iter().collect();
     let loads: Vec<Value> =
         rest.next_back().map(|on| json!({ "on": on, "pressure": null })).into_iter().collect();
-    let guess = |what: &str, values: &[Value], where_: &str| match values {
+    let guess = |what: &str, values: &[Value], extreme: &str| match values {
         [] => format!("{what}: no group of edges is left for it"),
-        [value, ..] => format!("{what}: on {}, the {where_}", value["on"]),
+        [value, ..] => format!("{what}: on {}, the {extreme}", value["on"]),
     };
-    notes.push(guess("restraint", &restraints, "lowest"));
-    notes.push(guess("load", &loads, "highest"));
+    if groups.all(1).is_empty() {
+        notes.push(
+            "the mesh has no group of edges, by which a scene names restraints, loads and contact: in Gmsh add those \
+             that you need, as in Physical Curve(\"bottom\") = {1}; and mesh again"
+                .into(),
+        );
+    } else {
+        notes.push(guess("restraint", &restraints, "lowest"));
+        notes.push(guess("load", &loads, "highest"));
+    }
     let rest: Vec<String> = rest.map(GroupRef::to_string).collect();
     if !rest.is_empty() {
         notes.push(format!("left for more restraints and loads: {}", rest.join(", ")));

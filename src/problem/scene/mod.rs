@@ -27,6 +27,7 @@ mod source;
 mod support;
 pub mod surface;
 pub mod symmetry;
+mod units;
 
 use serde::Serialize;
 use std::path::Path;
@@ -146,7 +147,8 @@ impl Scene {
         }
     }
 
-    /// Says what the mesh file has in another form than the mesh here, and where the mesh has slits, in sentences.
+    /// Says what the mesh file has in another form than the mesh here, where the mesh has slits, and what looks like a
+    /// mistake of units, in sentences.
     pub fn adapted(&self) -> &[String] {
         self.source.as_deref().map_or(&[], |source| &source.notes)
     }
@@ -208,6 +210,7 @@ impl Scene {
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
+        let notes = notes.chain(units::misfit(&description.units));
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
         Ok(Scene {

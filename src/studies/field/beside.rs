@@ -81,8 +81,14 @@ impl<'a> Beside<'a> {
     }
 }
 
-/// A value of a contact node, and the node.
-type AtNode = Option<(NodeId, f64)>;
+/// The value of a node.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct AtNode {
+    /// The node.
+    pub node: NodeId,
+    /// Its value.
+    pub value: f64,
+}
 
 /// What displacements imply of contact.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -90,13 +96,13 @@ pub struct ContactValues {
     /// The force on the target's body along x and y, force.
     pub force: Option<[f64; 2]>,
     /// The deepest penetration, length; 0 where there is none.
-    pub penetration: AtNode,
+    pub penetration: Option<AtNode>,
     /// The largest pressure, stress.
-    pub pressure: AtNode,
+    pub pressure: Option<AtNode>,
     /// The largest traction that pulls, stress; 0 where none does.
-    pub pull: AtNode,
+    pub pull: Option<AtNode>,
     /// The largest shear, stress.
-    pub shear: AtNode,
+    pub shear: Option<AtNode>,
 }
 
 impl ContactValues {
@@ -106,12 +112,14 @@ impl ContactValues {
         // Up to a part of `size` a value is rounding.
         let largest = |value: &dyn Fn(&ContactNode) -> Option<f64>, size: f64| {
             let beyond = |value: f64| if value > ROUNDING_OF_A_FORCE * size { value } else { 0.0 };
-            let values =
-                solution.contact.iter().filter_map(|at| Some((at.node, beyond(value(at)?))));
-            values.reduce(|a, b| if b.1 > a.1 { b } else { a })
+            let values = solution
+                .contact
+                .iter()
+                .filter_map(|at| Some(AtNode { node: at.node, value: beyond(value(at)?) }));
+            values.reduce(|a, b| if b.value > a.value { b } else { a })
         };
         let pressure = largest(&|at| at.pressure, 0.0);
-        let size = pressure.map_or(0.0, |(_, pressure)| pressure);
+        let size = pressure.map_or(0.0, |at| at.value);
         Some(ContactValues {
             force: engine::resultant(solution).map(|passed| passed.force),
             penetration: largest(&|at| Some(-at.gap), max_displacement(&solution.u)),

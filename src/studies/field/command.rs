@@ -7,7 +7,7 @@ use super::{Beside, Rows};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use engine::error::Result;
-use engine::{self, Request};
+use engine::{self, Request, max_displacement};
 
 use commands::{TablesArgs, print, waiting};
 
@@ -30,8 +30,8 @@ pub fn run(
     let (u, how) = rows.on_mesh(&request.scene, &request.scene.model)?;
     let reference = waiting("solving", || engine::solve(request, &mut |_| ()))?;
     let beside = Beside::new(&reference, u, tolerance)?;
-    if ![beside.distance.displacement, beside.distance.energy_relative].iter().all(|x| !x.is_nan())
-    {
+    let moves = max_displacement(&reference.u) > 0.0;
+    if moves && !beside.distance.energy_relative.is_finite() {
         let what = "the displacements are too large for their energy to be a number";
         return Err(
             InputError::new(rows.place, what, "give them in the scene's unit of length").into()

@@ -12,7 +12,7 @@ mod csv;
 mod table;
 mod vtu;
 
-pub use beside::{Beside, BodyDifference, ContactValues};
+pub use beside::{AtNode, Beside, BodyDifference, ContactValues};
 
 use std::path::Path;
 
@@ -85,7 +85,7 @@ impl Rows {
             }
             if let Some(before) = found[node.index()].replace(row) {
                 let what = format!(
-                    "node {node} is that of {} {} and of {}",
+                    "node {node} is that of {} {} and that of {}",
                     self.kind, before.line, row.line
                 );
                 return Err(self.wrong(what, "give each node one row"));

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Beside, BodyDifference, ContactValues, Rows};
+use super::{AtNode, Beside, BodyDifference, ContactValues, Rows};
 use engine::Distance;
-use numbers::finite;
 use problem::model::NodeId;
 use problem::modelling::{ContactModel, Variant};
 use report::json;
@@ -36,16 +35,13 @@ pub fn report(compared: &Compared) -> Report {
     let Compared { rows, how, beside } = compared;
     let (reference, model) = (beside.reference, &*beside.reference.model);
     let request = &reference.request;
-    let units = &request.scene.units;
     let nodes = model.nodes.len();
     let others = reference.has_others().then_some(
         "NOTE: the solution compared with is not the only equilibrium: solve says which others there are",
     );
     Report::titled(&request.scene.title)
-        .line(format!(
-            "scene {} beside {}: {}, {nodes} nodes, found {how}",
-            request.scene.name, rows.place, rows.taken
-        ))
+        .line(format!("scene {} beside {}", request.scene.name, rows.place))
+        .line(format!("{}; {nodes} nodes, found {how}", rows.taken))
         .line(format!(
             "compared with {}, {} geometry",
             pressure::name(reference),
@@ -63,11 +59,14 @@ pub fn report(compared: &Compared) -> Report {
 /// Says whether the field is the reference solution, and how far it is.
 fn verdict(beside: &Beside) -> [String; 3] {
     let Distance { displacement, displacement_relative, energy_relative, .. } = beside.distance;
-    let is_same = if beside.is_same() { "Same" } else { "DIFFERENT" };
+    let (verdict, joined) = match beside.is_same() {
+        true => ("Same within", "and"),
+        false => ("DIFFERENT by more than", "or"),
+    };
     let units = &beside.reference.request.scene.units;
     [
         format!(
-            "{is_same} within {} (--rtol), in the energy norm and in displacements",
+            "{verdict} {} (--rtol), in the energy norm {joined} in displacements",
             six_digits(beside.tolerance)
         ),
         format!("Distance in the energy norm: {}", part(energy_relative)),
@@ -79,10 +78,10 @@ fn verdict(beside: &Beside) -> [String; 3] {
     ]
 }
 
-/// Writes a part of 1 in per cent, and a small one as a power of ten, which a tolerance may be.
+/// Writes a part of 1 in per cent, and a very small or large one as a power of ten.
 fn part(part: f64) -> String {
-    let is_small = part != 0.0 && part < 1e-4;
-    if is_small { figure(part, None) } else { percent(part) }
+    let is_handy = part == 0.0 || (1e-4..1e3).contains(&part);
+    if is_handy { percent(part) } else { figure(part, None) }
 }
 
 /// Says where the field is not in equilibrium inside the bodies, so that its tractions are not those of contact.
@@ -130,8 +129,10 @@ fn contact(beside: &Beside) -> Report {
         }
         None => "none".into(),
     };
-    let value = |at: Option<(NodeId, f64)>| match at {
-        Some((node, value)) if value != 0.0 => format!("{}, node {node}", figure(value, None)),
+    let value = |at: Option<AtNode>| match at {
+        Some(AtNode { node, value }) if value != 0.0 => {
+            format!("{}, node {node}", figure(value, None))
+        }
         Some(_) => "0".into(),
         None => "-".into(),
     };
@@ -190,11 +191,18 @@ struct Document<'a> {
     distance: &'a Distance,
     bodies: &'a [BodyDifference],
     /// The node inside the bodies with the largest force that nothing balances, and its part of the largest.
-    unbalanced: Option<(NodeId, f64)>,
-    contact: [Option<ContactValues>; 2],
+    unbalanced: Option<AtNode>,
+    contact: ContactOfBoth,
     worst_nodes: Vec<NodeId>,
     /// The difference of each node, length.
     nodes: &'a [f64],
+}
+
+/// What both imply of contact; null without contact.
+#[derive(Serialize)]
+struct ContactOfBoth {
+    field: Option<ContactValues>,
+    reference: Option<ContactValues>,
 }
 
 /// Returns the comparison as JSON.
@@ -212,8 +220,11 @@ pub fn json(compared: &Compared) -> String {
         has_others: beside.reference.has_others(),
         distance: &beside.distance,
         bodies: &beside.bodies,
-        unbalanced: beside.unbalanced.filter(|(_, size)| finite(*size).is_some()),
-        contact: [&beside.field, beside.reference].map(ContactValues::of),
+        unbalanced: beside.unbalanced.map(|(node, value)| AtNode { node, value }),
+        contact: ContactOfBoth {
+            field: ContactValues::of(&beside.field),
+            reference: ContactValues::of(beside.reference),
+        },
         worst_nodes: beside.worst(WORST),
         nodes: &beside.differences,
     };
