@@ -4,12 +4,11 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::modelling::Variant;
 use base::error::{InputError, Result};
 use base::files::json;
 
@@ -22,40 +21,14 @@ pub const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    let description = json::read(text, &SCENE).map_err(|why| to_be_chosen(text).unwrap_or(why));
-    let mut description: Description = description?;
-    let (is_unilateral, names_variant) =
-        (is_unilateral(&description), description.variant.is_some());
-    if let Some(contact) = &mut description.contact {
-        // The paper's variants have both.
-        contact.friction_is_missing &= is_unilateral;
-        contact.coupling_is_missing &= !names_variant;
-    }
-    Ok(description)
-}
-
-/// Returns whether a scene runs under `unilateral` where nothing else is asked for.
-fn is_unilateral(description: &Description) -> bool {
-    match description.variant {
-        None | Some(Variant::Unilateral) => true,
-        Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
-    }
+    json::read(text, &SCENE).map_err(|why| to_be_chosen(text).unwrap_or(why))
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
 /// for each field and, in a list of several, for each item. Fields with their default are left out.
 pub fn write(description: &Description, mesh: &str) -> String {
     let with_mesh = Description { mesh: Some(mesh.into()), ..description.clone() };
-    let mut fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
-    if let Some(contact) = description.contact.as_ref().filter(|_| is_unilateral(description)) {
-        // What a reader would take otherwise, or miss.
-        if !contact.friction_is_missing {
-            fields["contact"]["friction"] = json!(contact.friction);
-        }
-        if description.variant.is_none() && !contact.coupling_is_missing {
-            fields["contact"]["coupling"] = json!(contact.coupling);
-        }
-    }
+    let fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
     text_of(&fields)
 }
 

@@ -213,6 +213,8 @@ impl Scene {
         let notes = notes.chain(units::misfit(&description.units));
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
+        // A scene of one's own asks for contact as it is, not for the paper's algorithm.
+        let variant = description.variant.unwrap_or(Variant::Unilateral);
         Ok(Scene {
             name: name.into(),
             word: name.into(),
@@ -220,11 +222,12 @@ impl Scene {
             units: description.units.clone(),
             model: Arc::new(model),
             iterations: description.iterations,
-            // A scene of one's own asks for contact as it is, not for the paper's algorithm.
-            variant: description.variant.unwrap_or(Variant::Unilateral),
+            variant,
             contact: contact.map_or(ContactModel::default(), Contact::model),
-            friction_is_missing: contact.is_some_and(|contact| contact.friction_is_missing),
-            coupling_is_missing: contact.is_some_and(|contact| contact.coupling_is_missing),
+            friction_is_missing: variant == Variant::Unilateral
+                && contact.is_some_and(|contact| contact.friction.is_none()),
+            coupling_is_missing: description.variant.is_none()
+                && contact.is_some_and(|contact| contact.coupling.is_none()),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,
