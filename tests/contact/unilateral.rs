@@ -245,8 +245,7 @@ fn a_body_that_is_pulled_away_has_no_equilibrium() {
     let error = solved(&stacked([0.0, 1.0], &[Axis::X], Friction::NONE)).unwrap_err();
     assert_eq!(error.exit_status().number(), 4);
     let text = error.to_string();
-    assert!(text.starts_with("no equilibrium was found: "), "{text}");
-    assert!(text.contains("; in the last the load moves node"), "{text}");
+    assert!(text.starts_with("no equilibrium was found: the load moves node"), "{text}");
     assert!(text.contains("in y"), "{text}");
 }
 

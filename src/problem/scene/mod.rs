@@ -211,6 +211,7 @@ impl Scene {
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
         let notes = notes.chain(units::misfit(&description.units));
+        let notes = notes.chain(support::narrow(&mesh, &model.supports));
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
         // A scene of one's own asks for contact as it is, not for the paper's algorithm.

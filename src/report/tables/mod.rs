@@ -112,8 +112,8 @@ fn arithmetic(solution: &Solution) -> Vec<String> {
     let arithmetic = solution.request.arithmetic;
     let bound = solution.error_bound.map(|bound| match bound.is_finite() {
         true => format!(
-            "rounding changes no displacement by more than {bound:.1e} {}",
-            solution.request.scene.units.length
+            "rounding changes no displacement by more than {}",
+            with_unit(&format!("{bound:.1e}"), &solution.request.scene.units.length)
         ),
         false => "rounding error unknown".into(),
     });
