@@ -365,6 +365,7 @@ fn strips(n: usize) -> Scene {
     mesh.edges("contact", &contact);
     mesh.edges("top", &top);
     SceneBuilder::new("strips", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("lower", 30_000.0, 0.2)
         .material("upper", 210_000.0, 0.3)
         .restrain("bottom", &[Axis::X, Axis::Y])

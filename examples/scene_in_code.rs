@@ -9,7 +9,7 @@
 //!      +---+---+---+     restrained
 //! ```
 
-use plane_contact::input::{Axis, Contact, Friction, MeshBuilder, Plane, Variant};
+use plane_contact::input::{Axis, Contact, Friction, MeshBuilder, Plane};
 use plane_contact::{Error, Request, SceneBuilder, solve};
 
 /// The stamp on the block, lengths in mm, stresses in MPa.
@@ -25,7 +25,7 @@ fn stamp_on_block() -> SceneBuilder {
     mesh.edges("top", &top);
     let middle = top[1];
     let mut surfaces = Contact::new(contact, "target", 0.001);
-    surfaces.friction = Friction::NONE;
+    surfaces.friction = Some(Friction::NONE);
     SceneBuilder::new("stamp-on-block", mesh.finish(), Plane::Strain)
         .units("mm", "MPa", "N")
         .material("block", 30000.0, 0.2)
@@ -39,8 +39,7 @@ fn stamp_on_block() -> SceneBuilder {
 /// Solves it and prints the contact surface.
 pub fn main() -> Result<(), Error> {
     let scene = stamp_on_block().build()?;
-    let request = Request::new(&scene).variant(Variant::Unilateral);
-    let solution = solve(&request, &mut |step| {
+    let solution = solve(&Request::new(&scene), &mut |step| {
         println!("iteration {}: {} nodes in contact", step.k, step.in_contact);
     })?;
     for node in solution.in_contact() {

@@ -39,9 +39,9 @@ pub fn scene(u: &mut Unstructured) -> Result<SceneBuilder> {
         arc.extend(u.choose_iter([None, Some(arc[0])])?);
         contact.contact = Surface::Numbers(arc);
     }
-    contact.coupling = *u.choose(Coupling::ALL)?;
+    contact.coupling = Some(*u.choose(Coupling::ALL)?);
     let mu = *u.choose(&[0.3, f64::INFINITY, 0.0, 1e-9, 5.0, 1e300])?;
-    contact.friction = Friction::new(mu).expect("a coefficient");
+    contact.friction = Some(Friction::new(mu).expect("a coefficient"));
     contact.geometry = *u.choose(Geometry::ALL)?;
     contact.load_steps = *u.choose(&[4, 1, 2, 16])?;
     contact.status = *u.choose(StatusRule::ALL)?;

@@ -153,6 +153,18 @@ impl ModelArgs {
     }
 }
 
+impl ModelArgs {
+    /// Asks for the equilibrium: `unilateral` with mortar where no coupling is given, and the rest as
+    /// [`request`](Self::request) does.
+    ///
+    /// # Errors
+    /// Nothing is said of friction.
+    pub fn equilibrium(&self, scene: &Scene, reading: &ReadingArg) -> Result<Request> {
+        let request = self.request(scene, Some(Variant::Unilateral), reading)?;
+        Ok(if self.coupling.is_some() { request } else { request.equilibrium() })
+    }
+}
+
 /// Checks that a scene says how its surfaces rub, where its own variant asks for that.
 ///
 /// # Errors

@@ -47,3 +47,4 @@ pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
 pub use support::{Resultant, resultant};
+pub use unilateral::{Implied, implied};

@@ -19,7 +19,7 @@ use problem::element::State;
 use problem::model::{Dof, Model, NodeId};
 
 /// The part of the largest displacement from which a gap is open.
-const APART: f64 = 1e-6;
+pub(super) const APART: f64 = 1e-6;
 
 /// A step: one iteration of a published variant, or one of the active set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -478,9 +478,13 @@ impl Solution {
     pub fn transmits_nothing(&self) -> bool {
         let [fx, fy] = self.model.total_load();
         let load = fx.hypot(fy);
-        let is_displaced = self.model.oblique().any(|(_, hold)| hold.displacement != 0.0);
-        let is_loaded = self.model.target().is_some() && (load > 0.0 || is_displaced);
+        let is_loaded = self.model.target().is_some() && (load > 0.0 || self.is_displaced());
         is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
+    }
+
+    /// Returns whether a restraint displaces a node.
+    pub fn is_displaced(&self) -> bool {
+        self.model.oblique().any(|(_, hold)| hold.displacement != 0.0)
     }
 
     /// Returns whether no node is in contact at the end, though the scene has contact.

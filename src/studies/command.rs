@@ -49,7 +49,7 @@ impl Command {
             Command::Audit(args) => audit::command::run(&args).map(done),
             Command::Report(args) => document::command::run(&args).map(done),
             Command::Lesson(args) => lesson::command::run(&args).map(done),
-            Command::Compare(args) => calculix::command::run(&args).map(done),
+            Command::Compare(args) => calculix::command::run(&args),
             Command::Listing(command) => listing::run(&command),
             Command::Mathcad(command) => worksheet::run(&command),
             Command::Snapshot(command) => snapshot::command::run(&command),

@@ -7,6 +7,7 @@ pub mod calculix;
 pub mod command;
 pub mod document;
 pub mod extremes;
+pub mod field;
 mod guide;
 pub mod lesson;
 mod listing;

@@ -14,6 +14,7 @@ use crate::common::recovery::{node_at, solved};
 use crate::common::tolerances::{COOK, assert_near};
 use crate::grid::{between, ends, grid};
 use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// The membrane with corners (0, 0), (48, 44), (48, 60), (0, 44), of n x n cells.
@@ -26,6 +27,7 @@ pub fn membrane(n: usize) -> SceneBuilder {
     mesh.edges("left", &left);
     mesh.edges("right", &right);
     SceneBuilder::new("cook", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("membrane", 1.0, 1.0 / 3.0)
         .restrain("left", &[Axis::X, Axis::Y])
         .traction("right", [0.0, 1.0 / 16.0])

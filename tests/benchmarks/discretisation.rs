@@ -133,6 +133,7 @@ fn a_pressed_annulus_with_symmetric_restraints() {
         mesh.edges("bottom", &(0..=nx).map(|i| node(i, 0)).collect::<Vec<_>>());
         mesh.edges("top", &(0..=nx).map(|i| node(i, ny)).collect::<Vec<_>>());
         let scene = SceneBuilder::new("annulus", mesh.finish(), Plane::Strain)
+            .variant(Variant::Stepped)
             .thickness(THICKNESS)
             .material(BODY, LAME.e, LAME.nu)
             .restrain("bottom", &[Axis::Y])
@@ -180,6 +181,7 @@ fn stresses_are_not_averaged_across_materials() {
     mesh.triangles("lower", layers.0.iter().map(|t| t.map(|point| nodes[point])));
     mesh.triangles("upper", layers.1.iter().map(|t| t.map(|point| nodes[point])));
     let scene = SceneBuilder::new("layers", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("lower", 1000.0, 0.0)
         .material("upper", 30000.0, 0.0)
         .restrain_node(1, &[Axis::Y])
@@ -202,6 +204,7 @@ fn the_error_of_a_lone_triangle_is_unknown() {
     points.extend([[5.0, 0.0], [6.0, 0.0], [5.0, 1.0]]);
     triangles.push([n, n + 1, n + 2]);
     let scene = SceneBuilder::new("two bodies", mesh(&points, &triangles).finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material(BODY, 1.0, 0.3)
         .force(n, [0.0, 1e-3])
         .force(n + 3, [0.0, 1e-3])
@@ -224,6 +227,7 @@ fn centres_on_one_line_fix_no_slope() {
         let points = [[-1.0, -s], [1.0, -s], [1.0, s], [-1.0, s], [0.0, 0.0]];
         let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
         let scene = SceneBuilder::new("flat", mesh(&points, &triangles).finish(), Plane::Strain)
+            .variant(Variant::Stepped)
             .material(BODY, 1.0, 0.0)
             .force(5, [1.0, 0.0])
             .iterations(1);

@@ -17,6 +17,7 @@ use crate::common::recovery::{extrapolated, node_at, solved};
 use crate::common::tolerances::{KIRSCH, assert_near};
 use crate::grid::{ends, grid, quarter};
 use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// A quarter of the sheet, cut at the radius `outer`, near square cells, `around` of them on the hole.
@@ -36,6 +37,7 @@ pub fn sheet(around: usize, outer: f64) -> SceneBuilder {
         tractions.push((group, traction(a, b)));
     }
     let scene = SceneBuilder::new("kirsch", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("sheet", 1000.0, 0.3)
         .restrain("x_axis", &[Axis::Y])
         .restrain("y_axis", &[Axis::X]);

@@ -16,6 +16,7 @@ use crate::common::recovery::{averaged, extrapolated, node_at, solved};
 use crate::common::tolerances::{LE1_GRID, LE1_LIMIT, assert_near};
 use crate::grid::{between, ends, grid, quarter};
 use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, SceneBuilder};
 
 /// The membrane of n x n cells.
@@ -30,6 +31,7 @@ pub fn membrane(n: usize) -> SceneBuilder {
     mesh.edges("x_axis", &x_axis);
     mesh.edges("y_axis", &y_axis);
     SceneBuilder::new("le1", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .thickness(0.1)
         .units("m", "MPa", "MN")
         .material("membrane", 210000.0, 0.3)

@@ -15,8 +15,8 @@ use crate::common::tolerances::{PATCH_TEST, assert_near};
 use crate::grid::grid;
 use plane_contact::engine::Solution;
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::modelling::Coupling;
 use plane_contact::problem::modelling::Friction;
+use plane_contact::problem::modelling::{Coupling, Variant};
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// The scene: 6 divisions of the punch on 4 of the foundation, which has 6 more on either side.
@@ -34,6 +34,7 @@ pub fn scene() -> SceneBuilder {
     mesh.edges("punch_top", &punch[6]);
     mesh.edges("punch_axis", &axis(&punch, 3));
     SceneBuilder::new("punch-patch", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("foundation", 1000.0, 0.4)
         .material("punch", 1000.0, 0.4)
         .restrain("bottom", &[Axis::Y])
@@ -42,7 +43,10 @@ pub fn scene() -> SceneBuilder {
         .pressure("punch_top", 1.0)
         .pressure("free_left", 1.0)
         .pressure("free_right", 1.0)
-        .contact(Contact { friction: Friction::NONE, ..Contact::new("contact", "target", 0.001) })
+        .contact(Contact {
+            friction: Some(Friction::NONE),
+            ..Contact::new("contact", "target", 0.001)
+        })
 }
 
 pub fn punch(coupling: Coupling) -> Solution {

@@ -18,6 +18,7 @@ use crate::kirsch::sheet;
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit, singular};
 use plane_contact::engine::{Assessment, Solution, max_displacement};
 use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::report::tables::error_estimates;
 use plane_contact::{Request, solve};
@@ -38,7 +39,10 @@ fn cells(plane: Plane, at: impl Fn([f64; 2]) -> [f64; 2]) -> SceneBuilder {
         [[a, b, c], [a, c, d]]
     });
     mesh.triangles("soft", triangles);
-    SceneBuilder::new("square", mesh.finish(), plane).iterations(1).material("soft", 1000.0, 0.3)
+    SceneBuilder::new("square", mesh.finish(), plane)
+        .variant(Variant::Stepped)
+        .iterations(1)
+        .material("soft", 1000.0, 0.3)
 }
 
 /// Fixes the lowest row.

@@ -104,8 +104,7 @@ fn a_small_force_lifts_a_body_off_too() {
     for force in [1.0, 1e-7, 1e7] {
         let scene = stacked([0.0, force], &[Axis::X], Friction::NONE);
         let text = solved(&scene).expect_err("nothing holds it").to_string();
-        assert!(text.starts_with("no equilibrium was found: "), "{text}");
-        assert!(text.contains("; in the last the load moves node"), "{text}");
+        assert!(text.starts_with("no equilibrium was found: the load moves node"), "{text}");
     }
 }
 

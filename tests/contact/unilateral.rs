@@ -203,12 +203,13 @@ pub fn stacked(load: [f64; 2], held: &[Axis], friction: Friction) -> SceneBuilde
     mesh.triangles("lower", [[1, 2, 3], [1, 3, 4]]);
     mesh.triangles("upper", [[5, 6, 7], [5, 7, 8]]);
     let scene = SceneBuilder::new("stacked", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("lower", 1000.0, 0.0)
         .material("upper", 1000.0, 0.0)
         .restrain_node(1, BOTH)
         .restrain_node(2, BOTH)
         .traction("top", load)
-        .contact(Contact { friction, ..Contact::new("contact", "target", 0.001) });
+        .contact(Contact { friction: Some(friction), ..Contact::new("contact", "target", 0.001) });
     if held.is_empty() { scene } else { scene.restrain_node(5, held).restrain_node(8, held) }
 }
 
@@ -244,8 +245,7 @@ fn a_body_that_is_pulled_away_has_no_equilibrium() {
     let error = solved(&stacked([0.0, 1.0], &[Axis::X], Friction::NONE)).unwrap_err();
     assert_eq!(error.exit_status().number(), 4);
     let text = error.to_string();
-    assert!(text.starts_with("no equilibrium was found: "), "{text}");
-    assert!(text.contains("; in the last the load moves node"), "{text}");
+    assert!(text.starts_with("no equilibrium was found: the load moves node"), "{text}");
     assert!(text.contains("in y"), "{text}");
 }
 
@@ -332,14 +332,18 @@ fn a_target_node_that_node_to_segment_does_not_see_is_reported() {
     let names = [("bottom", &bottom), ("target", &target), ("contact", &contact), ("top", &top)];
     names.iter().for_each(|(name, row)| mesh.edges(*name, row));
     let scene = SceneBuilder::new("apex", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("lower", 1e3, 0.0)
         .material("upper", 1e3, 0.0)
         .restrain("bottom", BOTH)
         .restrain("top", &[Axis::X])
         .pressure("top", 1.0)
-        .contact(Contact { friction: Friction::NONE, ..Contact::new("contact", "target", 0.001) });
+        .contact(Contact {
+            friction: Some(Friction::NONE),
+            ..Contact::new("contact", "target", 0.001)
+        });
     let unseen = |coupling| {
-        let scene = with(scene.clone(), |contact| contact.coupling = coupling);
+        let scene = with(scene.clone(), |contact| contact.coupling = Some(coupling));
         solved(&scene).unwrap().equilibrium.unwrap().unseen
     };
     let (node, depth) = unseen(Coupling::Nts).expect("the apex is inside");
@@ -361,7 +365,7 @@ pub fn with(mut scene: SceneBuilder, change: impl FnOnce(&mut Contact)) -> Scene
 
 /// `scene` with its contact modelled so.
 fn modelled(scene: SceneBuilder, (coupling, geometry): (Coupling, Geometry)) -> SceneBuilder {
-    with(scene, |contact| (contact.coupling, contact.geometry) = (coupling, geometry))
+    with(scene, |contact| (contact.coupling, contact.geometry) = (Some(coupling), geometry))
 }
 
 fn every_coupling_and_geometry() -> impl Iterator<Item = (Coupling, Geometry)> {
@@ -464,6 +468,7 @@ fn a_gap_over_a_ridge_closes() {
     mesh.triangles("upper", [[6, 7, 8]]);
     let contact = Contact::new(vec![6], "roof", 0.001);
     let scene = SceneBuilder::new("ridge", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("lower", 1000.0, 0.0)
         .material("upper", 1000.0, 0.0)
         .restrain_node(1, BOTH)
@@ -472,7 +477,7 @@ fn a_gap_over_a_ridge_closes() {
         .restrain_node(7, &[Axis::X])
         .force(7, [0.0, -0.5])
         .force(8, [0.0, -0.5])
-        .contact(Contact { friction: Friction::NONE, ..contact });
+        .contact(Contact { friction: Some(Friction::NONE), ..contact });
     for geometry in Geometry::ALL {
         let solution = solved(&modelled(scene.clone(), (Coupling::Nts, *geometry))).unwrap();
         let node = &solution.contact[0];
@@ -505,12 +510,13 @@ fn tipping(load: f64) -> SceneBuilder {
     }
     let contact = Contact::new(vec![23, 25, 27, 29, 31], "target", 0.001);
     let scene = SceneBuilder::new("tipping", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("lower", 1e5, 0.3)
         .material("upper", 1e5, 0.3)
         .restrain_node(24, &[Axis::X])
         .force(28, [0.0, -load])
         .force(32, [0.0, -load])
-        .contact(Contact { friction: Friction::NONE, ..contact });
+        .contact(Contact { friction: Some(Friction::NONE), ..contact });
     (0..=10).fold(scene, |scene, k| scene.restrain_node(2 * k + 1, BOTH))
 }
 

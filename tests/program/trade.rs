@@ -283,6 +283,7 @@ fn both_surfaces_must_be_their_own_image() {
     mesh.edges("target", &rows[1]);
     mesh.edges("bottom", &rows[0]);
     let scene = SceneBuilder::new("squares", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("body", 1000.0, 0.3)
         .restrain("bottom", &[Axis::X, Axis::Y])
         .restrain_node(11, &[Axis::X, Axis::Y])

@@ -12,7 +12,7 @@ use testing::tolerances::{
 
 fn rubbing(mu: f64) -> Contact {
     Contact {
-        friction: Friction::new(mu).expect("a coefficient"),
+        friction: Some(Friction::new(mu).expect("a coefficient")),
         geometry: Geometry::Initial,
         ..Contact::new("contact", "target", 0.001)
     }
@@ -49,6 +49,7 @@ fn strip(n: usize, h: f64, pull: f64, mu: f64) -> SceneBuilder {
     mesh.edges("bottom", &bottom);
     mesh.edges("end", &[contact[n], top[n]]);
     SceneBuilder::new("strip", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("foundation", 1e9, 0.0)
         .material("strip", 1e3, 0.0)
         .restrain("bottom", &[Axis::X, Axis::Y])
@@ -149,6 +150,7 @@ fn cattaneo(n: usize, shear: f64, mu: f64) -> (SceneBuilder, f64) {
     mesh.edges("contact", &upper[0][middle - n..=middle + n]);
     mesh.edges("top", upper.last().unwrap());
     let scene = SceneBuilder::new("cattaneo", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("lower", e, nu)
         .material("upper", e, nu)
         .restrain("top", &[Axis::Y])

@@ -39,6 +39,7 @@ fn model(chain: &[[f64; 2]], contact: &[[f64; 2]], sides: [[f64; 2]; 2]) -> Mode
         mesh.triangles("stamp", [[*n, q2, q1]]);
     }
     let scene = SceneBuilder::new("by hand", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("target", 1.0, 0.0)
         .material("stamp", 1.0, 0.0)
         .restrain("target", &[Axis::X, Axis::Y])

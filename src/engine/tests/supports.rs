@@ -42,11 +42,12 @@ fn blocks(degrees: f64, friction: Friction) -> SceneBuilder {
     }
     mesh.edges("side", &[bottom[0], target[0]]);
     let rubbing = Contact {
-        friction,
+        friction: Some(friction),
         geometry: Geometry::Initial,
         ..Contact::new("contact", "target", 0.001)
     };
     SceneBuilder::new("blocks", mesh.finish(), Plane::Stress)
+        .variant(Variant::Stepped)
         .material("lower", E, 0.3)
         .material("upper", E, 0.3)
         .contact(rubbing)

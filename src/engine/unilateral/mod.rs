@@ -57,6 +57,7 @@
 mod condensed;
 mod equilibria;
 mod forces;
+mod implied;
 mod imposed;
 mod lemke;
 mod nonnegative;
@@ -68,6 +69,8 @@ mod search;
 mod springs;
 mod status;
 mod unrestrained;
+
+pub use implied::{Implied, implied};
 
 use super::error::Error;
 use super::request::Request;

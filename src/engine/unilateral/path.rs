@@ -7,6 +7,7 @@ use nalgebra::DVector;
 use super::equilibria::{TakenStep, setting, uniqueness};
 use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
+use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
 use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction};
 use crate::error::{Cause, Error, NoEquilibrium};
@@ -282,7 +283,15 @@ impl<'a> Run<'a> {
             Error::Equilibrium(why) if why.cause == Cause::NotFound => {
                 match self.step(from, to, Problem::on_springs) {
                     Ok(found) => return Ok(found),
-                    Err(more) => more.prefixed(&format!("{}; ", why.what)),
+                    Err(Error::Equilibrium(more)) => {
+                        // Where springs show what moves, that is the cause.
+                        let both = match more.what.starts_with(ON_SPRINGS) {
+                            true => format!("{}; {}", why.what, more.what),
+                            false => format!("{}; {}", more.what, why.what),
+                        };
+                        NoEquilibrium { what: both, ..more }.into()
+                    }
+                    Err(more) => more,
                 }
             }
             why => why,

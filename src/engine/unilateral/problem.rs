@@ -421,6 +421,14 @@ impl StateSearch<'_> {
     }
 }
 
+/// Says why no equilibrium was found, and then what was tried.
+pub(super) fn cause_first(cause: &str, tried: String) -> String {
+    match cause.trim_start_matches("; ") {
+        "" => tried,
+        cause => format!("{cause}; {tried}"),
+    }
+}
+
 /// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
 fn size(model: &Model) -> f64 {
     let bounds = model.bounds();

@@ -8,7 +8,7 @@ use nalgebra::DVector;
 use super::forces::{ContactForce, tangent};
 use super::problem::{
     CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSearch,
-    StateSolution, Watch,
+    StateSolution, Watch, cause_first,
 };
 use super::status::{History, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
@@ -84,8 +84,8 @@ impl Problem<'_> {
             let next = self.configuration(&solution.u);
             (self.strained(&solution.u), last_place.map_or(String::new(), |c| self.torn(&c, &next)))
         });
-        let what =
-            format!("the geometry updates did not converge in {SHAPES} times{torn}{strained}");
+        let what = format!("the geometry updates did not converge in {SHAPES} times");
+        let what = cause_first(&(strained + &torn), what);
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
@@ -180,7 +180,7 @@ impl StateSearch<'_> {
         watch: &mut Watch,
     ) -> Result<Iteration, Error> {
         let limit = PATIENCE + self.problem.model.contact.nodes.len();
-        let mut against = String::new();
+        let (mut against, mut strained) = (String::new(), String::new());
         let mut recent: VecDeque<Iteration> = VecDeque::new();
         for k in 1..=limit {
             let iteration = match recent.iter().find(|known| known.statuses == statuses) {
@@ -193,8 +193,8 @@ impl StateSearch<'_> {
                 return Ok(iteration);
             }
             if k == limit {
-                against = self.problem.against(&iteration, &wanted)
-                    + &self.problem.strained(&iteration.solution.u);
+                against = self.problem.against(&iteration, &wanted);
+                strained = self.problem.strained(&iteration.solution.u);
             }
             statuses = history.next(&iteration.statuses, wanted);
             if history.one_at_a_time {
@@ -211,6 +211,7 @@ impl StateSearch<'_> {
             "none of the contact states of {limit} iterations is in equilibrium{}{against}{never_slides}",
             history.returned()
         );
+        let what = cause_first(&strained, what);
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 

@@ -151,7 +151,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Sets the variant that is run unless the command line names another; it is the paper's `stepped`
+    /// Sets the variant that is run unless the command line names another; it is `unilateral`
     /// where it is not set.
     pub fn variant(mut self, variant: Variant) -> Self {
         self.description.variant = Some(variant);

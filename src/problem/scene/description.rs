@@ -81,7 +81,7 @@ impl Description {
         restraints.chain(loads).chain(contact).collect()
     }
 
-    /// Describes a plane problem with no material, thickness 1 and no load, for the paper's `stepped`.
+    /// Describes a plane problem with no material, thickness 1 and no load, for the contact solution.
     pub fn new(plane: Plane) -> Self {
         Description {
             title: String::new(),
@@ -96,7 +96,7 @@ impl Description {
             loads: Vec::new(),
             contact: None,
             iterations: default_iterations(),
-            variant: Some(Variant::default()),
+            variant: None,
             drop_orphans: false,
         }
     }
@@ -279,7 +279,7 @@ impl<'de> Deserialize<'de> for Load {
 }
 
 /// The two contact surfaces, the tolerance between them, and how contact is modelled.
-#[derive(Clone, Debug, Serialize, PartialEq, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// The contact (stamp) surface: a group of edges, or node numbers in order.
@@ -291,18 +291,16 @@ pub struct Contact {
     /// The tolerance of the contact search, the text's c_tol, length.
     #[serde(rename = "c_tll")]
     pub tolerance: f64,
-    /// The method that binds a contact node to the target.
-    #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
-    pub coupling: Coupling,
-    /// The friction between the surfaces under `unilateral`: a coefficient, or "stick".
+    /// The method that binds a contact node to the target; where none is given, mortar if no variant is named, else
+    /// that of `c_cnt`.
+    #[serde(default, deserialize_with = "some_by_name", skip_serializing_if = "is_default")]
+    #[schemars(with = "Coupling")]
+    pub coupling: Option<Coupling>,
+    /// The friction between the surfaces under `unilateral`: a coefficient, or "stick". A scene file has to say it;
+    /// in code nothing slides where it is not set.
     #[serde(default, skip_serializing_if = "is_default")]
-    pub friction: Friction,
-    /// Whether a scene file that is to run under `unilateral` says nothing of friction.
-    #[serde(skip)]
-    pub friction_is_missing: bool,
-    /// Whether a scene file that names no variant says nothing of the coupling.
-    #[serde(skip)]
-    pub coupling_is_missing: bool,
+    #[schemars(with = "Friction")]
+    pub friction: Option<Friction>,
     /// The shape in which `unilateral` measures contact.
     #[serde(default, deserialize_with = "by_name", skip_serializing_if = "is_default")]
     pub geometry: Geometry,
@@ -315,16 +313,14 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Describes contact of two surfaces within `tolerance`, length, modelled as in the paper.
+    /// Describes contact of two surfaces within `tolerance`, length, with nothing said of how it is modelled.
     pub fn new(contact: impl Into<Surface>, target: impl Into<Surface>, tolerance: f64) -> Self {
         Contact {
             contact: contact.into(),
             target: target.into(),
             tolerance,
-            coupling: Coupling::default(),
-            friction: Friction::default(),
-            friction_is_missing: false,
-            coupling_is_missing: false,
+            coupling: None,
+            friction: None,
             geometry: Geometry::default(),
             load_steps: LOAD_STEPS,
             status: StatusRule::default(),
@@ -334,48 +330,12 @@ impl Contact {
     /// Returns how contact is modelled.
     pub(super) fn model(&self) -> ContactModel {
         ContactModel {
-            coupling: self.coupling,
-            friction: self.friction,
+            coupling: self.coupling.unwrap_or_default(),
+            friction: self.friction.unwrap_or_default(),
             geometry: self.geometry,
             load_steps: self.load_steps,
             status: self.status,
         }
-    }
-}
-
-impl<'de> Deserialize<'de> for Contact {
-    /// Reads all fields, and keeps which of those are missing that have no default of their own.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields, rename = "Contact")]
-        struct Fields {
-            cnt: Surface,
-            trg: Surface,
-            c_tll: f64,
-            #[serde(default, deserialize_with = "some_by_name")]
-            coupling: Option<Coupling>,
-            friction: Option<Friction>,
-            #[serde(default, deserialize_with = "by_name")]
-            geometry: Geometry,
-            #[serde(default = "load_steps")]
-            load_steps: usize,
-            #[serde(default, deserialize_with = "by_name")]
-            status: StatusRule,
-        }
-        let Fields { cnt, trg, c_tll, coupling, friction, geometry, load_steps, status } =
-            Fields::deserialize(deserializer)?;
-        Ok(Contact {
-            contact: cnt,
-            target: trg,
-            tolerance: c_tll,
-            coupling: coupling.unwrap_or_default(),
-            friction: friction.unwrap_or_default(),
-            friction_is_missing: friction.is_none(),
-            coupling_is_missing: coupling.is_none(),
-            geometry,
-            load_steps,
-            status,
-        })
     }
 }
 

@@ -4,13 +4,12 @@ use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::description::{Description, Material, Materials};
 use super::groups::GroupRef;
 use super::surface::Surface;
-use crate::modelling::Variant;
-use base::error::Result;
+use base::error::{InputError, Result};
 use base::files::json;
 
 /// Scene files, of which the mesh is another file.
@@ -22,43 +21,61 @@ pub const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    let mut description: Description = json::read(text, &SCENE)?;
-    let (is_unilateral, names_variant) =
-        (is_unilateral(&description), description.variant.is_some());
-    if let Some(contact) = &mut description.contact {
-        // The paper's variants have both.
-        contact.friction_is_missing &= is_unilateral;
-        contact.coupling_is_missing &= !names_variant;
-    }
-    Ok(description)
-}
-
-/// Returns whether a scene runs under `unilateral` where nothing else is asked for.
-fn is_unilateral(description: &Description) -> bool {
-    match description.variant {
-        None | Some(Variant::Unilateral) => true,
-        Some(Variant::Stepped | Variant::Tied | Variant::Printed) => false,
-    }
+    json::read(text, &SCENE).map_err(|why| to_be_chosen(text).unwrap_or(why))
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
 /// for each field and, in a list of several, for each item. Fields with their default are left out.
 pub fn write(description: &Description, mesh: &str) -> String {
     let with_mesh = Description { mesh: Some(mesh.into()), ..description.clone() };
-    let mut fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
-    if let Some(contact) = description.contact.as_ref().filter(|_| is_unilateral(description)) {
-        // What a reader would take otherwise, or miss.
-        if !contact.friction_is_missing {
-            fields["contact"]["friction"] = json!(contact.friction);
-        }
-        if description.variant.is_none() && !contact.coupling_is_missing {
-            fields["contact"]["coupling"] = json!(contact.coupling);
-        }
-    }
-    let fields = fields.as_object().expect("a description is an object").iter();
+    let fields = serde_json::to_value(with_mesh).expect("a description's keys are strings");
+    text_of(&fields)
+}
+
+/// Writes a scene with a line for each field and, in a list of several, for each item.
+pub(super) fn text_of(scene: &Value) -> String {
+    let fields = scene.as_object().expect("a scene is an object").iter();
     let fields: Vec<_> =
         fields.map(|(key, value)| format!("  \"{key}\": {}", lines(value))).collect();
     format!("{{\n{}\n}}\n", fields.join(",\n"))
+}
+
+/// The fields that a first scene leaves to its author, each with what to give.
+const OPEN: [(&str, &str); 4] = [
+    ("E", "E: the elastic modulus, a stress"),
+    ("nu", "nu: Poisson's ratio"),
+    ("pressure", "pressure: a stress that pushes into the body"),
+    ("friction", "friction: 0, a coefficient such as 0.3, or \"stick\""),
+];
+
+/// Names the fields that are still to be chosen, which are null; None where there are none, or the text is no JSON.
+fn to_be_chosen(text: &[u8]) -> Option<InputError> {
+    let scene: Value = serde_json::from_slice(text).ok()?;
+    let mut open = Vec::new();
+    collect_open(&scene, "", "", &mut open);
+    let is_open = |name: &&str| open.iter().any(|(_, field)| field == *name);
+    let fix = OPEN.iter().filter(|(name, _)| is_open(&name)).map(|(_, words)| *words);
+    let fix = format!("give each a value in place of null; {}", fix.collect::<Vec<_>>().join("; "));
+    let places = open.iter().map(|(place, _)| place.as_str()).collect::<Vec<_>>().join(", ");
+    let what = "the scene leaves values to be chosen: they are null";
+    (!open.is_empty()).then(|| InputError::new(places, what, fix))
+}
+
+/// Collects the places and names of the fields of [`OPEN`] that are null.
+fn collect_open(value: &Value, place: &str, name: &str, open: &mut Vec<(String, String)>) {
+    match value {
+        Value::Null if OPEN.iter().any(|(field, _)| *field == name) => {
+            open.push((place.into(), name.into()));
+        }
+        Value::Object(fields) => fields.iter().for_each(|(name, value)| {
+            let dot = if place.is_empty() { "" } else { "." };
+            collect_open(value, &format!("{place}{dot}{name}"), name, open);
+        }),
+        Value::Array(items) => items.iter().enumerate().for_each(|(k, value)| {
+            collect_open(value, &format!("{place}[{k}]"), name, open);
+        }),
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
+    }
 }
 
 /// Writes a value on one line, but a list of several items with a line for each.

@@ -122,6 +122,15 @@ impl<'m> Groups<'m> {
         Err(InputError::new(place, what, fix))
     }
 
+    /// Returns the groups of elements of dimension `dim`, by ascending tag.
+    pub fn all(&self, dim: usize) -> Vec<GroupRef> {
+        let group = |((_, tag), _): (&(usize, usize), _)| {
+            let name = self.mesh.names.iter().find(|name| name.dim == dim && name.tag == *tag);
+            name.map_or(GroupRef::Tag(*tag), |name| GroupRef::Name(name.name.clone()))
+        };
+        self.places.range((dim, 0)..(dim + 1, 0)).map(group).collect()
+    }
+
     /// Returns a group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
     ///
     /// # Errors

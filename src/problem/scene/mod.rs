@@ -11,6 +11,7 @@ mod check;
 mod description;
 mod embedded;
 pub mod file;
+mod first;
 mod fold;
 pub mod gmsh;
 mod groups;
@@ -26,6 +27,7 @@ mod source;
 mod support;
 pub mod surface;
 pub mod symmetry;
+mod units;
 
 use serde::Serialize;
 use std::path::Path;
@@ -38,6 +40,7 @@ pub use description::{
     Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
 };
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
+pub use first::{FirstScene, first};
 pub use groups::GroupRef;
 use groups::Groups;
 pub use hashes::{sha256, sha256_of, source_hashes};
@@ -144,7 +147,8 @@ impl Scene {
         }
     }
 
-    /// Says what the mesh file has in another form than the mesh here, and where the mesh has slits, in sentences.
+    /// Says what the mesh file has in another form than the mesh here, where the mesh has slits, and what looks like a
+    /// mistake of units, in sentences.
     pub fn adapted(&self) -> &[String] {
         self.source.as_deref().map_or(&[], |source| &source.notes)
     }
@@ -206,8 +210,12 @@ impl Scene {
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
+        let notes = notes.chain(units::misfit(&description.units));
+        let notes = notes.chain(support::narrow(&mesh, &model.supports));
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
+        // A scene of one's own asks for contact as it is, not for the paper's algorithm.
+        let variant = description.variant.unwrap_or(Variant::Unilateral);
         Ok(Scene {
             name: name.into(),
             word: name.into(),
@@ -215,11 +223,12 @@ impl Scene {
             units: description.units.clone(),
             model: Arc::new(model),
             iterations: description.iterations,
-            // A scene of one's own asks for contact as it is, not for the paper's algorithm.
-            variant: description.variant.unwrap_or(Variant::Unilateral),
+            variant,
             contact: contact.map_or(ContactModel::default(), Contact::model),
-            friction_is_missing: contact.is_some_and(|contact| contact.friction_is_missing),
-            coupling_is_missing: contact.is_some_and(|contact| contact.coupling_is_missing),
+            friction_is_missing: variant == Variant::Unilateral
+                && contact.is_some_and(|contact| contact.friction.is_none()),
+            coupling_is_missing: description.variant.is_none()
+                && contact.is_some_and(|contact| contact.coupling.is_none()),
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use base::error::{InputError, Result};
 use base::files;
-use base::plain::shown;
+use base::plain::{shell_word, shown};
 use base::suggestion::did_you_mean;
 
 /// The text of a scene file, and the place where its mesh file is.
@@ -85,6 +85,7 @@ impl SceneFile {
             InputError::new(shown(path), what, fix)
         })?;
         let place = shown(path);
+        no_scene(path, &text)?;
         // The folder of a pipe (`<(...)`) holds nothing of the user's.
         let (name, folder) = match path.parent().filter(|_| path.is_file()) {
             Some(folder) => (name_of(path), folder),
@@ -117,6 +118,28 @@ impl SceneFile {
             }
         }
     }
+}
+
+/// Refuses a geometry or a mesh of Gmsh, and says what a scene is.
+fn no_scene(path: &Path, text: &[u8]) -> Result<()> {
+    let extension = path.extension().unwrap_or_default();
+    let (mesh, kind, first) = if extension == "geo" {
+        let mesh = shown(&path.with_extension("msh"));
+        (mesh, "a geometry", format!("gmsh {} -2 meshes it; then ", shell_word(&shown(path))))
+    } else if extension == "msh" || text.starts_with(b"$MeshFormat") {
+        (shown(path), "a mesh", String::new())
+    } else {
+        return Ok(());
+    };
+    let what = format!(
+        "this is {kind} of Gmsh, and no scene: a scene is a JSON file beside a mesh that names materials, restraints, \
+         loads and what may touch"
+    );
+    let fix = format!(
+        "{first}plane-contact scene new {} writes a first one, to be edited",
+        shell_word(&mesh)
+    );
+    Err(InputError::new(shown(path), what, fix))
 }
 
 /// Returns a scene's name: `strand` for `golden/strand/scene.json`, `plate` for `my/plate.json`.

@@ -63,6 +63,39 @@ pub fn supports(
     Ok(supports)
 }
 
+/// Names the first node that two restraints hold along directions that are nearly one, as where a smooth curve is in
+/// two groups; it then cannot move at all.
+pub fn narrow(mesh: &Mesh, supports: &[Support]) -> Option<String> {
+    let mut held: BTreeMap<NodeId, Vec<(usize, [f64; 2])>> = BTreeMap::new();
+    for (k, support) in supports.iter().enumerate() {
+        support
+            .holds
+            .iter()
+            .for_each(|hold| held.entry(hold.node).or_default().push((k, hold.direction)));
+    }
+    let nearly_one = held.iter().filter_map(|(node, along)| {
+        let [(j, a), (k, b)] = along[..] else { return None };
+        let cosine = (a[0] * b[0] + a[1] * b[1]).abs();
+        (j != k && cosine > CORNER).then_some((node, [j, k], cosine))
+    });
+    let all: Vec<_> = nearly_one.collect();
+    let (node, [j, k], cosine) = all.first()?;
+    let others = match all.len() {
+        1 => String::new(),
+        count => format!(", one of {count} such nodes,"),
+    };
+    Some(format!(
+        "Node {}{others} is held by restraints {} ({}) and {} ({}) along directions {} degrees apart, and so cannot move \
+         at all: put both curves in one group, and it is held along their mean",
+        mesh.named(&[node.number()]),
+        j + 1,
+        supports[*j].name,
+        k + 1,
+        supports[*k].name,
+        six_digits(cosine.min(1.0).acos().to_degrees().round())
+    ))
+}
+
 /// Where a restraint acts.
 enum Site<'a> {
     Group(&'a GroupRef),

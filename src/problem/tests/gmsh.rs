@@ -461,7 +461,7 @@ fn faults_of_2_2_are_named_with_their_line() {
          "line 15: found \"$\", expected the beginning of a section, such as $Nodes"),
         ("9 2 2 1 4 10", "9 3 2 1 4 10",
          "line 17: element 9 is a four-node quadrangle (surface 4, \"the body\"); only points, two-node \
-          edges and three-node triangles can be read: in Gmsh take out Recombine Surface, set \
+          edges and three-node triangles can be read: in Gmsh take out Recombine Surface {4}, set \
           Mesh.RecombineAll = 0, Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh \
           again in two dimensions (-2)"),
         ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),

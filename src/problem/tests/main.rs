@@ -3,6 +3,7 @@
 extern crate plane_contact_problem as problem;
 
 mod element;
+mod first;
 mod gmsh;
 mod models;
 mod scene_builder;

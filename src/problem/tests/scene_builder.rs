@@ -29,8 +29,8 @@ fn blocks() -> SceneBuilder {
         .traction("top", [0.0, -1e300])
         .force(8, [0.5, -0.0])
         .contact(Contact {
-            coupling: Coupling::Mortar,
-            friction: Friction::NONE,
+            coupling: Some(Coupling::Mortar),
+            friction: Some(Friction::NONE),
             geometry: Geometry::Initial,
             status: StatusRule::Projection,
             ..Contact::new(vec![6, 7], "target", 0.001)
@@ -59,14 +59,29 @@ fn a_scene_file_says_what_code_says() {
     assert_eq!(read_back(&by_tag), by_tag);
 }
 
-/// The variant is written always: a file without one runs as `unilateral`.
 #[test]
 fn what_has_its_default_is_not_written() {
     let bare = SceneBuilder::new("bare", Mesh::default(), Plane::Strain).pressure("top", 1.0);
     let text = "{\n  \"mesh\": \"m.msh\",\n  \"plane\": \"strain\",\n  \"materials\": {},\n  \
-                \"loads\": [{\"on\":\"top\",\"pressure\":1.0}],\n  \
-                \"variant\": \"stepped\"\n}\n";
+                \"loads\": [{\"on\":\"top\",\"pressure\":1.0}]\n}\n";
     assert_eq!(file::write(&bare.description, "m.msh"), text);
+}
+
+/// As a file does, code that names no variant asks for contact as it is.
+#[test]
+fn a_scene_in_code_runs_the_contact_solution() {
+    let scene = |variant: Option<Variant>| {
+        let mut scene = blocks();
+        scene.description.variant = variant;
+        scene.description.contact = Some(Contact::new(vec![6, 7], "target", 0.001));
+        scene.build().expect("the scene is sound")
+    };
+    let own = scene(None);
+    assert_eq!((own.variant, own.coupling(own.variant)), (Variant::Unilateral, Coupling::Mortar));
+    assert!(own.friction_is_missing);
+    let paper = scene(Some(Variant::Stepped));
+    assert_eq!((paper.variant, paper.coupling(paper.variant)), (Variant::Stepped, Coupling::Nts));
+    assert!(!paper.friction_is_missing);
 }
 
 #[test]

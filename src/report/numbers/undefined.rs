@@ -7,7 +7,7 @@ const REASONS: &[(&str, &str)] = &[
     ("equilibrium_error", "there is no equilibrium, or the reading has no run of its own"),
     ("coupled", "the scene has no contact"),
     ("joins", "no node comes in contact"),
-    ("share", "printed stops"),
+    ("share", "printed stops, or no load acts"),
     ("nearest", "there is no equilibrium, or no variant of the paper runs"),
     ("fields", "there is no equilibrium, or the scene has no contact"),
     ("range", "it was not tried: audit --range"),

@@ -31,13 +31,15 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
         )
     });
     let facets = found.facets.map(|[height, least]| {
+        let part = match height < least {
+            true => format!("of which that is {}", percent(height / least)),
+            false => "less than that, so that the mesh decides it".into(),
+        };
         format!(
             "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the surfaces \
-             overlap by, or are apart by, {}, of which that is {}; no error estimate counts it; refine the \
-             surfaces",
+             overlap by, or are apart by, {}, {part}; no error estimate counts it; refine the surfaces",
             length(height),
-            length(least),
-            percent(height / least)
+            length(least)
         )
     });
     let geometry = (found.shape_change > 0.0).then(|| {

@@ -11,16 +11,17 @@ pub use call::{figure_numbers, pairs};
 pub use distance::distance;
 pub use equilibrium::nearest_decision;
 pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
+pub use result::decimals;
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{Digits, with_unit};
+use crate::numbers::{Digits, six_digits, with_unit};
 use crate::quantities;
 use engine::contact::{ContactNode, hidden, oddity};
 use engine::{
     Assessment, BodySummary, NodeFields, Solution, SupportForce, TriangleValues, beyond_range,
 };
-use paper::mirror::Reading;
+use paper::mirror::{Reading, ToleranceUnit};
 use problem::model::Model;
 use problem::modelling::{ContactModel, Variant};
 
@@ -80,6 +81,7 @@ fn heading(solution: &Solution) -> Report {
         .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
         .notes(arithmetic(solution))
         .notes(request.scene.adapted().to_vec())
+        .notes(tolerance_in_metres(solution))
         .notes(dropped(model))
 }
 
@@ -90,13 +92,28 @@ fn contact(solution: &Solution) -> Option<String> {
     is_used.then(|| format!("contact: {coupling}, friction {friction}, {geometry} geometry"))
 }
 
+/// Says what c_tll is where reading R8 takes it in metres and the scene is not measured in mm, as the paper's example.
+fn tolerance_in_metres(solution: &Solution) -> Option<String> {
+    let (request, model) = (&solution.request, &solution.model);
+    let unit = &*request.scene.units.length;
+    let is_read = request.reading.r8 == ToleranceUnit::Metre && model.has_contact();
+    (is_read && unit != "mm").then(|| {
+        let tolerance = with_unit(&six_digits(model.contact.tolerance), unit);
+        let why = match unit {
+            "" => "the scene names no unit of length, and mm is assumed".into(),
+            unit => format!("the scene is measured in {unit}, the paper's example in mm"),
+        };
+        format!("NOTE: R8 = m takes c_tll in metres, which is {tolerance} here: {why}")
+    })
+}
+
 /// Names the arithmetic, unless it is the default, and its bound on rounding errors.
 fn arithmetic(solution: &Solution) -> Vec<String> {
     let arithmetic = solution.request.arithmetic;
     let bound = solution.error_bound.map(|bound| match bound.is_finite() {
         true => format!(
-            "rounding changes no displacement by more than {bound:.1e} {}",
-            solution.request.scene.units.length
+            "rounding changes no displacement by more than {}",
+            with_unit(&format!("{bound:.1e}"), &solution.request.scene.units.length)
         ),
         false => "rounding error unknown".into(),
     });

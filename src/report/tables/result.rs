@@ -59,6 +59,9 @@ fn passes_on(solution: &Solution) -> Option<String> {
             let share = percent(solution.target_force() / load);
             format!("Contact passes on {share} of the load: force on the target {force}")
         }
+        false if solution.is_displaced() => {
+            format!("Contact presses under given displacements: force on the target {force}")
+        }
         false => format!("Contact presses without a load: force on the target {force}"),
     })
 }
@@ -88,9 +91,46 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
     let is_apart = solution.is_apart(at);
     let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
     (solution.request.variant != Variant::Printed).then(|| {
-        let at = place(solution, at.node);
-        format!("Peak contact pressure {pressure} at {at}{}{across}", others(found.others))
+        let (node, caution) = (place(solution, at.node), of_the_mesh(solution, at.node));
+        format!(
+            "Peak contact pressure {pressure} at {node}{}{across}{caution}",
+            others(found.others)
+        )
     })
+}
+
+/// Says where the mesh decides the pressure of a node: it carries contact alone, or stands at the edge of a body, as
+/// that of a punch. An end that a restraint holds may be one of symmetry.
+fn of_the_mesh(solution: &Solution, node: NodeId) -> &'static str {
+    let model = &solution.model;
+    if solution.in_contact().count() == 1 {
+        return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts";
+    }
+    let is_closed = |first, last| model.sides.boundary([first, last]).is_some();
+    let is_end = match model.contact.nodes[..] {
+        [first, .., last] if !is_closed(first, last) => [first, last].contains(&node),
+        _ => false,
+    };
+    let is_free = model.held_directions()[node.index()] == 0;
+    match is_end && is_free && !is_end_of_target(solution, node) {
+        true => {
+            "; the contact surface ends at this node, inside the target: at the edge of a body a finer mesh has more, \
+                 without limit"
+        }
+        false => "",
+    }
+}
+
+/// Returns whether a node faces an end of the target, as where two blocks of one width lie on each other.
+fn is_end_of_target(solution: &Solution, node: NodeId) -> bool {
+    let edges = || solution.model.target_edges().flat_map(|edge| edge.nodes);
+    let [x, y] = solution.model.coordinates(node);
+    let distance = |of: &NodeId| {
+        let [ox, oy] = solution.model.coordinates(*of);
+        (ox - x).hypot(oy - y)
+    };
+    let nearest = edges().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.is_some_and(|nearest| edges().filter(|other| *other == nearest).count() == 1)
 }
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error.
@@ -176,7 +216,7 @@ fn place(solution: &Solution, node: NodeId) -> String {
 }
 
 /// Returns the decimals of places: four digits of the size of the bodies.
-fn decimals(solution: &Solution) -> usize {
+pub fn decimals(solution: &Solution) -> usize {
     (4.0 - solution.model.bounds().larger_side().log10()).ceil().clamp(0.0, 12.0) as usize
 }
 

@@ -133,7 +133,7 @@ fn coupled(audit: &Audit) -> Coupled {
     let joins = k1.filter(|(_, measured)| measured.verdict != Verdict::NotTriggered);
     let printed = audit.variants.iter().find(|row| row.variant == Variant::Printed);
     let (share, failure) = match printed.map(|row| &row.end) {
-        Some(End::Result { target_share, .. }) => (Some(*target_share), None),
+        Some(End::Result { target_share, .. }) => (*target_share, None),
         Some(End::Failure { failure }) => (None, Some(failure.clone())),
         None => (None, None),
     };

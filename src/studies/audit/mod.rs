@@ -79,8 +79,8 @@ pub struct Compared {
     pub model: ContactModel,
     /// How many contact nodes are in contact.
     pub in_contact: usize,
-    /// The force that contact passes on over the size of the whole load; 0 without a load.
-    pub target_share: f64,
+    /// The force that contact passes on over the size of the whole load; None without a load.
+    pub target_share: Option<f64>,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
     /// The error of the mesh in the energy norm, relative; nothing where it is not known.

@@ -213,7 +213,7 @@ fn run(row: &VariantRow) -> Vec<Cell> {
             let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative));
             vec![
                 name,
-                Cell::percent(*target_share),
+                target_share.map(Cell::percent).into(),
                 nodes.into(),
                 stresses(bodies, *mesh_error).into(),
                 error.into(),
@@ -226,7 +226,7 @@ fn equilibrium(found: &Compared) -> Vec<Cell> {
     let nodes = found.in_contact.to_string();
     vec![
         "equilibrium".into(),
-        Cell::percent(found.target_share),
+        found.target_share.map(Cell::percent).into(),
         nodes.into(),
         stresses(&found.bodies, found.mesh_error).into(),
         Cell::Empty,

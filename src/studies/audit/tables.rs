@@ -178,7 +178,7 @@ fn variant(row: &VariantRow) -> Vec<Cell> {
         cells.extend([
             in_contact.last().copied().into(),
             (state + nothing).into(),
-            Cell::percent(*target_share),
+            target_share.map(Cell::percent).into(),
             (*eq1_residual).into(),
             stresses(bodies, *mesh_error).into(),
             distance.map(|from| Cell::percent(from.displacement_relative)).into(),

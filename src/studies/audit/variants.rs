@@ -37,7 +37,7 @@ pub enum End {
         contact_set: Vec<NodeId>,
         /// The force that contact passes on at the end over the size of the whole load; 0 without a
         /// load.
-        target_share: f64,
+        target_share: Option<f64>,
         /// Whether contact passes no load on at the end, beyond rounding, though there is a load.
         transmits_nothing: bool,
         /// Residual of eq. (1) at the end, total displacements, length.
@@ -110,7 +110,7 @@ impl End {
             sizes.map(move |(k, size)| Some(over(size, largest(k))))
         });
         let last = in_contact.last().copied().and_then(count);
-        let others = [Some(*target_share), distance, *friction_needed, depth, period];
+        let others = [*target_share, distance, *friction_needed, depth, period];
         [vec![last, count(pulling.len())], others.to_vec(), of_bodies.collect()].concat()
     }
 }
@@ -213,11 +213,10 @@ pub(super) fn apart(solution: &Solution, equilibrium: &Solution) -> Distance {
     }
 }
 
-/// Returns the force that contact passes on at the end over the size of the whole load; 0 without a load.
-pub(super) fn target_share(solution: &Solution) -> f64 {
+/// Returns the force that contact passes on at the end over the size of the whole load; None without a load.
+pub(super) fn target_share(solution: &Solution) -> Option<f64> {
     let [fx, fy] = solution.model.total_load();
-    let load = fx.hypot(fy);
-    if load == 0.0 { 0.0 } else { solution.target_force() / load }
+    finite(solution.target_force() / fx.hypot(fy))
 }
 
 /// Returns the error of the mesh in the energy norm, relative; nothing where it is not known.

@@ -75,8 +75,8 @@ fn scene(name: &str, mesh: MeshBuilder, plane: Plane) -> SceneBuilder {
 /// Frictionless contact of the group `contact` with the group `target`, bound by mortar weights.
 fn frictionless() -> Contact {
     Contact {
-        coupling: Coupling::Mortar,
-        friction: Friction::NONE,
+        coupling: Some(Coupling::Mortar),
+        friction: Some(Friction::NONE),
         ..Contact::new("contact", "target", 0.001)
     }
 }

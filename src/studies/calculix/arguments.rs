@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::calculix::{Contact, ContactKind, Pair, Part};
 use engine::error::Result;
-use engine::{self, Solution};
+use engine::{self, Request, Solution};
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
@@ -53,6 +53,19 @@ impl DeckArgs {
             Contact::check_equations(request.variant)?;
         }
         waiting("solving", || engine::solve(&request, &mut |_| ()))
+    }
+
+    /// Returns whether something is asked for that only a deck has.
+    pub fn is_of_calculix(&self) -> bool {
+        self.penalty.is_some() || self.contact != ContactKind::default()
+    }
+
+    /// The run that a field is compared with: that of the variant that is asked for, else the equilibrium.
+    pub fn reference(&self, scene: &Scene) -> Result<Request> {
+        match self.variant {
+            Some(variant) => self.model.request(scene, Some(variant), &self.reading),
+            None => self.model.equilibrium(scene, &self.reading),
+        }
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.

@@ -66,6 +66,7 @@ impl Blocks {
     pub fn scene(&self, variant: Variant) -> SceneBuilder {
         let contact = Contact::new(vec![6, 7, 8], vec![1, 2], self.c_tll);
         let scene = SceneBuilder::new("extreme", self.mesh(), Plane::Strain)
+            .variant(Variant::Stepped)
             .material(BLOCK, self.e[0], self.nu)
             .material(STAMP, self.e[1], self.nu)
             .restrain(BOTTOM, &[Axis::X, Axis::Y])

@@ -10,6 +10,7 @@ use paper::door;
 use paper::mirror::{Reading, c_cnt};
 use problem::element::Plane;
 use problem::model::NodeId;
+use problem::modelling::Variant;
 use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder};
 
 /// A target edge, a contact node, and how far each has moved.
@@ -90,6 +91,7 @@ impl Search {
         mesh.triangles("upper", [[4, 5, 6]]);
         let both = &[Axis::X, Axis::Y];
         SceneBuilder::new("extreme", mesh.finish(), Plane::Strain)
+            .variant(Variant::Stepped)
             .material("lower", 4.0, 0.0)
             .material("upper", 4.0, 0.0)
             .restrain("lower", both)

@@ -142,8 +142,8 @@ impl Bodies {
             .material("upper", upper.0, upper.1)
             .variant(Variant::Unilateral)
             .contact(Contact {
-                coupling,
-                friction,
+                coupling: Some(coupling),
+                friction: Some(friction),
                 geometry,
                 load_steps,
                 status,

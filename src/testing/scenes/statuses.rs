@@ -12,6 +12,7 @@
 use crate::draws::between;
 use fastrand::Rng;
 use problem::element::Plane;
+use problem::modelling::Variant;
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// The tolerance of the contact search, length: the text's c_tol.
@@ -141,6 +142,7 @@ fn scene(surface: &[[f64; 2]], stamp: &[[f64; 2]], kind: Kind, turned: bool) -> 
     mesh.join("target", &target, &bottom);
     mesh.join("stamp", &top, &contact);
     SceneBuilder::new("statuses", mesh.finish(), Plane::Strain)
+        .variant(Variant::Stepped)
         .material("target", 1.0, 0.0)
         .material("stamp", 1.0, 0.0)
         .restrain("target", &[Axis::X, Axis::Y])

@@ -1,5 +1,6 @@
 //! Structured meshes, and a field's exact tractions on their boundary.
 
+use plane_contact::problem::modelling::Variant;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -85,6 +86,7 @@ impl Grid {
         let (points, triangles) = (self.points(), self.triangles());
         let forces = tractions(field, &points, &triangles, thickness);
         let scene = SceneBuilder::new("test", mesh(&points, &triangles).finish(), field.plane)
+            .variant(Variant::Stepped)
             .thickness(thickness)
             .material(BODY, field.e, field.nu)
             .restrain_node(1, &[Axis::X, Axis::Y])

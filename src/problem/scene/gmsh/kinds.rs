@@ -41,10 +41,11 @@ impl Reader<'_> {
             let dim = dim.unwrap_or(3);
             let names = physical.iter().filter_map(|tag| self.names.get(&(dim, *tag)));
             let names: String = names.map(|name| format!(", {name:?}")).collect();
+            let recombined = if dim == 2 { format!(" {{{geometric}}}") } else { String::new() };
             let entity = format!("{} {geometric}{names}", ENTITIES[dim]);
             self.tokens.refused(format!(
                 "element {element} is {kind} ({entity}); only points, two-node edges and three-node \
-                 triangles can be read: in Gmsh take out Recombine Surface, set Mesh.RecombineAll = 0, \
+                 triangles can be read: in Gmsh take out Recombine Surface{recombined}, set Mesh.RecombineAll = 0, \
                  Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh again in two \
                  dimensions (-2)"
             ))

@@ -1,0 +1,96 @@
+//! The first scene of a mesh, and what it leaves to its author; units that do not fit each other.
+
+use problem::element::Plane;
+use problem::scene::{Axis, Mesh, MeshBuilder, Scene, SceneBuilder, first, gmsh};
+
+/// A block under a narrower punch, a hundredth above it, with all their sides as groups.
+fn punch() -> Mesh {
+    let mut mesh = MeshBuilder::default();
+    for (name, [left, right], [low, high], cells) in
+        [("block", [0.0, 10.0], [0.0, 5.0], 10), ("punch", [3.0, 7.0], [5.01, 8.0], 4)]
+    {
+        let row = |y: f64| {
+            (0..=cells).map(move |k| [left + (right - left) * f64::from(k) / f64::from(cells), y])
+        };
+        let (bottom, top) = (mesh.row(row(low)), mesh.row(row(high)));
+        mesh.join(name, &bottom, &top);
+        mesh.edges(format!("{name}_bottom"), &bottom);
+        mesh.edges(format!("{name}_top"), &top);
+        mesh.edges(format!("{name}_left"), &[bottom[0], top[0]]);
+    }
+    mesh.finish()
+}
+
+fn build(text: &str, file: &str) -> Result<Scene, String> {
+    let beside = |_: &str| Ok(file.as_bytes().to_vec());
+    Scene::build("first", text.as_bytes(), beside).map_err(|why| why.to_string())
+}
+
+#[test]
+fn a_first_scene_leaves_exactly_what_only_its_author_knows() {
+    let file = gmsh::write(&punch());
+    let scene = first("punch.msh", file.as_bytes()).unwrap();
+    for guess in [
+        r#""cnt":"punch_bottom","trg":"block_top""#,
+        r#"{"on":"block_bottom","fix""#,
+        r#"{"on":"punch_top","pressure":null}"#,
+    ] {
+        assert!(scene.text.contains(guess), "{guess}: {}", scene.text);
+    }
+    assert!(scene.notes.iter().any(|note| note.contains("left for more")), "{:?}", scene.notes);
+    let why = build(&scene.text, &file).unwrap_err();
+    let open = "materials.block.E, materials.block.nu, materials.punch.E, materials.punch.nu, loads[0].pressure, \
+                contact.friction";
+    assert!(why.contains(&format!("where: {open}\n")), "{why}");
+    let chosen = scene.text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
+    let built = build(&chosen, &file).unwrap();
+    assert!(!built.friction_is_missing && built.model.has_contact());
+}
+
+#[test]
+fn a_mesh_without_groups_is_refused_with_the_lines_that_it_lacks() {
+    let mut mesh = punch();
+    mesh.names.clear();
+    mesh.elements.iter_mut().for_each(|element| element.physical.clear());
+    let surface = mesh.of_dimension(2).next().unwrap().geometric;
+    let why = first("punch.msh", gmsh::write(&mesh).as_bytes()).err().unwrap().to_string();
+    let line = format!("Physical Surface(\"surface{surface}\") = {{{surface}}};");
+    assert!(why.contains(&line) && why.contains("Physical Curve(\"curve"), "{why}");
+    mesh.elements.retain(|element| element.dim() == 2);
+    let why = first("punch.msh", gmsh::write(&mesh).as_bytes()).err().unwrap().to_string();
+    assert!(why.contains("whose numbers Gmsh shows"), "{why}");
+}
+
+#[test]
+fn units_that_do_not_fit_each_other_are_named() {
+    let note = |[length, stress, force]: [&str; 3]| {
+        let scene = SceneBuilder::new("punch", punch(), Plane::Strain)
+            .units(length, stress, force)
+            .material("block", 1.0, 0.3)
+            .material("punch", 1.0, 0.3)
+            .restrain("block_bottom", &[Axis::X, Axis::Y])
+            .restrain("punch_bottom", &[Axis::X, Axis::Y])
+            .build()
+            .unwrap();
+        scene.adapted().first().cloned()
+    };
+    let fitting = [
+        ["mm", "MPa", "N"],
+        ["m", "Pa", "N"],
+        ["mm", "GPa", "kN"],
+        ["in", "psi", "lbf"],
+        ["in", "ksi", "kip"],
+        ["", "MPa", "kip"],
+        ["furlong", "MPa", "N"],
+    ];
+    fitting.into_iter().for_each(|units| assert_eq!(note(units), None, "{units:?}"));
+    let misfits = [
+        (["in", "psi", "kip"], "psi times in² is 0.001 kip", "\"lbf\""),
+        (["m", "MPa", "N"], "MPa times m² is 1000000 N", "\"MN\""),
+        (["in", "MPa", "N"], "MPa times in² is 645.16 N", "units that fit"),
+    ];
+    for (units, size, fix) in misfits {
+        let note = note(units).unwrap();
+        assert!(note.contains(size) && note.contains(fix), "{note}");
+    }
+}

@@ -1,0 +1,46 @@
+//! `plane-contact compare SCENE --with FIELD`.
+
+use std::path::Path;
+
+use super::table::{self, Compared};
+use super::{Beside, Rows};
+use base::error::InputError;
+use base::exit::ExitStatus;
+use engine::error::Result;
+use engine::{self, Request, max_displacement};
+
+use commands::{TablesArgs, print, waiting};
+
+/// The tolerance where none is asked for: that of another code's contact by penalty.
+const TOLERANCE: f64 = 1e-3;
+
+/// Puts a file of displacements beside the solution of a request, and prints it; returns whether they are the same.
+///
+/// # Errors
+/// The file is at fault, or the request cannot be solved.
+pub fn run(
+    path: &Path,
+    request: &Request,
+    rtol: Option<f64>,
+    tables: &TablesArgs,
+) -> Result<ExitStatus> {
+    let tolerance = rtol.unwrap_or(TOLERANCE);
+    let rows = Rows::read(path)?;
+    engine::check(request)?;
+    let (u, how) = rows.on_mesh(&request.scene, &request.scene.model)?;
+    let reference = waiting("solving", || engine::solve(request, &mut |_| ()))?;
+    let beside = Beside::new(&reference, u, tolerance)?;
+    let moves = max_displacement(&reference.u) > 0.0;
+    if moves && !beside.distance.energy_relative.is_finite() {
+        let what = "the displacements are too large for their energy to be a number";
+        return Err(
+            InputError::new(rows.place, what, "give them in the scene's unit of length").into()
+        );
+    }
+    let compared = Compared { rows: &rows, how, beside };
+    match tables.json {
+        true => print(&table::json(&compared))?,
+        false => tables.print(table::report(&compared))?,
+    }
+    Ok(ExitStatus::compared(compared.beside.is_same()))
+}

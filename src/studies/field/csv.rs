@@ -1,0 +1,101 @@
+//! Displacements in a table of comma-separated values, as this program, spreadsheets and ParaView write it.
+
+use super::{HOW, Row, Rows, plain};
+use base::error::{InputError, Result};
+use base::files;
+
+/// The names of the columns, as [`plain`] leaves them: a node's number, x, y, and the displacements along them.
+const COLUMNS: [&[&str]; 5] = [
+    &["node", "n", "id", "nodeid", "nodenumber", "nodelabel"],
+    &["x", "coordx", "points0"],
+    &["y", "coordy", "points1"],
+    &["ux", "u1", "dx", "dispx", "displacementx", "displacementux", "displacement0"],
+    &["uy", "u2", "dy", "dispy", "displacementy", "displacementuy", "displacement1"],
+];
+
+/// Reads a table: its first line names the columns, which commas, semicolons or tabs separate.
+///
+/// # Errors
+/// A column is missing or there twice, a line has another number of cells, or a cell is no number.
+pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
+    let wrong = |what: String| InputError::new(place, what, HOW);
+    let text =
+        files::text(bytes).map_err(|why| wrong(format!("the field cannot be read: {why}")))?;
+    let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
+    let (_, heading) = lines.next().ok_or_else(|| wrong("the file is empty".into()))?;
+    let separator = [';', '\t'].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
+    let headings = cells(heading, separator);
+    let mut columns = [None; 5];
+    for (column, names) in columns.iter_mut().zip(COLUMNS) {
+        let is_named = |k: &usize| names.contains(&&*plain(&headings[*k]));
+        let found: Vec<usize> = (0..headings.len()).filter(is_named).collect();
+        *column = match found[..] {
+            [] => None,
+            [k] => Some(k),
+            [k, other, ..] => {
+                return Err(wrong(format!(
+                    "the columns {:?} and {:?} mean the same",
+                    headings[k], headings[other]
+                )));
+            }
+        };
+    }
+    let ([number, x, y, Some(ux), Some(uy)], true) =
+        (columns, columns[0].is_some() || columns[1].is_some() && columns[2].is_some())
+    else {
+        let named = headings.join(" | ");
+        return Err(wrong(format!(
+            "the first line names the columns {named:?}, which do not say what is where"
+        )));
+    };
+    let row = |(line, text): (usize, &str)| {
+        let cells = cells(text, separator);
+        if cells.len() != headings.len() {
+            let (found, expected) = (cells.len(), headings.len());
+            return Err(wrong(format!("line {line} has {found} cells, the first line {expected}")));
+        }
+        let float = |column: usize| {
+            cells[column].parse::<f64>().map_err(|_| {
+                let (cell, heading) = (&cells[column], &headings[column]);
+                wrong(format!(
+                    "line {line}, column {heading:?}: {cell:?} is no number, such as 1.5e-3"
+                ))
+            })
+        };
+        let number = match number {
+            None => None,
+            Some(column) => Some(float(column)?).map(|n| match n.fract() == 0.0 && n >= 1.0 {
+                true => Ok(n as usize),
+                false => Err(wrong(format!(
+                    "line {line}: {n} is no number of a node, which count from 1"
+                ))),
+            }),
+        };
+        let at = match (x, y) {
+            (Some(x), Some(y)) => Some([float(x)?, float(y)?]),
+            (Some(_) | None, None) | (None, Some(_)) => None,
+        };
+        Ok(Row { line, number: number.transpose()?, at, u: [float(ux)?, float(uy)?] })
+    };
+    let rows = lines.filter(|(_, text)| !text.trim().is_empty()).map(row).collect::<Result<_>>()?;
+    let taken = columns.into_iter().flatten().map(|k| &*headings[k]).collect::<Vec<_>>();
+    Ok(Rows {
+        place: place.into(),
+        kind: "line",
+        taken: format!("columns {}", taken.join(" | ")),
+        rows,
+    })
+}
+
+/// Returns the cells of a line; a separator between quotation marks separates none.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let (mut cells, mut is_quoted) = (vec![String::new()], false);
+    for c in line.chars() {
+        match c {
+            '"' => is_quoted = !is_quoted,
+            c if c == separator && !is_quoted => cells.push(String::new()),
+            c => cells.last_mut().expect("there is a first cell").push(c),
+        }
+    }
+    cells.iter().map(|cell| cell.trim().to_string()).collect()
+}

@@ -1,0 +1,223 @@
+//! The displacements that another code computed on the mesh of a scene, beside the reference solution.
+//!
+//! ```text
+//!  FIELD.csv --csv--+
+//!  FIELD.vtu --vtu--+--> Rows --on_mesh--> u --implied--> Solution --+
+//!  SCENE ------------------------solve----------------> reference ---+--> Beside --> tables, JSON
+//! ```
+
+mod beside;
+pub mod command;
+mod csv;
+mod table;
+mod vtu;
+
+pub use beside::{AtNode, Beside, BodyDifference, ContactValues};
+
+use std::path::Path;
+
+use nalgebra::DVector;
+
+use base::error::{InputError, Result};
+use base::files as disk;
+use base::plain::{shown, six_digits};
+use problem::model::{Model, NodeId};
+use problem::scene::Scene;
+
+/// How far a place of the file may be from its node, over the larger side of the mesh.
+const NEAR: f64 = 1e-6;
+
+/// How a file that cannot be read is written.
+const HOW: &str = "write it as CSV with the columns node, ux, uy or x, y, ux, uy, or as VTU, in ASCII, base64 or raw, \
+                   compressed by zlib or not (meshio convert FIELD field.vtu)";
+
+/// The displacements in a file.
+pub struct Rows {
+    /// The path of the file.
+    pub place: String,
+    /// What a row is called: a line or a point.
+    kind: &'static str,
+    /// What was taken for the displacements.
+    pub taken: String,
+    rows: Vec<Row>,
+}
+
+/// The displacement of a node.
+struct Row {
+    /// The number of its line or point in the file.
+    line: usize,
+    /// The number of the node.
+    number: Option<usize>,
+    /// Its place in the undeformed shape, length.
+    at: Option<[f64; 2]>,
+    /// The displacement, length.
+    u: [f64; 2],
+}
+
+impl Rows {
+    /// Reads a file of displacements by the extension of its name.
+    ///
+    /// # Errors
+    /// It cannot be read, or has no displacements.
+    pub fn read(path: &Path) -> Result<Self> {
+        let place = shown(path);
+        let bytes = disk::read(path).map_err(|why| {
+            let what = format!("the field cannot be read: {why}");
+            InputError::new(&place, what, "give the path of a .csv or .vtu file")
+        })?;
+        match path.extension().map(|extension| extension.to_ascii_lowercase()) {
+            Some(extension) if extension == "csv" => csv::read(bytes, &place),
+            Some(extension) if extension == "vtu" => vtu::read(&bytes, &place),
+            _ => Err(InputError::new(place, "the file is neither .csv nor .vtu", HOW)),
+        }
+    }
+
+    /// Returns the displacements by degree of freedom of the scene's model, and how their nodes were found, in words.
+    ///
+    /// # Errors
+    /// A row belongs to no node or to several, a node has no row or several, or a displacement is no number.
+    pub fn on_mesh(&self, scene: &Scene, model: &Model) -> Result<(DVector<f64>, &'static str)> {
+        let (nodes, how) = self.nodes(scene, model)?;
+        let mut found: Vec<Option<&Row>> = vec![None; model.nodes.len()];
+        for (node, row) in nodes.into_iter().zip(&self.rows) {
+            if model.is_dropped(node) {
+                continue;
+            }
+            if let Some(before) = found[node.index()].replace(row) {
+                let what = format!(
+                    "node {node} is that of {} {} and that of {}",
+                    self.kind, before.line, row.line
+                );
+                return Err(self.wrong(what, "give each node one row"));
+            }
+            if !row.u.iter().all(|u| u.is_finite()) {
+                let what =
+                    format!("{} {} (node {node}) has no finite displacement", self.kind, row.line);
+                return Err(self.wrong(what, "give a number for each node of the mesh"));
+            }
+        }
+        let is_missing = |node: &NodeId| found[node.index()].is_none() && !model.is_dropped(*node);
+        let missing: Vec<NodeId> = model.node_ids().filter(is_missing).collect();
+        if let Some(first) = missing.first() {
+            let [x, y] = model.coordinates(*first).map(six_digits);
+            let what = format!(
+                "{} of the scene's {} nodes have no displacement, the first node {first} at {x}, {y}",
+                missing.len(),
+                model.nodes.len()
+            );
+            return Err(
+                self.wrong(what, "give the field of the scene's own mesh, at all of its nodes")
+            );
+        }
+        let u = |node: NodeId| found[node.index()].map_or([0.0; 2], |row| row.u);
+        let u: Vec<[f64; 2]> = model.node_ids().map(u).collect();
+        Ok((DVector::from_column_slice(u.as_flattened()), how))
+    }
+
+    /// Returns the node of each row.
+    fn nodes(&self, scene: &Scene, model: &Model) -> Result<(Vec<NodeId>, &'static str)> {
+        let near = NEAR * model.bounds().larger_side();
+        let is_at = |row: &Row, node: NodeId| {
+            let [nx, ny] = model.coordinates(node);
+            row.at.is_none_or(|[x, y]| (x - nx).hypot(y - ny) <= near)
+        };
+        if self.rows.iter().all(|row| row.number.is_some()) {
+            let in_file = scene.source().map_or(&[][..], |(_, mesh)| &mesh.in_file);
+            let here = self.by_number(model, |n| n.checked_sub(1), is_at);
+            if in_file.is_empty() {
+                return Ok((here?, "by number"));
+            }
+            let in_file = self.by_number(model, |n| in_file.binary_search(&n).ok(), is_at);
+            return match (in_file, here) {
+                (Ok(nodes), Err(_)) => Ok((nodes, "by the numbers of the mesh file")),
+                (Err(_), Ok(nodes)) => Ok((nodes, "by number, as they are numbered here")),
+                (Err(why), Err(_)) => Err(why),
+                (Ok(_), Ok(_)) => {
+                    let what = "the node numbers may be those of the mesh file, which have gaps, or those here";
+                    Err(self.wrong(what, "give the columns x and y too"))
+                }
+            };
+        }
+        let in_order =
+            || self.rows.iter().zip(model.node_ids()).all(|(row, node)| is_at(row, node));
+        if self.rows.len() == model.nodes.len() && in_order() {
+            return Ok((
+                model.node_ids().collect(),
+                "in the order of the mesh, at the same coordinates",
+            ));
+        }
+        Ok((self.by_coordinates(model, near)?, "by coordinates"))
+    }
+
+    /// Returns the node of each row by its number, whose place among the nodes is `index`.
+    fn by_number(
+        &self,
+        model: &Model,
+        index: impl Fn(usize) -> Option<usize>,
+        is_at: impl Fn(&Row, NodeId) -> bool,
+    ) -> Result<Vec<NodeId>> {
+        let node = |row: &Row| {
+            let number = row.number.unwrap_or_default();
+            let node = index(number).filter(|index| *index < model.nodes.len()).map(NodeId::new);
+            let node = node.ok_or_else(|| {
+                let what = format!("{} {}: the mesh has no node {number}", self.kind, row.line);
+                self.wrong(what, "give the field of the scene's own mesh, whose nodes count from 1")
+            })?;
+            if !is_at(row, node) {
+                let [x, y] = row.at.unwrap_or_default().map(six_digits);
+                let [nx, ny] = model.coordinates(node).map(six_digits);
+                let what = format!(
+                    "{} {} has node {number} at {x}, {y}; in the scene it is at {nx}, {ny}",
+                    self.kind, row.line
+                );
+                let fix = "give the field of the scene's own mesh, with undeformed coordinates in its unit";
+                return Err(self.wrong(what, fix));
+            }
+            Ok(node)
+        };
+        self.rows.iter().map(node).collect()
+    }
+
+    /// Returns the only node within `near` of each row's place.
+    fn by_coordinates(&self, model: &Model, near: f64) -> Result<Vec<NodeId>> {
+        let mut sorted: Vec<NodeId> = model.node_ids().filter(|n| !model.is_dropped(*n)).collect();
+        sorted.sort_by(|a, b| model.coordinates(*a)[0].total_cmp(&model.coordinates(*b)[0]));
+        let node = |row: &Row| {
+            let [x, y] = row.at.unwrap_or_default();
+            let from = sorted.partition_point(|n| model.coordinates(*n)[0] < x - near);
+            let column =
+                sorted[from..].iter().take_while(|n| model.coordinates(**n)[0] <= x + near);
+            let is_at = |n: &&NodeId| {
+                let [nx, ny] = model.coordinates(**n);
+                (x - nx).hypot(y - ny) <= near
+            };
+            let all: Vec<NodeId> = column.filter(is_at).copied().collect();
+            let place =
+                format!("{} {} at {}, {}", self.kind, row.line, six_digits(x), six_digits(y));
+            match all[..] {
+                [node] => Ok(node),
+                [a, b, ..] => {
+                    let what = format!("{place} is that of node {a} and of node {b}");
+                    let fix = "add a column node with their numbers to a CSV, or list all nodes in the mesh's order";
+                    Err(self.wrong(what, fix))
+                }
+                [] => {
+                    let what = format!("{place} is at no node of the scene");
+                    let fix = "give the field of the scene's own mesh, with undeformed coordinates in its unit";
+                    Err(self.wrong(what, fix))
+                }
+            }
+        };
+        self.rows.iter().map(node).collect()
+    }
+
+    fn wrong(&self, what: impl Into<String>, fix: &str) -> InputError {
+        InputError::new(&self.place, what, fix)
+    }
+}
+
+/// Returns a name without units, blanks and signs, in lower case: `u_x, mm` is `ux`.
+fn plain(name: &str) -> String {
+    let name = name.split([',', '(', '[']).next().unwrap_or_default();
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}

@@ -1,0 +1,232 @@
+//! A field beside the reference solution: tables and JSON.
+
+use serde::Serialize;
+
+use super::{AtNode, Beside, BodyDifference, ContactValues, Rows};
+use engine::Distance;
+use problem::model::NodeId;
+use problem::modelling::{ContactModel, Variant};
+use report::json;
+use report::model::{Cell, Report, Table};
+use report::numbers::{
+    Digits, coordinates, figure, percent, quantity, reason, six_digits, with_unit,
+};
+use report::pressure;
+use report::tables::decimals;
+
+/// How many nodes are listed, those with the largest differences.
+const WORST: usize = 10;
+
+/// The part of the largest force on a node from which a force without balance is said to spoil the tractions.
+const UNBALANCED: f64 = 1e-3;
+
+/// What was compared: a file, how its nodes were found, and what came of it.
+pub struct Compared<'a> {
+    /// The file.
+    pub rows: &'a Rows,
+    /// How the nodes of its rows were found, in words.
+    pub how: &'a str,
+    /// The field beside the reference solution.
+    pub beside: Beside<'a>,
+}
+
+/// Reports the distance of a field, its largest differences, and what it implies of contact.
+pub fn report(compared: &Compared) -> Report {
+    let Compared { rows, how, beside } = compared;
+    let (reference, model) = (beside.reference, &*beside.reference.model);
+    let request = &reference.request;
+    let nodes = model.nodes.len();
+    let others = reference.has_others().then_some(
+        "NOTE: the solution compared with is not the only equilibrium: solve says which others there are",
+    );
+    Report::titled(&request.scene.title)
+        .line(format!("scene {} beside {}", request.scene.name, rows.place))
+        .line(format!("{}; {nodes} nodes, found {how}", rows.taken))
+        .line(format!(
+            "compared with {}, {} geometry",
+            pressure::name(reference),
+            request.contact.geometry
+        ))
+        .heading("Result")
+        .notes(verdict(beside))
+        .notes(others)
+        .notes(unbalanced(beside))
+        .table("Largest differences, by body", bodies(beside))
+        .then(contact(beside))
+        .then(worst(beside))
+}
+
+/// Says whether the field is the reference solution, and how far it is.
+fn verdict(beside: &Beside) -> [String; 3] {
+    let Distance { displacement, displacement_relative, energy_relative, .. } = beside.distance;
+    let (verdict, joined) = match beside.is_same() {
+        true => ("Same within", "and"),
+        false => ("DIFFERENT by more than", "or"),
+    };
+    let units = &beside.reference.request.scene.units;
+    [
+        format!(
+            "{verdict} {} (--rtol), in the energy norm {joined} in displacements",
+            six_digits(beside.tolerance)
+        ),
+        format!("Distance in the energy norm: {}", part(energy_relative)),
+        format!(
+            "Largest difference of a displacement: {}, {} of the largest",
+            with_unit(&figure(displacement, None), &units.length),
+            part(displacement_relative)
+        ),
+    ]
+}
+
+/// Writes a part of 1 in per cent, and a very small or large one as a power of ten.
+fn part(part: f64) -> String {
+    let is_handy = part == 0.0 || (1e-4..1e3).contains(&part);
+    if is_handy { percent(part) } else { figure(part, None) }
+}
+
+/// Says where the field is not in equilibrium inside the bodies, so that its tractions are not those of contact.
+fn unbalanced(beside: &Beside) -> Option<String> {
+    let (node, size) = beside.unbalanced.filter(|(_, size)| *size > UNBALANCED)?;
+    Some(format!(
+        "NOTE: the field is not in equilibrium under the scene's loads on this mesh of linear triangles: node {node} \
+         is left with {} of the largest force on a node; tractions below are no better",
+        percent(size)
+    ))
+}
+
+fn bodies<'b>(beside: &'b Beside) -> Table<Vec<(&'b BodyDifference, &'b engine::BodyDistance)>> {
+    let units = &beside.reference.request.scene.units;
+    Table::from_rows(beside.bodies.iter().zip(&beside.distance.bodies))
+        .column("body", |(body, _)| body.name.clone())
+        .column(quantity("difference", &units.length), |(body, _)| {
+            Cell::scientific(body.difference, 2)
+        })
+        .column("of its largest |u|", |(body, _)| {
+            Cell::percent(body.relative).because(reason("relative"))
+        })
+        .column("node", |(body, _)| body.node)
+        .column("x, y", |(body, _)| place(beside, body.node))
+        .column(quantity("von Mises, field", &units.stress), |(_, stress)| stress.von_mises_stress)
+        .column("reference", |(_, stress)| stress.reference)
+        .column("difference", |(_, stress)| {
+            Cell::percent(stress.relative).because(reason("relative"))
+        })
+}
+
+fn place(beside: &Beside, node: NodeId) -> String {
+    coordinates(beside.reference.model.coordinates(node), decimals(beside.reference))
+}
+
+/// Lists what both imply of contact.
+fn contact(beside: &Beside) -> Report {
+    let both = [&beside.field, beside.reference].map(ContactValues::of);
+    let [Some(field), Some(reference)] = both else { return Report::default() };
+    let units = &beside.reference.request.scene.units;
+    let force = |of: &ContactValues| match of.force {
+        Some([x, y]) => {
+            let digits = Digits::of(x.hypot(y), None);
+            format!("{}, {}", digits.write(x), digits.write(y))
+        }
+        None => "none".into(),
+    };
+    let value = |at: Option<AtNode>| match at {
+        Some(AtNode { node, value }) if value != 0.0 => {
+            format!("{}, node {node}", figure(value, None))
+        }
+        Some(_) => "0".into(),
+        None => "-".into(),
+    };
+    let row = |name: &str, unit: &str, of: &dyn Fn(&ContactValues) -> String| -> Vec<Cell> {
+        vec![quantity(name, unit).into(), of(&field).into(), of(&reference).into()]
+    };
+    let rows = [
+        row("force on the target x, y", &units.force, &force),
+        row("deepest penetration", &units.length, &|of| value(of.penetration)),
+        row("largest pressure", &units.stress, &|of| value(of.pressure)),
+        row("largest pull", &units.stress, &|of| value(of.pull)),
+        row("largest shear", &units.stress, &|of| value(of.shear)),
+    ];
+    Report::default().table(
+        "What the displacements imply of contact",
+        Table::new(["", "field", "reference"], rows),
+    )
+}
+
+/// Lists the nodes with the largest differences, if there are any.
+fn worst(beside: &Beside) -> Report {
+    let mut nodes = beside.worst(WORST);
+    nodes.retain(|node| beside.differences[node.index()] > 0.0);
+    if nodes.is_empty() {
+        return Report::default();
+    }
+    let [field, own] = [&beside.field, beside.reference].map(|solution| solution.displacements());
+    let u = |of: &[[f64; 2]], node: &NodeId, axis: usize| {
+        Cell::scientific(of[node.index()][axis] + 0.0, 4)
+    };
+    let table = Table::from_rows(nodes)
+        .column("node", |node| *node)
+        .column("x, y", |node| place(beside, *node))
+        .column("u_x field", |node| u(&field, node, 0))
+        .column("u_y field", |node| u(&field, node, 1))
+        .column("u_x reference", |node| u(&own, node, 0))
+        .column("u_y reference", |node| u(&own, node, 1))
+        .column("difference", |node| Cell::scientific(beside.differences[node.index()], 2));
+    let units = &beside.reference.request.scene.units;
+    Report::default().table(quantity("The worst nodes: displacements", &units.length), table)
+}
+
+/// The document that `--json` prints.
+#[derive(Serialize)]
+struct Document<'a> {
+    scene: &'a str,
+    title: &'a str,
+    field: &'a str,
+    variant: Variant,
+    #[serde(flatten)]
+    modelled: ContactModel,
+    is_same: bool,
+    rtol: f64,
+    /// Whether the solution compared with is not the only equilibrium.
+    has_others: bool,
+    distance: &'a Distance,
+    bodies: &'a [BodyDifference],
+    /// The node inside the bodies with the largest force that nothing balances, and its part of the largest.
+    unbalanced: Option<AtNode>,
+    contact: ContactOfBoth,
+    worst_nodes: Vec<NodeId>,
+    /// The difference of each node, length.
+    nodes: &'a [f64],
+}
+
+/// What both imply of contact; null without contact.
+#[derive(Serialize)]
+struct ContactOfBoth {
+    field: Option<ContactValues>,
+    reference: Option<ContactValues>,
+}
+
+/// Returns the comparison as JSON.
+pub fn json(compared: &Compared) -> String {
+    let beside = &compared.beside;
+    let request = &beside.reference.request;
+    let document = Document {
+        scene: &request.scene.name,
+        title: &request.scene.title,
+        field: &compared.rows.place,
+        variant: request.variant,
+        modelled: request.contact,
+        is_same: beside.is_same(),
+        rtol: beside.tolerance,
+        has_others: beside.reference.has_others(),
+        distance: &beside.distance,
+        bodies: &beside.bodies,
+        unbalanced: beside.unbalanced.map(|(node, value)| AtNode { node, value }),
+        contact: ContactOfBoth {
+            field: ContactValues::of(&beside.field),
+            reference: ContactValues::of(beside.reference),
+        },
+        worst_nodes: beside.worst(WORST),
+        nodes: &beside.differences,
+    };
+    json::line(Some(&request.scene), &document)
+}
