@@ -86,6 +86,8 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
     });
     let script = [
         include_str!("page/steps/machine.js"),
+        include_str!("page/editor/checks.js"),
+        include_str!("page/editor/kept.js"),
         include_str!("page/editor/edit.js"),
         include_str!("page/steps/listing.js"),
         include_str!("page/pictures/scene.js"),
@@ -97,7 +99,9 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("page/teaching/questions.js"),
         include_str!("page/teaching/chapters.js"),
         include_str!("page/teaching/repairs.js"),
+        include_str!("page/teaching/beside.js"),
         include_str!("page/pictures/drag.js"),
+        include_str!("page/frame/language.js"),
         include_str!("page/frame/address.js"),
         include_str!("page/frame/lesson.js"),
     ];
