@@ -39,7 +39,7 @@ run(async (browser) => {
     await page.selectOption("#chapter", { index });
     for (const at of ["0", "40"]) {
       await page.locator("#slider").fill(at);
-      assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}`);
+      assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}: ${await english(page)}`);
     }
   }
   await page.selectOption("#chapter", { index: 1 });

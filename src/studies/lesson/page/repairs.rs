@@ -77,7 +77,9 @@ pub fn json(repairs: &Repairs) -> Value {
 fn not_needed(repairs: &Repairs) -> Value {
     let others = repairs.rows[repairs.needed + 1..].iter();
     let names: Vec<_> = others.filter_map(|row| row.name.as_deref()).collect();
-    json!({ "text": "Not needed here: {names}.", "values": { "names": names } })
+    let mut said = fill("Not needed here: {names}.", &[]);
+    said["values"]["names"] = json!(names);
+    said
 }
 
 /// Says which repair of a run is the last.

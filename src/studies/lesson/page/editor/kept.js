@@ -18,7 +18,7 @@ function stored(act) {
 /** What was typed in the chapter before. */
 function typedBefore() {
   const found = stored(() => JSON.parse(localStorage.getItem(keyOf(chapter())))) ?? [];
-  const placed = found.map(([name, which, text, last]) => [chapter().runs.find((run) => run.name === name)?.[which], { text, last }]);
+  const placed = found.map(([name, which, text, last]) => [chapter().runs.find((run) => run.name === name)?.[which], { text, last: last ?? undefined }]);
   return new Map(placed.filter(([place]) => place !== undefined));
 }
 

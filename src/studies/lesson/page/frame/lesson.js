@@ -101,12 +101,14 @@ function placeInWords() {
 
 /** Shows the state after the steps or the iterations that were made. */
 function show() {
+  const { at, steps } = page.machine;
+  // What it takes of the window the others have not.
+  if (at === steps.length && at > 0) unfoldConclusion();
   document.querySelector(".columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   if (isIterating()) showIterations();
   else showSteps();
   if (chapter().repairs) showRepair(chapter().repairs);
-  const { at, steps } = page.machine;
   byId("slider").value = at;
   say("status", placeInWords());
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
@@ -114,7 +116,6 @@ function show() {
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
   for (const id of ["forward", "end"]) byId(id).disabled = at === steps.length;
   for (const id of ["over", "decision", "turn"]) byId(id).disabled = isIterating() || at === steps.length;
-  if (at === steps.length && at > 0) unfoldConclusion();
 }
 
 /** Shows the listing and its arrays. */

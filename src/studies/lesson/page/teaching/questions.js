@@ -15,6 +15,8 @@ function question(machine, mesh) {
   if (!step) return null;
   const { number, text } = machine.lines[step.line];
   const hint = () => [t("Given:") + " ", ...accesses(step.reads, "=")];
+  const gap = step.writes.find(({ name, value }) => /^yt\[/.test(name) && isNumber(value) && value !== 0);
+  if (gap) return { words: t("Line {number}: what will {name} be?", { number, name: gap.name }), hint, number: gap.value, right: short(gap.value), reason: `${text}.` };
   if (step.held !== null) {
     const condition = text.includes(" if ") ? text.split(" if ")[1] : text.replace(/^if /, "");
     return {
@@ -26,8 +28,6 @@ function question(machine, mesh) {
     };
   }
   const turn = machine.turnAt(machine.at);
-  const gap = step.writes.find(({ name, value }) => /^yt\[/.test(name) && isNumber(value) && value !== 0);
-  if (gap) return { words: t("Line {number}: what will {name} be?", { number, name: gap.name }), hint, number: gap.value, right: short(gap.value), reason: `${text}.` };
   const begins = turn !== null && !run().programs && text.includes("rows(cnt)") && machine.turnAt(machine.at - 1) !== turn;
   return begins && machine.get(`ct[${turn}]`) === undefined ? edgeQuestion(machine, mesh, turn) : null;
 }
@@ -66,9 +66,9 @@ function ask(machine, mesh) {
   place.hidden = !asked;
   const key = asked && JSON.stringify([asked.words, asked.right, speech.language, page.which, machine.at]);
   // A question that stands stays as far as it was answered.
-  if (!asked || page.question === key) return;
+  const isNew = page.question !== key;
   page.question = key;
-  pose(asked, place);
+  if (asked && isNew) pose(asked, place);
 }
 
 /** Writes a question with its answers, the hint folded, and room for the verdict. */
