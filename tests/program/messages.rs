@@ -2,7 +2,7 @@
 //! lesson does not say.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use plane_contact::paper::corrected::FAULTS;
@@ -18,11 +18,16 @@ use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.
 fn texts(ending: &str) -> Vec<String> {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/studies/lesson");
-    let entries = std::fs::read_dir(page.join("page")).expect("a folder");
-    let paths = entries.map(|entry| entry.expect("an entry").path()).chain([page.join("page.rs")]);
-    let own: Vec<PathBuf> = paths.filter(|path| path.to_string_lossy().ends_with(ending)).collect();
-    own.iter().map(|path| std::fs::read_to_string(path).expect("UTF-8")).collect()
+    let lesson = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/studies/lesson");
+    let (mut folders, mut own) = (vec![lesson.join("page")], vec![lesson.join("page.rs")]);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() { &mut folders } else { &mut own }.push(path);
+        }
+    }
+    let own = own.iter().filter(|path| path.to_string_lossy().ends_with(ending));
+    own.map(|path| std::fs::read_to_string(path).expect("UTF-8")).collect()
 }
 
 /// What code says: the text in every call such as `t("...")`.
@@ -50,7 +55,9 @@ fn in_body() -> BTreeSet<String> {
             }
         }
     }
-    said.retain(|text| text.contains(char::is_alphabetic) && text != "c_tll");
+    said.retain(|text| text.contains(char::is_alphabetic));
+    // A name, and the other language in its own words.
+    said.retain(|text| !["c_tll", "Русский"].contains(&text.as_str()));
     said
 }
 
@@ -96,7 +103,7 @@ fn of_finding(finding: &Finding) -> Vec<String> {
 
 #[test]
 fn the_table_has_what_the_lesson_says_and_nothing_else() {
-    let calls = [in_calls(".js", "t("), in_calls(".rs", "say("), in_calls(".rs", "fill(")];
+    let calls = [in_calls(".js", "t("), in_calls(".rs", "fill(")];
     let said = calls.into_iter().chain([in_body(), in_registers()]).flatten();
     let said: BTreeSet<String> = said.collect();
     let table: BTreeSet<String> = messages().map(|(english, _)| english.to_string()).collect();

@@ -87,6 +87,11 @@ fn the_lesson_shows_what_the_trace_has() {
     let files = [&page, &pictures, &c_cnt, &km, &repairs, &listings];
     in_browser(&modules, "lesson.cjs", &files.map(String::as_str));
     keep_picture(folder.path(), "lesson-1024-light.png");
+    // What the page saved of an edited listing runs.
+    let saved = folder.path().join("my-c_cnt.txt").to_string_lossy().into_owned();
+    let output = run(folder.path(), &["listing", "run", "c_cnt", "fig1", "--listing", &saved]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// Writes what each listing reads and writes on fig. 1, statement by statement, and the entries of MJS that

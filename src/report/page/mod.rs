@@ -9,7 +9,6 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use crate::language::Language;
 use base::files::HTML;
 use base::xml::escape;
 
@@ -33,8 +32,6 @@ pub const INTERPRETER: [&str; 6] = [
 
 /// A page's own parts.
 pub struct Page<'a> {
-    /// The language of its words.
-    pub language: Language,
     /// Its title.
     pub title: &'a str,
     /// The content of `body`.
@@ -49,15 +46,12 @@ pub struct Page<'a> {
 
 impl Page<'_> {
     /// Returns the page as one file.
-    pub fn html(mut self) -> String {
+    pub fn html(self) -> String {
         let script = [&[SCRIPT], self.script].concat().join("\n");
-        if let Some(messages) = self.language.messages_of(&script) {
-            self.data["messages"] = messages;
-        }
         let script = format!("\n\"use strict\";\n{script}");
         let style = format!("\n{STYLE}{}", self.style);
         format!(
-            "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n{HTML}\n\
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{HTML}\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
              script-src {}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n\
@@ -65,7 +59,6 @@ impl Page<'_> {
              <title>{}</title>\n<style>{style}</style>\n</head>\n<body>\n{}\
              <script type=\"application/json\" id=\"data\">{}</script>\n\
              <script type=\"module\">{script}</script>\n</body>\n</html>\n",
-            self.language,
             hash(&script),
             hash(&style),
             escape(self.title),

@@ -26,37 +26,45 @@ function button(text, act, attributes = {}) {
 /** Makes the head of a table: a heading a column. */
 const headOf = (texts) => make("thead", {}, make("tr", {}, ...texts.map((text) => make("th", { scope: "col" }, text))));
 
+/** The language in which the page speaks. */
+const speech = { language: data.language ?? "en" };
+
+/** Digits with the decimal sign of the page's language. */
+const decimal = (digits) => (speech.language === "ru" ? digits.replaceAll(".", ",") : digits);
+
 /** Writes a number with six digits at most. */
 function short(x) {
   if (typeof x !== "number") return String(x);
   const size = Math.abs(x);
   const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? x.toExponential(3) : String(Number(x.toPrecision(6)));
-  return text.replaceAll("-", "−");
+  return decimal(text.replaceAll("-", "−"));
 }
 
-/** Writes a value in full: a number with all its digits, an array as Mathcad shows it. */
-function exact(value) {
-  if (!Array.isArray(value)) return String(value);
-  return "(" + value.map((row) => (Array.isArray(row) ? row.join("  ") : row)).join(Array.isArray(value[0]) ? ";  " : "  ") + ")";
+/** Writes a value, an array as Mathcad shows it: each number by `number`. */
+function written(value, number) {
+  if (!Array.isArray(value)) return number(value);
+  const isMatrix = Array.isArray(value[0]);
+  return `(${value.map((row) => (isMatrix ? row.map(number).join("  ") : number(row))).join(isMatrix ? ";  " : "  ")})`;
 }
+
+/** Writes a value in full, a number with all its digits. */
+const exact = (value) => written(value, (x) => (typeof x === "number" ? decimal(String(x)) : String(x)));
 
 /** Writes a value short. */
-function brief(value) {
-  if (!Array.isArray(value)) return short(value);
-  return "(" + value.map((row) => (Array.isArray(row) ? row.map(short).join("  ") : short(row))).join(Array.isArray(value[0]) ? ";  " : "  ") + ")";
-}
+const brief = (value) => written(value, short);
 
-/** Says a sentence in the page's language. `english` is its key in the table of messages, of which a page in
- * another language has what it needs; `{name}` stands for a value. */
+/** Says a sentence in the page's language. `english` is its key in the table of messages; `{name}` stands for a value. */
 function t(english, values = {}) {
-  const text = data.messages?.[english] ?? english;
+  const text = (speech.language === "ru" && data.messages[english]) || english;
   return text.replace(/\{(\w+)\}/g, (_, name) => inProse(values[name]));
 }
 
-/** Writes a value of a sentence: a number short, with the decimal sign of the page's language. */
+/** Says a text of the data: a sentence, or one with its values. */
+const tell = (of) => (typeof of === "string" ? t(of) : t(of.text, of.values));
+
+/** Writes a value of a sentence: a number short, names one behind the other. */
 function inProse(value) {
-  if (typeof value !== "number") return String(value);
-  return data.messages ? short(value).replace(".", ",") : short(value);
+  return Array.isArray(value) ? value.map((name) => t(name)).join(", ") : short(value);
 }
 
 /** Writes a text where another one stands. */
@@ -110,7 +118,7 @@ function roving(container, selector, columns = () => 1) {
     const items = all();
     const at = items.indexOf(document.activeElement);
     const across = columns() > 1 ? { ArrowLeft: -1, ArrowRight: 1 } : {};
-    const by = { ArrowUp: -columns(), ArrowDown: columns(), ...across }[event.key];
+    const by = { ArrowUp: -columns(), ArrowDown: columns(), Home: -at, End: items.length - 1 - at, ...across }[event.key];
     if (at < 0 || by === undefined) return;
     event.preventDefault();
     event.stopPropagation();

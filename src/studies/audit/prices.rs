@@ -65,6 +65,13 @@ pub struct Price {
     pub outcome: Outcome,
 }
 
+impl Price {
+    /// Returns whether its fault is one that a finding describes.
+    pub fn is_of(&self, finding: &str) -> bool {
+        self.name.iter().any(|name| name.split(' ').any(|word| word == finding))
+    }
+}
+
 impl Display for Price {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         write!(out, "{}: {}", self.name.as_deref().unwrap_or("-"), self.fault)

@@ -14,7 +14,6 @@ use crate::calculix::{Comparison, Fields};
 use engine::{TriangleState, TriangleValues};
 use problem::model::{Model, NodeId};
 use report::json::document;
-use report::language::Language;
 use report::page::Page;
 use report::picture::{colour, points};
 use report::{ResultFile, pressure, quantities};
@@ -38,7 +37,6 @@ pub fn html(contents: &Contents) -> String {
         "quantities": quantities,
     });
     Page {
-        language: Language::En,
         title: &format!("Report: {}", scene.name),
         body: &body,
         style: include_str!("page/report.css"),

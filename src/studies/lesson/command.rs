@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::audit::Case;
-use crate::audit::findings::{Evidence, FINDINGS, Finding};
-use crate::lesson::page::{self as page, Chapter};
+use crate::audit::findings::{FINDINGS, Finding};
+use crate::audit::prices::{Compared, Price};
+use crate::lesson::page::{self as page, Chapter, Measured};
 use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
 use base::plain::shown;
 use engine::error::Result;
@@ -41,7 +42,7 @@ pub struct Args {
     /// An edited listing, offered beside the printed one.
     #[arg(long, value_name = "FILE")]
     listing: Option<PathBuf>,
-    /// The language of the page: en, ru; messages of the interpreter stay English.
+    /// The language with which the page opens: en, ru; messages of the interpreter stay English.
     #[arg(long, default_value_t, value_parser = offered::<Language>(Language::ALL))]
     lang: Language,
     /// The file of the page [default: out/lesson.html].
@@ -75,7 +76,9 @@ fn lesson(args: &Args) -> Result<String> {
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        chapters.chain(FINDINGS.iter().map(chapter)).collect()
+        let on_fig1 = prices(&Case::new(Scene::open("fig1")?));
+        let findings = FINDINGS.iter().map(|finding| chapter(finding, &on_fig1));
+        chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
 }
@@ -97,13 +100,24 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     Ok(Chapter { scene, runs, nodes, finding: None, repairs: Some(repairs), iterations })
 }
 
-/// Returns the chapter of a finding, on the smallest scene that shows it.
-fn chapter(finding: &'static Finding) -> Result<Chapter> {
+/// Returns the chapter of a finding, on the smallest scene that shows it; `on_fig1` are the prices of that scene.
+fn chapter(finding: &'static Finding, on_fig1: &[Price]) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
-    let measured = finding.measure(&case);
-    Ok(opened(case.scene, runs, vec![], Some((finding, measured))))
+    let (own, evidence) = (prices(&case), finding.measure(&case));
+    let of_scenes = [(case.scene.name.as_str(), own.as_slice()), ("fig1", on_fig1)];
+    let priced = of_scenes.into_iter().flat_map(|(scene, prices)| {
+        let own = prices.iter().filter(|price| price.is_of(finding.id));
+        own.map(move |price| (scene.to_string(), price.clone()))
+    });
+    let measured = Measured { finding, evidence, prices: priced.collect() };
+    Ok(opened(case.scene, runs, vec![], Some(measured)))
+}
+
+/// Returns what each fault costs on a scene; nothing where the corrected algorithm itself has no result that is sure.
+fn prices(case: &Case) -> Vec<Price> {
+    Compared::new(case).map_or(vec![], |compared| compared.prices(&|| ()))
 }
 
 /// Returns a chapter with its iterations, on the model of its first run.
@@ -111,7 +125,7 @@ fn opened(
     scene: Scene,
     runs: Vec<(Switch, Arc<Model>)>,
     nodes: Vec<usize>,
-    finding: Option<(&'static Finding, Evidence)>,
+    finding: Option<Measured>,
 ) -> Chapter {
     let iterations = Iterations::new(&scene, &runs[0].1);
     Chapter { scene, runs, nodes, finding, repairs: None, iterations }

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::audit::findings::{Evidence, Finding, Repair};
+use crate::audit::findings::{Evidence, Finding};
+use crate::audit::prices::Price;
 use crate::audit::tables::FindingRow;
 use crate::lesson::{Iterations, Recorded, Repairs, State, Switch};
 use mathcad::unsupported::{FUNCTIONS, UNITS};
@@ -20,7 +21,7 @@ use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
 use report::json::document;
-use report::language::Language;
+use report::language::{Language, messages};
 use report::page::{INTERPRETER, Page};
 use report::picture::deformation::boundary_edges;
 use report::tables::figure_numbers;
@@ -33,23 +34,45 @@ pub struct Chapter {
     pub runs: Vec<(Switch, Arc<Model>)>,
     /// The contact nodes whose turns are shown; none for all.
     pub nodes: Vec<usize>,
-    /// What the scene is there to show, and what was measured on it.
-    pub finding: Option<(&'static Finding, Evidence)>,
+    /// What the scene is there to show.
+    pub finding: Option<Measured>,
     /// The way from the print to the right answer, which the chapter goes.
     pub repairs: Option<Repairs>,
     /// The iterations of its scene.
     pub iterations: Iterations,
 }
 
+/// A finding, and what the audit has of it.
+pub struct Measured {
+    /// The finding.
+    pub finding: &'static Finding,
+    /// What was measured on its scene.
+    pub evidence: Evidence,
+    /// What its faults cost, each with the scene on which it was put back.
+    pub prices: Vec<(String, Price)>,
+}
+
+impl Measured {
+    fn json(&self) -> Value {
+        let price = |(scene, price): &(String, Price)| {
+            let error = Some(price.outcome.error()).filter(|error| error.is_finite());
+            json!({ "scene": scene, "name": price.name, "weight": price.weight, "error": error })
+        };
+        let mut row = json!(FindingRow::new(self.finding, &self.evidence));
+        row["prices"] = self.prices.iter().map(price).collect();
+        row
+    }
+}
+
 /// The worksheet of a scene, and the iterations around the listings, which need the interpreter alone.
-pub const ITERATE: [&str; 2] = [include_str!("page/worksheet.js"), include_str!("page/iterate.js")];
+pub const ITERATE: [&str; 2] =
+    [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
 
 /// Returns the page of a lesson; its first chapter is what it opens with.
 pub fn html(chapters: &[Chapter], language: Language) -> String {
     let scene = &chapters[0].scene;
     let mut shared = Shared::default();
-    let scenes: Vec<Value> =
-        chapters.iter().map(|chapter| shared.chapter(chapter, language)).collect();
+    let scenes: Vec<Value> = chapters.iter().map(|chapter| shared.chapter(chapter)).collect();
     let corrected = json!({ "programs": shared.programs(&[]), "settings": Settings::default() });
     let own = json!({
         "scenes": scenes,
@@ -58,28 +81,33 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "lines": shared.lines.items,
         "known": { "functions": FUNCTIONS, "units": UNITS },
         "corrected": corrected,
+        "language": language,
+        "messages": messages().map(|(english, russian)| (english, json!(russian))).collect::<Value>(),
     });
     let script = [
-        include_str!("page/machine.js"),
-        include_str!("page/edit.js"),
-        include_str!("page/listing.js"),
-        include_str!("page/scene.js"),
-        include_str!("page/matrix.js"),
-        include_str!("page/tables.js"),
-        include_str!("page/play.js"),
-        include_str!("page/assembly.js"),
-        include_str!("page/tour.js"),
-        include_str!("page/questions.js"),
-        include_str!("page/chapters.js"),
-        include_str!("page/repairs.js"),
-        include_str!("page/drag.js"),
-        include_str!("page/address.js"),
-        include_str!("page/lesson.js"),
+        include_str!("page/steps/machine.js"),
+        include_str!("page/editor/checks.js"),
+        include_str!("page/editor/kept.js"),
+        include_str!("page/editor/edit.js"),
+        include_str!("page/steps/listing.js"),
+        include_str!("page/pictures/scene.js"),
+        include_str!("page/steps/matrix.js"),
+        include_str!("page/steps/tables.js"),
+        include_str!("page/iterations/play.js"),
+        include_str!("page/steps/assembly.js"),
+        include_str!("page/teaching/tour.js"),
+        include_str!("page/teaching/questions.js"),
+        include_str!("page/teaching/chapters.js"),
+        include_str!("page/teaching/repairs.js"),
+        include_str!("page/teaching/beside.js"),
+        include_str!("page/pictures/drag.js"),
+        include_str!("page/frame/language.js"),
+        include_str!("page/frame/address.js"),
+        include_str!("page/frame/lesson.js"),
     ];
     Page {
-        language,
-        title: &language.fill("Lesson: {title}", &[("title", &language.say(&scene.title))]),
-        body: &language.say_html(include_str!("page/body.html")),
+        title: &format!("Lesson: {}", scene.title),
+        body: include_str!("page/body.html"),
         style: include_str!("page/lesson.css"),
         script: &[&INTERPRETER[..], &ITERATE, &script].concat(),
         data: document(Some(scene), &own),
@@ -114,23 +142,23 @@ struct Shared {
 }
 
 impl Shared {
-    fn chapter(&mut self, chapter: &Chapter, language: Language) -> Value {
-        let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model, language));
+    fn chapter(&mut self, chapter: &Chapter) -> Value {
+        let runs = chapter.runs.iter().map(|(switch, model)| self.run(switch, model));
         let mut runs: Vec<Value> = runs.collect();
         let repairs = chapter.repairs.as_ref();
         if let Some(repairs) = repairs {
             let printed = runs[0].clone();
-            let after = |k| repairs::run(repairs, k, &printed, self, language);
+            let after = |k| repairs::run(repairs, k, &printed, self);
             runs.extend(repairs.shown().map(after));
         }
-        let finding = chapter.finding.as_ref().map(|found| said(found, language));
+        let finding = chapter.finding.as_ref().map(Measured::json);
         let Iterations { reference, recorded } = &chapter.iterations;
         // The errors of what is recorded are recorded too.
         let reference = reference.as_ref().filter(|_| recorded.is_none());
         let recorded = recorded.as_deref().map(|runs| of_rims(&chapter.runs[0].1, runs));
         let title = match repairs {
-            None => language.say(&chapter.scene.title).to_string(),
-            Some(repairs) => repairs::title(repairs, language),
+            None => json!(chapter.scene.title),
+            Some(repairs) => repairs::title(repairs),
         };
         json!({
             "name": chapter.scene.name,
@@ -142,22 +170,18 @@ impl Shared {
             "reference": reference.map(|u| u.as_slice()),
             "recorded": recorded,
             "finding": finding,
-            "repairs": repairs.map(|repairs| repairs::json(repairs, language)),
+            "repairs": repairs.map(|repairs| repairs::json(repairs)),
         })
     }
 
-    fn run(&mut self, switch: &Switch, model: &Model, language: Language) -> Value {
+    fn run(&mut self, switch: &Switch, model: &Model) -> Value {
         let [c_cnt, km] =
             [Which::CCnt, Which::Km].map(|which| self.listing(&switch.listing(which)));
-        let about: Vec<&str> = switch.about.iter().map(|words| language.say(words)).collect();
-        let about = about.join(", ");
         json!({
             "name": switch.name,
-            "label": language.say(&switch.name),
-            "about": match switch.lines {
-                "" => about,
-                lines => format!("{}: {about}", language.say(lines)),
-            },
+            "label": switch.name,
+            "lines": switch.lines,
+            "about": switch.about,
             "c_cnt": c_cnt,
             "Km": km,
             "settings": switch.settings(),
@@ -182,18 +206,6 @@ impl Shared {
         let programs = Program::ALL.iter();
         programs.map(|own| (own.name(), self.listing(&program(*own, edits)))).collect()
     }
-}
-
-/// Says what a scene shows of a finding.
-fn said((finding, measured): &(&Finding, Evidence), language: Language) -> Value {
-    let mut row = json!(FindingRow::new(finding, measured));
-    for words in ["title", "verdict", "of", "detail", "why", "repair"] {
-        row[words] = row[words].as_str().map(|text| language.say(text)).into();
-    }
-    if let Repair::None { reason } = finding.edit {
-        row["edit"]["none"]["reason"] = language.say(reason).into();
-    }
-    row
 }
 
 /// Returns the recorded iterations, what repeats once. Of displacements the page draws those of the bodies'

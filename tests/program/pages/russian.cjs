@@ -6,7 +6,7 @@ const { open, inAllViews, run } = require("./browser.cjs");
 const [file] = process.argv.slice(2);
 
 /** What has words of its own: the listings and the names in them. */
-const OWN = "#listing, #step, #editor, #question code, script, style, noscript";
+const OWN = "#listing, #beside ol, #step, #editor, #language, #question code, script, style, noscript";
 
 /** Latin words that Russian has too: names of the program, the listings, the keys and the scenes, and what the
  * interpreter says. */
@@ -28,12 +28,18 @@ const english = async (page) => {
 run(async (browser) => {
   const { page, said } = await open(browser, file);
   assert.equal(await page.getAttribute("html", "lang"), "ru");
+  const texts = () => page.evaluate(() => [document.title, document.body.innerText].join());
+  const russian = await texts();
+  await page.click("#language");
+  assert.doesNotMatch((await texts()).replace("Русский", ""), /[а-яё]/i, "all is English");
+  await page.click("#language");
+  assert.equal(await texts(), russian, "the switch there and back leaves nothing behind");
   await page.check("#ask");
   for (const index of (await page.locator("#chapter option").all()).keys()) {
     await page.selectOption("#chapter", { index });
     for (const at of ["0", "40"]) {
       await page.locator("#slider").fill(at);
-      assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}`);
+      assert.deepEqual(await english(page), [], `chapter ${index}, step ${at}: ${await english(page)}`);
     }
   }
   await page.selectOption("#chapter", { index: 1 });

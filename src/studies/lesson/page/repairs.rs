@@ -10,56 +10,49 @@ use crate::audit::prices::table::ORDER;
 use crate::lesson::Repairs;
 use mathcad::Settings;
 use paper::corrected::FAULTS;
-use report::language::Language;
+use report::language::fill;
 use report::layout::listed;
 
 /// Returns the title, with the number of edits.
-pub fn title(repairs: &Repairs, language: Language) -> String {
+pub fn title(repairs: &Repairs) -> Value {
     match repairs.needed {
-        1 => language.say("From the print to the right answer in 1 edit").to_string(),
-        count => language
-            .fill("From the print to the right answer in {count} edits", &[("count", &count)]),
+        1 => fill("From the print to the right answer in 1 edit", &[]),
+        count => fill("From the print to the right answer in {count} edits", &[("count", &count)]),
     }
 }
 
 /// Returns the run of the corrected programs after some repairs, which stands beside the printed one.
-pub fn run(
-    repairs: &Repairs,
-    count: usize,
-    printed: &Value,
-    shared: &mut Shared,
-    language: Language,
-) -> Value {
+pub fn run(repairs: &Repairs, count: usize, printed: &Value, shared: &mut Shared) -> Value {
     let edits: Vec<&str> = repairs.left(count).map(|fault| fault.edit).collect();
     let programs = shared.programs(&edits);
     let mut run = printed.clone();
-    run["label"] = json!(name(count, language));
-    run["about"] = json!(about(repairs, count, language));
+    run["label"] = label(count);
+    run["about"] = about(repairs, count);
     run["c_cnt"] = json!(programs["c_cnt"]);
     run["Km"] = json!(programs["Km"]);
-    run["name"] = json!(name(count, Language::En));
+    run["name"] = json!(format!("after {count}"));
     run["programs"] = json!(programs);
     run["settings"] = json!(Settings::default());
     run
 }
 
-fn name(count: usize, language: Language) -> String {
+fn label(count: usize) -> Value {
     match count {
-        _ if count == FAULTS.len() => language.say("corrected").to_string(),
-        1 => language.say("after 1 repair").to_string(),
-        _ => language.fill("after {count} repairs", &[("count", &count)]),
+        _ if count == FAULTS.len() => fill("corrected", &[]),
+        1 => fill("after 1 repair", &[]),
+        _ => fill("after {count} repairs", &[("count", &count)]),
     }
 }
 
 /// Returns the table: a row after each number of repairs that is shown.
-pub fn json(repairs: &Repairs, language: Language) -> Value {
+pub fn json(repairs: &Repairs) -> Value {
     let row = |count: usize| {
         let outcome = &repairs.rows[count].outcome;
         let last = repairs.last(count);
         let words = match last {
-            Some(fault) => language.say(&fault.words()).to_string(),
-            None if count == 0 => language.say("all are put back").to_string(),
-            None => not_needed(repairs, language),
+            Some(fault) => json!(fault.words()),
+            None if count == 0 => fill("all are put back", &[]),
+            None => not_needed(repairs),
         };
         let mut row = json!({
             "repairs": count,
@@ -75,27 +68,29 @@ pub fn json(repairs: &Repairs, language: Language) -> Value {
         row
     };
     json!({
-        "order": language.say(ORDER),
+        "order": ORDER,
         "rows": repairs.shown().map(row).collect::<Vec<_>>(),
     })
 }
 
 /// Names the repairs behind those that lead to the solution.
-fn not_needed(repairs: &Repairs, language: Language) -> String {
-    let others = repairs.rows[repairs.needed + 1..].iter().filter_map(|row| row.name.as_deref());
-    let names = listed(others.map(|name| language.say(name)));
-    language.fill("Not needed here: {names}.", &[("names", &names)])
+fn not_needed(repairs: &Repairs) -> Value {
+    let others = repairs.rows[repairs.needed + 1..].iter();
+    let names: Vec<_> = others.filter_map(|row| row.name.as_deref()).collect();
+    let mut said = fill("Not needed here: {names}.", &[]);
+    said["values"]["names"] = json!(names);
+    said
 }
 
 /// Says which repair of a run is the last.
-fn about(repairs: &Repairs, count: usize, language: Language) -> String {
+fn about(repairs: &Repairs, count: usize) -> Value {
     match repairs.last(count) {
         Some(fault) => {
             let (finding, places) = (fault.finding, listed(fault.places()));
             let values: [(&str, &dyn Display); 2] = [("finding", &finding), ("places", &places)];
-            language.fill("the last is {finding}: {places}", &values)
+            fill("the last is {finding}: {places}", &values)
         }
-        None if count == 0 => language.say("all are put back").to_string(),
-        None => language.say("all are repaired").to_string(),
+        None if count == 0 => fill("all are put back", &[]),
+        None => fill("all are repaired", &[]),
     }
 }

@@ -1,9 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-/** The title of the page, which is that of its first chapter. */
-const LESSON = document.title;
-
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), edits: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isBeside: false, edits: new Map() };
 
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
@@ -18,11 +15,14 @@ const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 const isMoved = () => page.factor !== 1 || page.moved.size > 0 || page.turned.size > 0;
 
 /** Whether a listing of the run is edited; one that other readings share is so in all of them. */
-const isEdited = () => page.edits.has(run().c_cnt) || page.edits.has(run().Km);
+const isEdited = () => LISTINGS.some((name) => page.edits.has(run()[name]));
 
 const isChanged = () => isMoved() || isEdited();
 
 const isIterating = () => page.which === "iterations";
+
+/** Whether the window has room for all that is said of a chapter. */
+const isWide = () => window.innerWidth >= 1100;
 
 /** A program that is not called. */
 const NOTHING = { lines: [], steps: [], failure: null };
@@ -33,34 +33,40 @@ function choose(change) {
   const isEnded = page.machine?.at > 0 && page.machine.at === page.machine.steps.length;
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
+  page.edits = editsInForce();
   if ("run" in change) fillVariants();
   page.mesh = meshOf(run(), page.moved, page.turned);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
   page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
-  page.zone = zoneOf(page.mesh, page.pairs);
+  page.zone = zoneOf(page.mesh, chapter().nodes);
   page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine) : null;
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("chapter").value = page.chapter;
   byId("run").value = page.run;
   for (const radio of document.getElementsByName("which")) radio.checked = radio.value === page.which;
-  say("about", t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, ...run() }));
+  const { label, lines, about } = run();
+  const words = (about.text ? [tell(about)] : about.map((text) => t(text))).join(", ");
+  say("about", t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, label: tell(label), about: lines && !run().programs ? `${t(lines)}: ${words}` : words }));
   byId("tolerance").value = Math.log10(page.factor);
   say("tolerance-label", `c_tll ${short(page.programs.c_tll)}`);
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
-  if (!isIterating() && ["run", "which", "edits"].some((name) => name in change)) {
+  byId("beside-too").checked = page.isBeside;
+  if (!isIterating() && ["run", "which", "edits", "isMine"].some((name) => name in change)) {
     showText();
     showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
     byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
     byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
   }
-  showReset();
+  showButtons();
   // Beside the arrays these would take half of a move's time.
   if (!page.dragged) {
     fillTurns();
     showChanges(run(), page.programs);
+    openBeside();
+    showConclusion();
   }
   show();
 }
@@ -84,15 +90,27 @@ function go(at, isFlying = false) {
   if (page.which === "Km") showAssembly(page.map.brought, page.map, isFlying);
 }
 
+/** The place in words: the step, the line that was executed last, whether a decision is next, and what listing it is. */
+function placeInWords() {
+  const { at, steps, next, lines, last } = page.machine;
+  if (isIterating()) return t("iteration {at} of {count}", { at, count: steps.length });
+  const place = [t("step {at} of {count}", { at, count: steps.length }), ...(last ? [t("line {line}", { line: lines[last.line].number })] : [])];
+  const decision = next && next.held !== null ? [t("before the decision of line {line}", { line: lines[next.line].number })] : [];
+  return [...place, stateOf(page.which), ...decision].join(", ");
+}
+
 /** Shows the state after the steps or the iterations that were made. */
 function show() {
+  const { at, steps } = page.machine;
+  // What it takes of the window the others have not.
+  if (at === steps.length && at > 0) unfoldConclusion();
   document.querySelector(".columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
-  const line = isIterating() ? showIterations() : showSteps();
+  if (isIterating()) showIterations();
+  else showSteps();
   if (chapter().repairs) showRepair(chapter().repairs);
-  const { at, steps } = page.machine;
   byId("slider").value = at;
-  say("status", isIterating() ? t("iteration {at} of {count}", { at, count: steps.length }) : [t("step {at} of {count}", { at, count: steps.length }), ...(line ? [t("line {line}", { line })] : [])].join(", "));
+  say("status", placeInWords());
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
@@ -100,7 +118,7 @@ function show() {
   for (const id of ["over", "decision", "turn"]) byId(id).disabled = isIterating() || at === steps.length;
 }
 
-/** Shows the listing and its arrays; returns the number of the line that was executed last, 0 before the first. */
+/** Shows the listing and its arrays. */
 function showSteps() {
   const { machine, mesh, pairs, zone } = page;
   const turn = machine.turnAt(machine.at - 1);
@@ -124,16 +142,15 @@ function showSteps() {
   const ended = machine.at === machine.steps.length;
   say("failure", ended && machine.failure ? t("The listing stops: {failure}", machine) : "");
   ask(machine, mesh);
-  if (machine.at === 0 && !inKm && !run().programs && byId("question").hidden) askWhichTouch(mesh);
   // The box is as high as the question leaves it.
   lightLine(machine);
+  showBeside(turn);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
-  return line;
 }
 
 /** What each button does, and its key. */
 const moves = {
-  start: ["Home", (machine) => 0],
+  start: ["Home", () => 0],
   back: ["ArrowLeft", (machine) => machine.at - 1],
   forward: ["ArrowRight", (machine) => machine.at + 1],
   over: ["o", (machine) => machine.over()],
@@ -142,76 +159,82 @@ const moves = {
   end: ["End", (machine) => machine.steps.length],
 };
 
+/** Steps by a key that nothing else takes: with the focus on a control the arrows, Home, End and the space bar are that
+ * control's; letters are a text's and a list's. */
+function pressed(event) {
+  const { key, ctrlKey, altKey, metaKey, target } = event;
+  if (ctrlKey || altKey || metaKey || target.closest("textarea, select, input[type=text]")) return;
+  const isLetter = /^[a-z]$/i.test(key);
+  if (!isLetter && target !== document.body) return;
+  if (key === "p" || key === "P") play(!page.playing);
+  const wanted = key === " " ? "ArrowRight" : isLetter ? key.toLowerCase() : key;
+  const move = Object.values(moves).find(([key]) => key === wanted);
+  if (!move || (isLetter && isIterating())) return;
+  event.preventDefault();
+  go(move[1](page.machine), true);
+}
+
 function watch() {
-  for (const [id, [, to]] of Object.entries(moves)) byId(id).addEventListener("click", () => go(to(page.machine), true));
-  document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("textarea")) return;
-    // What Tab has reached keeps the keys that it needs: the space bar, ↑ and ↓.
-    if (event.key === " " && event.target.closest("button, select, input, summary")) return;
-    if (event.key === "p") play(!page.playing);
-    const pressed = event.key === " " ? "ArrowRight" : event.key;
-    const move = Object.values(moves).find(([key]) => key === pressed || key === pressed.toLowerCase());
-    if (!move) return;
-    event.preventDefault();
-    go(move[1](page.machine), true);
-  });
-  byId("play").addEventListener("click", () => play(!page.playing));
-  byId("variant").addEventListener("change", (event) => choose({ variant: event.target.value, at: 0 }));
-  byId("slider").addEventListener("input", (event) => go(Number(event.target.value)));
-  byId("turns").addEventListener("change", (event) => go(Number(event.target.value)));
-  byId("chapter").addEventListener("change", (event) => openChapter(Number(event.target.value)));
-  byId("run").addEventListener("change", (event) => choose({ run: Number(event.target.value) }));
-  byId("ask").addEventListener("change", show);
-  byId("finding").addEventListener("toggle", show);
-  byId("tolerance").addEventListener("input", (event) => choose({ factor: 10 ** Number(event.target.value) }));
-  byId("reset").addEventListener("click", () => choose({ factor: 1, moved: new Map(), turned: new Set(), edits: new Map() }));
+  const on = (id, event, act) => byId(id).addEventListener(event, ({ target }) => act(target.value));
+  for (const [id, [, to]] of Object.entries(moves)) on(id, "click", () => go(to(page.machine), true));
+  document.addEventListener("keydown", pressed);
+  // A button that the pointer has pressed gives the focus back, so that the keys step.
+  document.addEventListener("click", ({ target, detail }) => detail && target.closest(".controls button, .heading button") && byId("editor").hidden && document.activeElement.blur());
+  on("play", "click", () => play(!page.playing));
+  on("variant", "change", (variant) => choose({ variant, at: 0 }));
+  on("slider", "input", (at) => go(Number(at)));
+  on("turns", "change", (at) => go(Number(at)));
+  on("chapter", "change", (k) => openChapter(Number(k)));
+  on("run", "change", (k) => choose({ run: Number(k) }));
+  on("ask", "change", show);
+  on("tolerance", "input", (power) => choose({ factor: 10 ** Number(power) }));
+  on("reset", "click", () => choose({ factor: 1, moved: new Map(), turned: new Set() }));
+  on("language", "click", switchLanguage);
+  on("link", "click", copyLink);
+  byId("beside-too").addEventListener("change", ({ target }) => choose({ isBeside: target.checked }));
+  for (const id of ["finding", "conclusion"]) on(id, "toggle", show);
   window.addEventListener("hashchange", openAddress);
-  releaseFocus();
   watchDrag();
   watchMeanings();
   watchEditor();
-  for (const radio of document.getElementsByName("which")) {
-    radio.addEventListener("change", () => choose({ which: radio.value }));
-  }
+  for (const radio of document.getElementsByName("which")) radio.addEventListener("change", () => choose({ which: radio.value }));
   window.addEventListener("resize", show);
   matchMedia("screen and (prefers-color-scheme: dark)").addEventListener("change", show);
   watchMatrix(() => page.map);
 }
 
-/** What the pointer has chosen gives the focus back, so that the keys step; a text keeps it. */
-function releaseFocus() {
-  let pointed = null;
-  document.addEventListener("pointerdown", ({ target }) => (pointed = target), true);
-  document.addEventListener("keydown", () => (pointed = null), true);
-  const release = () => pointed && !document.activeElement.matches("textarea") && document.activeElement.blur();
-  document.addEventListener("change", release);
-  // The click that opens a list is not yet the choice.
-  document.addEventListener("click", ({ target }) => target.closest("select") || release());
+/** Lists the chapters. */
+function fillChapters() {
+  const name = ({ name, title, finding, repairs }) => (finding ? `${finding.id}: ${t(finding.title)}`.slice(0, 70) : repairs ? tell(title) : t("scene {name}", { name }));
+  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, name(scene))));
 }
 
-function openChapter(chapter) {
-  const runs = data.scenes[chapter].runs.map(({ label }, k) => make("option", { value: k }, label));
-  byId("run").replaceChildren(...runs);
-  const { finding, repairs, title, variant } = data.scenes[chapter];
-  document.title = byId("title").textContent = finding ? `${finding.id}: ${title}` : repairs ? title : LESSON;
-  showFinding(data.scenes[chapter]);
-  const { contact } = data.meshes[data.scenes[chapter].runs[0].mesh];
+/** Says what a chapter has: its title, its readings, and what it is there to show. */
+function fillChapter() {
+  const { finding, repairs, title, runs } = chapter();
+  byId("run").replaceChildren(...runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
+  document.title = byId("title").textContent = finding ? `${finding.id}: ${t(title)}` : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
+  showFinding(chapter());
+}
+
+/** Opens a chapter, with what was typed in it. */
+function openChapter(k) {
+  page.chapter = k;
+  page.run = 0;
+  page.asked = 0;
+  fillChapter();
+  page.isConcluded = byId("conclusion").open = false;
+  byId("finding").open = isWide();
+  const { contact } = data.meshes[run().mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
-  const inKm = contact.length === 0 || data.scenes[chapter].finding?.listing === "Km";
-  const which = inKm ? "Km" : "c_cnt";
-  for (const radio of document.getElementsByName("which")) {
-    radio.disabled = contact.length === 0 && radio.value !== "Km";
-  }
-  choose({ chapter, run: 0, which, variant, factor: 1, moved: new Map(), turned: new Set(), edits: new Map() });
+  const inKm = contact.length === 0 || chapter().finding?.listing === "Km";
+  for (const radio of document.getElementsByName("which")) radio.disabled = contact.length === 0 && radio.value !== "Km";
+  page.typed = typedBefore();
+  choose({ run: 0, which: inKm ? "Km" : "c_cnt", variant: chapter().variant, at: 0, factor: 1, moved: new Map(), turned: new Set(), isMine: page.typed.size > 0 });
 }
 
 document.querySelector(".choices").open = window.innerWidth >= 700;
-byId("finding").open = window.innerWidth >= 1100;
-byId("chapter").replaceChildren(
-  ...data.scenes.map(({ name, title, finding, repairs }, k) => make("option", { value: k }, finding ? `${finding.id}: ${finding.title}`.slice(0, 70) : repairs ? title : t("scene {name}", { name }))),
-);
-byId("colophon").textContent =
-  t("plane-contact {version}; scene {name}, SHA-256 {scene_sha256}, mesh {mesh_sha256}.", { ...data, name: data.scenes[0].name });
+readBody();
 watch();
 showExactValues();
 openAddress();

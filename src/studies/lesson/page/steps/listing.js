@@ -18,6 +18,16 @@ function showLines(machine, before, runTo) {
   roving(list, "button");
 }
 
+/** Says what the colours of the lines mean, of those that are there. */
+function showLegend(machine) {
+  const is = (name) => [...byId("listing").children].some((item) => item.classList.contains(name));
+  byId("legend").replaceChildren(
+    ...(machine.last ? [make("span", { class: "lit" }, t("yellow: executed last")), " "] : []),
+    ...(machine.next ? [make("span", { class: "bar" }, t("red bar: comes next")), " "] : []),
+    ...(is("edited") ? [make("span", { class: "blue" }, run().programs ? t("blue: changed by the last repair") : t("blue: not as printed"))] : []),
+  );
+}
+
 /** Lights the line that was executed last and marks the next; keeps them in sight. */
 function lightLine(machine) {
   const items = byId("listing").children;
@@ -28,6 +38,7 @@ function lightLine(machine) {
   if (machine.next) items[machine.next.line].classList.add("next");
   const lit = machine.last && items[machine.last.line];
   lit?.setAttribute("aria-current", "step");
+  showLegend(machine);
   const seen = lit ?? items[0];
   if (!seen) return;
   const box = byId("listing-box");

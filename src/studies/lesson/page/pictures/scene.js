@@ -99,8 +99,19 @@ function arrow(context, from, to, stroke) {
   path(context, [[to[0] - size / 2, to[1] - up * size], to, [to[0] + size / 2, to[1] - up * size]], { stroke, width: 2 });
 }
 
-/** Writes on a ground of its own, so that lines below do not cross the letters. */
-function label(context, text, [x, y], ink, align = "center") {
+/** Writes on a ground of its own, so that lines below do not cross the letters; where a picture keeps its labels in
+ * `placed`, at the nearest place above, below or beside that none of them covers. */
+function label(context, text, [x, y], ink, align = "center", placed = null) {
+  if (placed) {
+    const width = context.measureText(text).width;
+    const room = context.canvas.clientHeight;
+    const boxAt = ([dx, dy]) => [x + dx - width / 2, y + dy - 12, x + dx + width / 2, y + dy + 3];
+    const isFree = ([l, t, r, b]) => t > -2 && b < room && placed.every(([l2, t2, r2, b2]) => r <= l2 || r2 <= l || b <= t2 || b2 <= t);
+    const tries = [[0, 0], [0, -14], [0, 15], [width / 2 + 10, 0], [-width / 2 - 10, 0], [0, -28], [0, 30], [width / 2 + 12, 15], [-width / 2 - 12, 15], [width / 2 + 12, -14], [-width / 2 - 12, -14]];
+    const by = tries.find((by) => isFree(boxAt(by))) ?? tries[0];
+    placed.push(boxAt(by));
+    [x, y] = [x + by[0], y + by[1]];
+  }
   context.textAlign = align;
   context.lineWidth = 4;
   context.strokeStyle = colour("paper");
@@ -137,18 +148,34 @@ function drawBodies(context, mesh, to, element) {
   });
 }
 
-/** The contact nodes that are drawn, and the target edges beside them. */
-function zoneOf(mesh, machine) {
-  const places = new Set(machine.turns.map(({ turn }) => turn));
-  const kept = mesh.contact.filter((_, k) => places.has(k + 1));
-  const nodes = kept.length ? kept : mesh.contact;
+/** Whether a point is in a triangle, its rim too. */
+function isIn(p, corners) {
+  const sides = corners.map((a, k) => areaOf([a, corners[(k + 1) % 3], p]));
+  return sides.every((area) => area >= 0) || sides.every((area) => area <= 0);
+}
+
+/** How far a node is from the nearest target edge, and whether it is inside the target. */
+function fromTarget(mesh, n) {
+  const p = mesh.at(n);
+  const from = ([a, b]) => {
+    const [ab, ap] = [[b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]];
+    const along = Math.max(0, Math.min(1, (ap[0] * ab[0] + ap[1] * ab[1]) / (ab[0] ** 2 + ab[1] ** 2 || 1)));
+    return Math.hypot(ap[0] - along * ab[0], ap[1] - along * ab[1]);
+  };
+  const isInside = mesh.triangles.some(([nodes, body]) => body === mesh.target && isIn(p, nodes.map(mesh.at)));
+  return { distance: Math.min(...mesh.edges.map(([, ends]) => from(ends.map(mesh.at)))), isInside };
+}
+
+/** The contact nodes that are drawn, those that were chosen, and the target edges beside them. */
+function zoneOf(mesh, chosen) {
+  const nodes = chosen.length ? mesh.contact.filter((n) => chosen.includes(n)) : mesh.contact;
   const xs = nodes.map((n) => mesh.at(n)[0]);
   const reach = Math.max(Math.max(...xs) - Math.min(...xs), 0);
   const near = mesh.edges.filter(([, ends]) => {
     const [a, b] = ends.map((n) => mesh.at(n)[0]);
     return Math.max(a, b) >= Math.min(...xs) - reach && Math.min(a, b) <= Math.max(...xs) + reach;
   });
-  return { nodes, edges: nodes.length === mesh.contact.length ? mesh.edges : near };
+  return { nodes, edges: chosen.length ? near : mesh.edges };
 }
 
 /** The height of a picture: figure, current line and question have room in one window. */
@@ -157,15 +184,18 @@ const pictureHeight = () => Math.max(150, Math.min(340, 0.5 * page.width, 0.3 * 
 /** Where an edge's name stands, between and below its ends. */
 const besideEdge = (a, b) => [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22];
 
-/** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. */
+/** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. The caption names what is there. */
 function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const canvas = byId("zone");
   const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
-  const points = [...zone.nodes, ...zone.edges.flatMap(([, ends]) => ends)].map(mesh.at);
+  const ends = zone.edges.flatMap(([, ends]) => ends).map(mesh.at);
+  const points = [...zone.nodes.map(mesh.at), ...ends.flatMap(([x, y]) => [[x, y - tolerance], [x, y + tolerance]])];
   // While a node is dragged the view stays.
   page.view = page.dragged ? page.view : view(points, width, height, 42, true);
   const { to, factor, sy } = page.view;
   drawBodies(context, mesh, to);
+  const placed = [];
+  const labels = [];
   for (const [number, ends] of zone.edges) {
     const [a, b] = ends.map((n) => to(mesh.at(n)));
     const band = Math.min(tolerance * sy, height);
@@ -175,36 +205,50 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     context.globalAlpha = 1;
     const tried = boxed && number === mesh.edges[pairs.get("i2") - 1]?.[0];
     path(context, [a, b], { stroke: colour("target-ink"), width: tried ? 4 : 2 });
-    label(context, t("edge {edge}", { edge: number }), besideEdge(a, b), colour("target-ink"));
+    const text = t("edge {edge}", { edge: number });
+    const [x, y] = besideEdge(a, b);
+    // The button that reverses the edge stands over its name, which keeps its place.
+    placed.push([x - context.measureText(text).width / 2, y - 12, x + context.measureText(text).width / 2, y + 3]);
+    labels.push([text, [x, y], "target-ink", null]);
   }
-  drawBox(context, to, pairs, boxed);
+  const isBoxed = drawBox(context, to, pairs, boxed);
   const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node));
+  for (const { node } of nodes) placed.push([to(mesh.at(node))[0] - 8, to(mesh.at(node))[1] - 8, to(mesh.at(node))[0] + 8, to(mesh.at(node))[1] + 8]);
+  const seen = { links: false, arrows: false };
   for (const { node, place, ct, yt, row, toTarget } of nodes) {
     const [x, y] = mesh.at(node);
     for (const [mate, weight] of [[row[0], row[1]], [row[2], row[3]]]) {
       if (mate === 0) continue;
+      seen.links = true;
       const [from, end] = [to([x, y]), to(mesh.at(mate))];
       path(context, [from, end], { stroke: colour("accent"), width: place === turn ? 2 : 1, dash: [4, 3] });
-      if (place === turn) label(context, short(weight), [(from[0] + end[0]) / 2, (from[1] + end[1]) / 2 - 4], colour("accent"));
+      if (place === turn) labels.push([short(weight), [(from[0] + end[0]) / 2, (from[1] + end[1]) / 2 - 4], "accent", placed]);
     }
-    if (ct > 0 && yt !== undefined && yt !== 0) arrow(context, to([x, y]), to([x + toTarget[0], y + toTarget[1]]), colour(place === turn ? "accent" : "muted"));
-  }
-  for (const n of new Set(zone.edges.flatMap(([, ends]) => ends))) {
-    const [x, y] = to(mesh.at(n));
-    path(context, [[x - 3, y], [x + 3, y]], { stroke: colour("target-ink"), width: 6 });
-    label(context, mesh.name(n), [x, y + 38 > height ? y - 10 : y + 38], colour("target-ink"));
+    if (!(ct > 0) || yt === undefined || yt === 0) continue;
+    seen.arrows = true;
+    arrow(context, to([x, y]), to([x + toTarget[0], y + toTarget[1]]), colour(place === turn ? "accent" : "muted"));
   }
   for (const { node, place, dy } of nodes) {
     const [x, y] = to(mesh.at(node));
     status(context, [x, y], dy, place === turn);
-    label(context, mesh.name(node), [x, Math.max(14, y - 15)], colour("stamp-ink"));
+    labels.push([mesh.name(node), [x, Math.max(14, y - 15)], "stamp-ink", placed]);
   }
-  const size = factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor });
+  for (const n of new Set(zone.edges.flatMap(([, ends]) => ends))) {
+    const [x, y] = to(mesh.at(n));
+    path(context, [[x - 3, y], [x + 3, y]], { stroke: colour("target-ink"), width: 6 });
+    labels.push([mesh.name(n), [x, y + 38 > height ? y - 10 : y + 38], "target-ink", placed]);
+  }
+  for (const [text, at, ink, placed] of labels) label(context, text, at, colour(ink), "center", placed);
+  const is = (status) => nodes.some(({ dy }) => dy === status);
   say("zone-caption", [
-    size,
-    t("Green band: within c_tll of an edge’s line."),
-    run().programs ? t("Arrow: yt, along the normal.") : t("Dashed box: where lines 5 to 7 search. Arrow: Y of line 10."),
-    t("Filled: in contact; open: apart; dot: not decided yet. Dashed lines: links with their weights."),
+    factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor }),
+    ...(zone.edges.length ? [t("Green band: within c_tll of an edge’s line.")] : []),
+    ...(isBoxed ? [t("Dashed box: where lines 5 to 7 search.")] : []),
+    ...(seen.arrows ? [run().programs ? t("Arrow: yt, along the normal.") : t("Arrow: Y of line 10.")] : []),
+    ...(is(1) ? [t("Filled: in contact.")] : []),
+    ...(is(0) ? [t("Open: apart.")] : []),
+    ...(is(undefined) ? [t("Dot: not decided yet.")] : []),
+    ...(seen.links ? [t("Dashed lines: links with their weights.")] : []),
     ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name reverses the edge.")]),
   ].join(" "));
   placeButtons(zone);
@@ -213,13 +257,14 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
 
 const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("apart"));
 
-/** The box of lines 5 and 6, while lines 4 to 7 are executed. */
+/** Draws the box of lines 5 and 6, while lines 4 to 7 are executed; returns whether there is one. */
 function drawBox(context, to, pairs, boxed) {
   const ends = ["ntx[1]", "ntx[2]", "nty[1]", "nty[2]"].map((name) => pairs.get(name));
-  if (!boxed || ends.includes(undefined)) return;
+  if (!boxed || ends.includes(undefined)) return false;
   const [x1, x2, y1, y2] = ends;
   const corners = [[x1, y1], [x2, y1], [x2, y2], [x1, y2]].map(to);
   path(context, corners, { stroke: colour("ink"), width: 2, dash: [6, 4], close: true });
+  return true;
 }
 
 /** Draws each contact node at its height over its edge's line, the line drawn straight. */
@@ -241,12 +286,13 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   context.fillRect(0, height / 2 - band, width, 2 * band);
   context.globalAlpha = 1;
   path(context, [[0, height / 2], [width, height / 2]], { stroke: colour("target-ink"), width: 3 });
+  const placed = known.map(({ node, height: above }) => to(mesh.at(node)[0], above)).map(([x, y]) => [x - 7, y - 7, x + 7, y + 7]);
   for (const { node, place, height: above, dy } of known) {
     const point = to(mesh.at(node)[0], above);
     arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
     status(context, point, dy, place === turn);
     const below = point[1] > height / 2;
-    label(context, mesh.figure.get(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"));
+    label(context, mesh.figure.get(node) ?? String(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"), "center", placed);
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
   say("gaps-caption", known.length

@@ -150,7 +150,7 @@ class MatrixMap {
   say() {
     const [i, j] = this.cursor.map((k) => this.equations[k]);
     const value = this.entry(i, j);
-    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? t("not there yet") : value} (${equationInWords(this.mesh, i)}, ${equationInWords(this.mesh, j)})`;
+    byId("entry").textContent = `MJS[${i},${j}] = ${value === undefined ? t("not there yet") : exact(value)} (${equationInWords(this.mesh, i)}, ${equationInWords(this.mesh, j)})`;
   }
 
   /** Moves the cursor to a place on the canvas, or by a step. */

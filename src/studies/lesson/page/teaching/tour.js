@@ -1,27 +1,4 @@
-// The first minute: the question with which a page opens, a tour of five steps, and what each array is.
-
-/** Asks, before any step, which contact nodes touch; what is marked is held against what c_cnt finds. */
-function askWhichTouch(mesh) {
-  const boxes = mesh.contact.map((n) => make("input", { type: "checkbox", value: n }));
-  const verdict = make("p", { role: "status" });
-  const check = button(t("check"), () => {
-    const end = new Machine(page.programs.c_cnt);
-    end.goTo(end.steps.length);
-    const found = contactNodes(mesh, end).filter(({ dy }) => dy === 1).map(({ node }) => node);
-    const isRight = boxes.every((box, k) => box.checked === found.includes(mesh.contact[k]));
-    const words = { state: contactInWords(found) };
-    verdict.textContent = end.failure ? t("The listing stops: {failure}", end) : isRight ? t("Right. c_cnt finds, {state}. Step through it to see why.", words) : t("No. c_cnt finds, {state}. Step through it to see why.", words);
-  });
-  const tour = button(t("tour: five steps"), () => showTour(0));
-  const nodes = boxes.map((box, k) => make("label", {}, box, ` ${mesh.name(mesh.contact[k])}`));
-  byId("question").hidden = false;
-  byId("question").replaceChildren(
-    make("h3", {}, t("Which nodes touch?")),
-    make("p", {}, t("A contact node touches that is nearer than c_tll = {c_tll} to its target edge, or beside which the two surfaces cross. Mark the nodes that c_cnt will find.", { c_tll: page.programs.c_tll })),
-    make("p", { class: "answers" }, ...nodes, check, tour),
-    verdict,
-  );
-}
+// The first minute: a tour of five steps, and what each array is.
 
 /** The steps of the tour: what is looked at, and what is said of it. */
 const tourSteps = () => [
@@ -32,7 +9,7 @@ const tourSteps = () => [
   ["fieldset", t("Km assembles the stiffness matrix, the iterations make all twenty of them. Each chapter shows what goes wrong at one place.")],
 ];
 
-/** Shows a step of the tour, at its side; nothing behind the last. */
+/** Shows a step of the tour beside what it explains, which it never covers; nothing behind the last. */
 function showTour(k) {
   byId("tour")?.remove();
   document.querySelector(".toured")?.classList.remove("toured");
@@ -47,9 +24,21 @@ function showTour(k) {
   const next = leading(isLast ? t("close") : t("next"), k + 1);
   const close = isLast ? [] : [leading(t("close"), Infinity)];
   const head = make("h2", { id: "tour-title" }, t("Tour, {k} of {count}", { k: k + 1, count: tourSteps().length }));
-  document.querySelector("main").append(make("section", { id: "tour", "aria-labelledby": "tour-title" }, head, make("p", { id: "tour-words" }, words), make("p", { class: "answers" }, leading(t("back"), k - 1), next, ...close)));
+  const box = make("section", { id: "tour", "aria-labelledby": "tour-title" }, head, make("p", { id: "tour-words" }, words), make("p", { class: "answers" }, leading(t("back"), k - 1), next, ...close));
+  document.querySelector("main").append(box);
+  putBeside(box, place.getBoundingClientRect());
   next.setAttribute("aria-describedby", "tour-words");
   next.focus();
+}
+
+/** Puts a box to the right or the left of a place, below it or above it: where it covers least of it. */
+function putBeside(box, { left, right, top, bottom }) {
+  const { offsetWidth: width, offsetHeight: height } = box;
+  const inside = (x, size, room) => Math.max(4, Math.min(x, room - size - 4));
+  const corners = [[right + 8, top], [left - width - 8, top], [left, bottom + 8], [left, top - height - 8]].map(([x, y]) => [inside(x, width, innerWidth), inside(y, height, innerHeight)]);
+  const covers = ([x, y]) => Math.max(0, Math.min(x + width, right) - Math.max(x, left)) * Math.max(0, Math.min(y + height, bottom) - Math.max(y, top));
+  const [x, y] = corners.sort((a, b) => covers(a) - covers(b))[0];
+  Object.assign(box.style, { left: `${x}px`, top: `${y}px` });
 }
 
 /** What an array or a name of the listings is; nothing of a name that an edit brought in. */

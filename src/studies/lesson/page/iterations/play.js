@@ -129,8 +129,9 @@ function statesTable(mesh, { steps, errors, at }) {
   const row = (head, cells) => make("tr", {}, make("th", { scope: "row" }, head), ...cells.map((text, k) => make("td", { class: now(k) }, text)));
   const rows = nodes.map((n) => row(mesh.name(n), steps.map(({ inContact }) => (inContact.includes(n) ? "●" : "○"))));
   const share = (error) => (error === undefined ? "–" : short(Number((100 * error).toPrecision(3))));
+  const head = make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("node")), ...steps.map((_, k) => make("th", { scope: "col", "aria-current": k === at - 1 ? "step" : undefined }, String(k + 1)))));
   const caption = make("caption", {}, t("By iteration: ● in contact, ○ apart"));
-  return make("table", {}, caption, headOf([t("node"), ...steps.map((_, k) => String(k + 1))]), make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
+  return make("table", {}, caption, head, make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
 }
 
 /** Draws the errors over the iterations. */
@@ -177,6 +178,10 @@ function showIterations() {
   drawShape(mesh, machine);
   byId("states").replaceChildren(statesTable(mesh, machine));
   roving(byId("states"), "td", () => machine.steps.length);
+  // The current iteration stays in sight.
+  const now = byId("states").querySelector("[aria-current]");
+  const middle = ({ left, right }) => (left + right) / 2;
+  byId("states").scrollLeft += now ? middle(now.getBoundingClientRect()) - middle(byId("states").getBoundingClientRect()) : 0;
   drawErrors(machine);
 }
 
@@ -186,7 +191,7 @@ function fillVariants() {
     printed: t("Km as printed"),
     tied: t("eq. (1) on total displacements"),
     stepped: t("eq. (1) on increments, the load in equal steps"),
-    corrected: run().programs ? run().label : t("both listings with what the findings ask for"),
+    corrected: run().programs ? tell(run().label) : t("both listings with what the findings ask for"),
   };
   const { recorded } = chapter();
   const names = VARIANTS.filter((name) => (run().programs ? name === "corrected" : !recorded || recorded.variants[name]));

@@ -11,10 +11,10 @@ function openRepair(k) {
 /** The content of the chapter: what a row is, the table, and the picture. */
 function repairsOf({ rows, order }) {
   const cell = (text, value) => make("td", { "data-exact": value === undefined ? undefined : exact(value) }, text);
-  const share = (x) => cell(x === undefined ? "-" : (Math.round(1e4 * x) / 100).toFixed(2), x);
+  const share = (x) => cell(x === undefined ? "-" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
   const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }, k) => {
     const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "-";
-    const words = `${fault}${places ? ` (${places})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
+    const words = `${tell(fault)}${places ? ` (${places})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
     const number = make("th", { scope: "row" }, make("button", {}, String(repairs)));
     const made = make("tr", {}, number, cell(link), share(error), share(transmitted), cell(in_contact ?? "-"), make("td", { class: "words" }, words));
     made.addEventListener("click", ({ target }) => target.closest("a") || openRepair(k));
@@ -24,7 +24,7 @@ function repairsOf({ rows, order }) {
   const table = make("table", { id: "repairs" }, head, make("tbody", {}, ...rows.map(row)));
   roving(table, "button");
   const words = t("A row opens the corrected algorithm with the faults that are left. Errors are against the solution without friction, node to segment, in the initial geometry, on the same mesh.");
-  const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { class: "muted" }, order));
+  const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { class: "muted" }, t(order)));
   return [make("summary", {}, make("h2", {}, t("Repair by repair"))), make("p", {}, words), make("div", { class: "way" }, make("div", { class: "scroll" }, table), figure)];
 }
 

@@ -1,0 +1,163 @@
+// The listing edited in place: a text with its lines' numbers, what is wrong in it marked where it stands, and which
+// lines are not as printed. An editor of our own, of a text area over its marks: one from outside, such as CodeMirror,
+// would weigh as much as the whole page.
+
+/** A listing as text, as it was given: two spaces a level. */
+const textOf = (place) => linesAt(place).map(({ level, text }) => "  ".repeat(level) + text).join("\n");
+
+/** The places of the lines that are as printed: a longest common subsequence of both. */
+function placesAsPrinted(lines, printed) {
+  const longest = Array.from({ length: lines.length + 1 }, () => Array(printed.length + 1).fill(0));
+  for (let i = lines.length - 1; i >= 0; i -= 1) {
+    for (let j = printed.length - 1; j >= 0; j -= 1) longest[i][j] = lines[i] === printed[j] ? 1 + longest[i + 1][j + 1] : Math.max(longest[i + 1][j], longest[i][j + 1]);
+  }
+  const same = new Set();
+  for (let [i, j] = [0, 0]; i < lines.length && j < printed.length; ) {
+    const isSame = lines[i] === printed[j];
+    if (isSame) same.add(i);
+    const [down, across] = [isSame || longest[i + 1][j] >= longest[i][j + 1], isSame || longest[i + 1][j] < longest[i][j + 1]];
+    i += down ? 1 : 0;
+    j += across ? 1 : 0;
+  }
+  return same;
+}
+
+/** The state of a run's listing that is in force, in words: as printed, repaired, edited. */
+function stateOf(name) {
+  const printed = chapter().runs[0];
+  const { label, programs } = run();
+  const isAsPrinted = !programs && run()[name] === printed[name];
+  const isReading = !programs && !["as printed", "repaired", "edited"].includes(label);
+  const base = isReading ? (isAsPrinted ? t("as printed, read with {label}", { label }) : t("under {label}", { label })) : isAsPrinted ? t("as printed") : tell(label);
+  if (!page.edits.has(run()[name])) return base;
+  return isAsPrinted && !isReading ? t("edited") : t("{base}, then edited", { base });
+}
+
+/** What the buttons can do: "reset" takes back tolerance and nodes, "as printed" the listings; what was typed comes back. */
+function showButtons() {
+  byId("reset").disabled = !isMoved();
+  byId("printed").disabled = page.run === 0 && !page.isMine;
+  byId("mine").hidden = page.isMine || page.typed.size === 0;
+}
+
+/** Shows what is wrong, and how sure it is: an error does not run. */
+function showRemarks(text) {
+  const error = errorIn(page.which, text);
+  const lines = linesOf(text);
+  const remarks = error ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, (name) => new Run({}, page.programs.worksheet, {}).has(name) || programsOfSheet().has(name));
+  const wrong = error ? [{ ...error, length: 1, words: complaintInWords(error.message) + "." }] : remarks;
+  const items = wrong.map((at) => {
+    const causes = error ? likelyCauses(error, text) : [];
+    const words = t("Line {fileLine}, column {column}: {words}", at) + (causes.length ? ` ${t("Likely: {causes}.", { causes: causes.join(` ${t("or")} `) })}` : "");
+    return make("li", {}, button(words, () => putCaret(at)));
+  });
+  byId("text-error").replaceChildren(...items);
+  byId("text").setAttribute("aria-invalid", String(error !== null));
+  showMarks(text, wrong);
+  return error;
+}
+
+/** The programs that a corrected listing may call. */
+const programsOfSheet = () => new Set(run().programs ? Object.keys(run().programs) : []);
+
+/** Draws the numbers of the lines, and the text once more below the letters, with what is wrong underlined. */
+function showMarks(text, wrong) {
+  const lines = text.split("\n");
+  byId("gutter").textContent = lines.map((_, k) => k + 1).join("\n");
+  const marked = lines.flatMap((line, k) => {
+    const letters = [...line];
+    const here = wrong.filter(({ fileLine }) => fileLine === k + 1).sort((a, b) => a.column - b.column);
+    let at = 0;
+    const pieces = here.flatMap(({ column, length }) => {
+      const from = Math.max(at, column - 1);
+      const piece = [letters.slice(at, from).join(""), make("mark", {}, letters.slice(from, from + length).join("") || " ")];
+      at = Math.max(from + length, at);
+      return piece;
+    });
+    return [...pieces, letters.slice(at).join("") + "\n"];
+  });
+  byId("marks").replaceChildren(...marked);
+  scrollMarks();
+}
+
+function scrollMarks() {
+  const { scrollTop, scrollLeft } = byId("text");
+  byId("marks").style.transform = `translate(${-scrollLeft}px, ${-scrollTop}px)`;
+  byId("gutter").style.transform = `translateY(${-scrollTop}px)`;
+}
+
+/** Says where the caret is. */
+function sayCaret() {
+  const { value, selectionStart } = byId("text");
+  const before = value.slice(0, selectionStart).split("\n");
+  say("caret", t("line {line}, column {column}", { line: String(before.length), column: String([...before.at(-1)].length + 1) }));
+}
+
+function putCaret({ fileLine, column, length = 0 }) {
+  const text = byId("text");
+  const lines = text.value.split("\n");
+  const start = lines.slice(0, fileLine - 1).join("\n").length + (fileLine > 1 ? 1 : 0) + [...lines[fileLine - 1]].slice(0, column - 1).join("").length;
+  text.focus();
+  text.setSelectionRange(start, start + length);
+  sayCaret();
+}
+
+/** Shows the text of the listing that is chosen. What is typed stays, so that the caret does. */
+function showText() {
+  const text = shownText(run()[page.which]);
+  say("listing-title", t("{listing}, {state}", { listing: page.which, state: stateOf(page.which) }));
+  if (byId("text").value !== text) byId("text").value = text;
+  showRemarks(text);
+  sayCaret();
+}
+
+/** Reads what is typed and keeps it: the page runs it, or says what is wrong with it. The iterations have no text. */
+function readText() {
+  if (isIterating()) return;
+  const place = run()[page.which];
+  const text = byId("text").value;
+  const isFirst = !page.isMine;
+  const error = showRemarks(text);
+  const last = error ? (isFirst ? undefined : page.typed.get(place)?.last) : text;
+  page.typed.set(place, { text, last });
+  if (text === textOf(place)) page.typed.delete(place);
+  page.isMine = page.typed.size > 0;
+  keepTyped();
+  if (!error) choose({ edits: true });
+  else showButtons();
+}
+
+/** Shows the text to type in, from its top, or the listing. */
+function showEditor(isOpen) {
+  byId("editor").hidden = !isOpen;
+  byId("listing-box").hidden = byId("legend").hidden = isOpen;
+  byId("below").classList.toggle("editing", isOpen);
+  byId("edit").textContent = isOpen ? t("done") : t("edit");
+  if (!isOpen) return lightLine(page.machine);
+  const text = byId("text");
+  text.focus();
+  text.setSelectionRange(0, 0);
+  text.scrollTop = text.scrollLeft = 0;
+  scrollMarks();
+  sayCaret();
+}
+
+function watchEditor() {
+  const text = byId("text");
+  let timer;
+  text.addEventListener("input", () => {
+    clearTimeout(timer);
+    timer = setTimeout(readText, 150);
+  });
+  text.addEventListener("scroll", scrollMarks);
+  document.addEventListener("selectionchange", () => document.activeElement === text && sayCaret());
+  byId("edit").addEventListener("click", () => {
+    const isOpen = !byId("editor").hidden;
+    clearTimeout(timer);
+    if (isOpen) readText();
+    showEditor(!isOpen || text.getAttribute("aria-invalid") === "true");
+  });
+  byId("printed").addEventListener("click", () => choose({ run: 0, isMine: false }));
+  byId("mine").addEventListener("click", () => choose({ isMine: true, edits: true }));
+  byId("download").addEventListener("click", download);
+}

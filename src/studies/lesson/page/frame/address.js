@@ -1,0 +1,68 @@
+// The situation in the page's address, behind `#`: chapter, reading, listing, step, tolerance, moved nodes, reversed
+// edges, language, and the texts of the listings that are edited. What a link does not say is as printed.
+
+const LISTINGS = ["c_cnt", "Km"];
+
+/** The chapter's name in the address: its finding, "repairs", or its scene. */
+const nameOf = ({ finding, repairs, name }) => finding?.id ?? (repairs ? "repairs" : name);
+
+/** The address of the situation that is shown. */
+function address() {
+  const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
+  const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
+  if (page.turned.size) fields.turned = [...page.turned].join();
+  if (isIterating()) fields.variant = page.variant;
+  if (page.isBeside) fields.beside = 1;
+  if (speech.language !== data.language) fields.language = speech.language;
+  for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = page.edits.get(run()[name]);
+  return `#${new URLSearchParams(fields)}`;
+}
+
+/** Writes the situation into the address once nothing has changed for a while. */
+function keepAddress() {
+  clearTimeout(page.timer);
+  page.timer = setTimeout(() => {
+    const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !page.isBeside && !isMoved() && page.typed.size === 0 && speech.language === data.language;
+    history.replaceState(null, "", isDefault ? " " : address());
+  }, 300);
+}
+
+/** Copies a link to the situation, for a message or a sheet of exercises. */
+async function copyLink() {
+  const link = new URL(address(), location.href).href;
+  const isCopied = await stored(() => navigator.clipboard.writeText(link).then(() => true, () => false));
+  say("said", isCopied ? t("The link is copied.") : link);
+  byId("link").textContent = isCopied ? t("copied") : t("in the address bar");
+  setTimeout(() => (byId("link").textContent = t("copy link")), 2000);
+  history.replaceState(null, "", link);
+}
+
+/** Opens the situation of the address; what it does not say, or says wrongly, is as at first. */
+function openAddress() {
+  const fields = new URLSearchParams(location.hash.slice(1));
+  const place = (list, name) => Math.max(0, list.findIndex((item) => nameOf(item) === name));
+  setLanguage(["en", "ru"].includes(fields.get("language")) ? fields.get("language") : data.language);
+  fillChapters();
+  openChapter(place(data.scenes, fields.get("chapter")));
+  if (!fields.has("chapter")) return;
+  const whiches = page.mesh.contact.length ? ["c_cnt", "Km", "iterations"] : ["Km"];
+  const which = whiches.find((which) => which === fields.get("listing")) ?? (fields.has("listing") ? whiches[0] : page.which);
+  const variants = [...byId("variant").options].map(({ value }) => value);
+  const chosen = Math.max(0, chapter().runs.findIndex(({ name }) => name === fields.get("run")));
+  const factor = Number(fields.get("tolerance"));
+  const nodes = (fields.get("moved") ?? "").split(";").map((text) => text.split(/[:,]/).map(Number));
+  const isNode = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
+  const edited = LISTINGS.filter((name) => fields.has(name) && !errorIn(name, fields.get(name)));
+  for (const name of edited) page.typed.set(chapter().runs[chosen][name], { text: fields.get(name), last: fields.get(name) });
+  choose({
+    run: chosen,
+    which,
+    variant: variants.find((variant) => variant === fields.get("variant")) ?? page.variant,
+    at: Number(fields.get("step")) || 0,
+    factor: factor >= 0.01 && factor <= 100 ? factor : 1,
+    isMine: edited.length > 0,
+    isBeside: fields.has("beside"),
+    turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),
+    moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
+  });
+}

@@ -1,0 +1,70 @@
+// The corrected algorithm beside the listing that is shown, step by step on the same scene: it goes along turn by turn,
+// and has its own buttons within a turn; what both have found of each node stands in one table.
+
+/** A run of the corrected programs on the scene of the run that is shown. */
+const correctedRun = () => {
+  const { programs, settings } = data.corrected;
+  return { ...run(), label: "corrected", programs, c_cnt: programs.c_cnt, Km: programs.Km, settings };
+};
+
+/** Executes the corrected listing where it is wanted. */
+function openBeside() {
+  const isThere = page.isBeside && !isIterating() && !run().programs && page.mesh.contact.length > 0;
+  byId("beside").hidden = !isThere;
+  document.querySelector(".columns").classList.toggle("with-beside", isThere);
+  page.beside = null;
+  if (!isThere) return;
+  const programs = new Programs(correctedRun(), page.mesh, chapter().nodes, page.programs.c_tll);
+  page.beside = new Machine(programs[page.which] ?? NOTHING);
+  page.besideTurn = undefined;
+  const step = (text, to) => button(text, () => {
+    page.beside.goTo(to(page.beside));
+    drawBeside();
+  });
+  byId("beside").replaceChildren(
+    make("h2", {}, t("{listing}, {state}", { listing: page.which, state: t("corrected") })),
+    make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("The corrected listing") }, make("ol", {}, ...page.beside.lines.map(({ number, level, text }) => make("li", {}, make("span", { class: "number" }, String(number)), make("code", { style: `--level: ${level}` }, text))))),
+    make("p", { class: "answers" }, step(t("back"), ({ at }) => at - 1), step(t("step"), ({ at }) => at + 1), step(t("end of the turn"), endOfTurn), make("span", { id: "beside-said", role: "status" })),
+    make("div", { id: "both", class: "scroll" }),
+  );
+}
+
+/** Behind the last step of the turn that the corrected listing is in. */
+const endOfTurn = ({ turns, steps, at }) => turns.find(({ from }) => from > at)?.from ?? steps.length;
+
+/** Lets the corrected listing follow to the turn of the listing that is shown: to its end once that has gone on, and with it
+ * to the start and the end. */
+function showBeside(turn) {
+  const { beside, machine } = page;
+  if (!beside) return;
+  const place = machine.at === 0 ? 0 : machine.at === machine.steps.length ? Infinity : turn;
+  if (place !== page.besideTurn) {
+    page.besideTurn = place;
+    const begins = beside.turns.findLast(({ turn: own, from }) => own === turn && from <= (beside.steps.length * machine.at) / machine.steps.length + 1) ?? beside.turns.find(({ turn: own }) => own === turn);
+    if (place === 0 || place === Infinity) beside.goTo(place);
+    else if (begins) beside.goTo(begins.from + 1);
+  }
+  drawBeside();
+}
+
+/** Shows the step of the corrected listing, and what both have found. */
+function drawBeside() {
+  const { beside, machine, mesh } = page;
+  const items = [...byId("beside").querySelectorAll("li")];
+  items.forEach((item, k) => {
+    item.classList.toggle("lit", beside.last?.line === k);
+    item.classList.toggle("next", beside.next?.line === k);
+  });
+  const lit = items[beside.last?.line ?? 0];
+  if (lit) lit.parentElement.parentElement.scrollTop = lit.offsetTop - lit.parentElement.offsetTop - 60;
+  say("beside-said", `${t("step {at} of {count}", { at: beside.at, count: beside.steps.length })}. ${stepInWords(beside)}`);
+  if (page.which === "Km") return byId("both").replaceChildren();
+  const shown = (machine, name) => {
+    const value = machine.get(name);
+    return make("td", value === undefined ? {} : { "data-exact": exact(value) }, value === undefined ? "·" : brief(value));
+  };
+  const names = ["ct", "yt", "dy"];
+  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => [shown(machine, `${name}[${k + 1}]`), shown(beside, `${name}[${k + 1}]`)])));
+  const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
+  byId("both").replaceChildren(make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)));
+}

@@ -1,0 +1,173 @@
+// A chapter: what to try on a finding's scene, and at its end the conclusion; and what a run changes against the
+// listing as printed.
+
+/** The values of a run at its end that are compared: by name. */
+function results(programs) {
+  const found = new Map();
+  for (const program of [programs.c_cnt, programs.Km]) {
+    if (!program) continue;
+    const machine = atEnd(program);
+    for (const [name, value] of machine.values) if (/^(ct|yt|dy|k_cnt|MJS)\[/.test(name)) found.set(name, value);
+    if (machine.failure) found.set("stops", machine.failure);
+  }
+  return found;
+}
+
+/** A machine at the end of a program. */
+function atEnd(program) {
+  const machine = new Machine(program ?? NOTHING);
+  machine.goTo(machine.steps.length);
+  return machine;
+}
+
+const RESULTS = ["stops", "ct", "yt", "dy", "k_cnt", "MJS"];
+
+/** The names whose values differ between two runs, each with both, in the order in which they are
+ * computed. An entry never written is 0. */
+function changes(before, after) {
+  const place = (name) => RESULTS.indexOf(name.split("[")[0]);
+  const names = [...new Set([...before.keys(), ...after.keys()])].sort((a, b) => place(a) - place(b));
+  const value = (of, name) => of.get(name) ?? (name === "stops" ? t("no") : 0);
+  return names.map((name) => [name, value(before, name), value(after, name)]).filter(([, a, b]) => a !== b);
+}
+
+const MOST_CHANGES = 12;
+
+/** Shows what the run changes against the one before, on the scene as it was given. */
+function showChanges(run, programs) {
+  const place = byId("changes");
+  const before = runBefore();
+  // A repair may be of Fm alone.
+  const isSame = run === before || (run.programs && LISTINGS.every((name) => run[name] === before[name]));
+  place.hidden = isIterating() || (isSame && !isChanged());
+  if (place.hidden) return;
+  const changed = changes(results(programsOf(before)), results(programs));
+  const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
+  const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
+    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
+  );
+  const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
+  const head = headOf([t("name"), tell(before.label), isChanged() ? t("now") : tell(run.label)]);
+  const count = [t("Values that change: {count}, of them in MJS: {entries}.", { count: changed.length, entries }), ...(changed.length > MOST_CHANGES ? [t("The first {count} are shown.", { count: MOST_CHANGES })] : [])].join(" ");
+  const what = isMoved() ? t("{what} on the changed scene", { what: now }) : now;
+  place.replaceChildren(
+    make("h3", {}, t("At the end, {what} beside {before}", { what, before: tell(before.label) })),
+    ...(changed.length ? [make("div", { class: "scroll" }, make("table", {}, head, make("tbody", {}, ...rows))), make("p", { class: "muted" }, count)] : [make("p", {}, t("Nothing changes on this scene."))]),
+  );
+  roving(place, "td", () => 2);
+}
+
+/** What to try in a chapter, each a button. */
+function trials({ lines, listing, edit }, { contact, load }) {
+  const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
+  const [line] = lines;
+  const runToLine = () => {
+    choose({ run: 0, which: listing });
+    go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)), true);
+  };
+  const playIterations = () => {
+    choose({ run: 0, which: "iterations" });
+    play(true);
+  };
+  return [
+    ...trial(lines.length, t("run to line {line}", { line }), runToLine),
+    ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
+    ...trial(contact.length && load.some((f) => f !== 0), t("play the iterations"), playIterations),
+  ];
+}
+
+const described = (parts) => make("dl", {}, ...parts.flatMap(([term, ...content]) => [make("dt", {}, term), make("dd", {}, ...content)]));
+
+/** Shows what a chapter is there for; of the scene with which the page opens there is nothing to say before its end. */
+function showFinding({ finding: row, repairs, runs }) {
+  const place = byId("finding");
+  place.hidden = !row && !repairs;
+  place.classList.toggle("repairs", Boolean(repairs));
+  if (repairs) place.replaceChildren(...repairsOf(repairs));
+  if (!row) return;
+  const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");
+  place.replaceChildren(
+    make("summary", {}, make("h2", {}, `${row.id} (${lines}): ${t(row.title)}`)),
+    described([
+      [t("Goal"), row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.")],
+      [t("Try it"), ...trials(row, data.meshes[runs[0].mesh])],
+    ]),
+  );
+}
+
+/** The end of the chapter: what the listing did, what is wrong, what it costs, what repairs it. */
+function showConclusion() {
+  const { finding, repairs } = chapter();
+  const parts = finding ? ofFinding(finding) : repairs ? ofRepairs(repairs) : ofScene();
+  page.concluded = parts;
+  byId("conclusion").hidden = !parts || !page.isConcluded;
+  if (parts) byId("conclusion").replaceChildren(make("summary", {}, make("h2", {}, t("Conclusion"))), described(parts));
+}
+
+/** Shows the conclusion from the first time on that the end is reached; unfolded where there is room. */
+function unfoldConclusion() {
+  if (page.isConcluded || !page.concluded) return;
+  page.isConcluded = true;
+  byId("conclusion").hidden = false;
+  if (!isWide() || chapter().repairs) return;
+  byId("finding").open = false;
+  byId("conclusion").open = true;
+}
+
+/** What a fault costs, put back alone into the corrected algorithm on a scene. */
+function priceInWords({ scene, name, weight, error }) {
+  const effect = {
+    fatal: () => t("the run stops, or the load does not pass"),
+    shifts: () => t("an error of {error} in energy", { error: percent(error) }),
+    free: () => t("nothing"),
+    "decided by rounding": () => t("a result that rounding decides"),
+    "no fault under the scene's own friction": () => t("nothing under the scene's own friction"),
+  }[weight]();
+  return t("{name} on {scene}: {effect}", { name: t(name), scene, effect });
+}
+
+function ofFinding(row) {
+  const { runs } = chapter();
+  const figure = `${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}.`;
+  const prices = row.prices.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: row.prices.map(priceInWords).join("; ") })}` : "";
+  const repaired = row.edit.none ? t(row.edit.none.reason) : t("choose the reading “repaired” and see what it changes; the listing as printed is run with {about}", { about: runs[0].about.map((words) => t(words)).join(", ") });
+  return [
+    [t("What the listing did"), row.verdict === "present" ? t(row.detail) : `${t(row.verdict)}: ${t(row.detail)}`],
+    [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],
+    [t("What it costs"), figure + prices],
+    [t("What repairs it"), `${t(row.repair)}; ${repaired}`],
+  ];
+}
+
+/** Of the chapter of repairs: from the print's own figures to the solution's. */
+function ofRepairs({ rows }) {
+  const [first, last] = [rows[0], rows.findLast(({ finding }) => finding)];
+  return [
+    [t("What the listing did"), t("As printed it leaves an error of {error} in energy.", { error: first.error === undefined ? t("no result") : percent(first.error) })],
+    [t("What repairs it"), t("After {count} repairs, the last of them {finding}, the error is {error}.", { count: last.repairs, finding: last.finding, error: percent(last.error) })],
+  ];
+}
+
+/** Of a scene of one's own: which nodes the listing finds, and which it should. */
+function ofScene() {
+  const { mesh, programs } = page;
+  if (!mesh.contact.length || run().programs) return null;
+  const end = atEnd(programs.c_cnt);
+  if (end.failure) return [[t("What the listing did"), t("The listing stops: {failure}", end)]];
+  const nodes = contactNodes(mesh, end).map((node) => ({ ...node, ...fromTarget(mesh, node.node) }));
+  const named = (list) => listed(list.map(({ node }) => node));
+  const missed = nodes.filter(({ dy, isInside }) => dy !== 1 && isInside);
+  const taken = nodes.filter(({ dy, isInside, distance }) => dy === 1 && !isInside && distance > programs.c_tll);
+  const rows = data.scenes.find(({ repairs, name }) => repairs && name === chapter().name)?.repairs.rows;
+  const cost = rows?.[0].error;
+  const wrong = [
+    ...(missed.length ? [t("Inside the target and missed: {nodes}.", { nodes: named(missed) })] : []),
+    ...(taken.length ? [t("Farther away than c_tll and taken: {nodes}.", { nodes: named(taken) })] : []),
+  ];
+  return [
+    [t("What the listing did"), t("c_cnt ({state}) finds, {contact}.", { state: stateOf("c_cnt"), contact: contactInWords(nodes.filter(({ dy }) => dy === 1).map(({ node }) => node)) })],
+    [t("What is wrong"), wrong.join(" ") || t("No node is missed and none is taken that is apart.")],
+    ...(cost === undefined ? [] : [[t("What it costs"), t("As printed it leaves an error of {error} in energy.", { error: percent(cost) })]]),
+    ...(rows ? [[t("What repairs it"), make("a", { href: "#chapter=repairs" }, tell(data.scenes.find(({ repairs }) => repairs).title))]] : []),
+  ];
+}
