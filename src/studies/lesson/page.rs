@@ -170,7 +170,7 @@ impl Shared {
             "reference": reference.map(|u| u.as_slice()),
             "recorded": recorded,
             "finding": finding,
-            "repairs": repairs.map(|repairs| repairs::json(repairs)),
+            "repairs": repairs.map(repairs::json),
         })
     }
 
