@@ -2,7 +2,7 @@
 
 use super::json;
 use super::model::{Cell, Report, Table};
-use super::numbers::{quantity, short, six_digits};
+use super::numbers::{quantity, six_digits};
 use engine::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
 use problem::scene::{Scene, Units};
 
@@ -129,7 +129,7 @@ fn left_out(plan: &Plan) -> Table {
         false => "but half of it has another answer, for c_cnt as printed is not symmetric",
     };
     rows.extend(plan.half.map(|found| {
-        let at = short(found.at);
+        let at = six_digits(found.at);
         let why = format!("the scene is its own mirror image about x = {at}: {half}");
         row("nodes of the other half", plan.nodes - found.nodes, why)
     }));

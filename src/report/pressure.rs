@@ -1,6 +1,6 @@
 //! The contact pressure along the contact surface, several runs in one picture.
 
-use super::numbers::quantity;
+use super::numbers::{figure, quantity};
 use super::picture::{Axis, Series, Style, chart, small_chart};
 use engine::contact::ContactNode;
 use engine::quantities::Value;
@@ -23,8 +23,10 @@ pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> Stri
     )];
     if let Some(hertz) = hertz {
         captions.push(format!(
-            "Hertz: half width {:.4}, peak {:.5}, relative radius {:.4}.",
-            hertz.half_width, hertz.peak, hertz.radius
+            "Hertz: half width {}, peak {}, relative radius {}.",
+            figure(hertz.half_width, None),
+            figure(hertz.peak, None),
+            figure(hertz.radius, None)
         ));
     }
     let hertz = hertz.map(|hertz| hertz_curve(hertz, shown(runs)));

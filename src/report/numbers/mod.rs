@@ -13,18 +13,10 @@ pub use undefined::reason;
 
 pub use base::plain::six_digits;
 
-/// Writes a whole number as it is, another one with five decimals, and one that is very large or
-/// very small in scientific notation; `-` stands for what is no number.
+/// Writes a whole number as it is, another one with three digits; `-` stands for what is no number.
 pub fn short(x: f64) -> String {
-    match x.abs() {
-        size if !size.is_finite() => "-".into(),
-        size if size < 1e9 && x.fract() == 0.0 => {
-            // Added to 0, -0 is 0.
-            format!("{:.0}", x + 0.0)
-        }
-        size if (1e-3..1e5).contains(&size) => format!("{x:.5}"),
-        _ => format!("{x:.3e}"),
-    }
+    // Added to 0, -0 is 0.
+    if x.abs() < 1e9 && x.fract() == 0.0 { format!("{:.0}", x + 0.0) } else { figure(x, None) }
 }
 
 /// Returns a point as text, `x, y`.

@@ -2,7 +2,7 @@
 
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{percent, short, with_unit};
+use crate::numbers::{percent, short, six_digits, with_unit};
 use engine::{Equilibrium, Margin, NearestDecision, OtherEquilibrium, Solution, Uniqueness};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
@@ -93,7 +93,7 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
         };
         format!(
             "at load {}: stick {}; slip {}: displacement components change by at most {}",
-            short(other.load),
+            six_digits(other.load),
             nodes(&other.stick),
             nodes(&other.slip),
             with_unit(&short(other.change), &solution.request.scene.units.length)

@@ -2,7 +2,7 @@
 
 use crate::layout::{counted, first_line};
 use crate::model::Report;
-use crate::numbers::{or_dash, percent, short, with_unit};
+use crate::numbers::{or_dash, percent, six_digits, with_unit};
 use engine::estimates::{
     BodyEstimates, Certainty, ContactChange, ErrorEstimates, NoLimit, Perturbed,
 };
@@ -127,7 +127,7 @@ pub fn perturbed(found: &Perturbed) -> Vec<String> {
         Some(ContactChange { node, load, nodes }) => format!(
             "CHANGE WHO IS IN CONTACT: the status of {}, first at node {node} after {} of the load",
             counted(*nodes, "node", "nodes"),
-            short(*load)
+            six_digits(*load)
         ),
     };
     let part = |x: &Option<f64>| x.map_or("unknown".into(), |x| format!("{x:.0e}"));

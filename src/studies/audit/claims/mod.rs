@@ -127,7 +127,7 @@ choices! {
         /// It was measured on scenes drawn at random.
         Drawn = "random scenes",
         /// There is none.
-        Nowhere = "-",
+        Nowhere = "nowhere",
     }
 }
 

@@ -119,7 +119,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
         .column("another verdict under", |(judged, found)| {
             let others = found.iter().filter(|(_, other)| other.verdict != judged.measured.verdict);
             let words = others.map(|(reading, other)| {
-                format!("{reading}: {} ({})", other.words(), other.figure(rounded))
+                format!("{reading}: {} ({})", other.words(), other.figure(short))
             });
             words.collect::<Vec<_>>().join("; ")
         });
@@ -199,7 +199,7 @@ pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
         .column("what is judged", |judged| judged.claim.judged)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
-        .column("value", |judged| judged.measured.figure(rounded))
+        .column("value", |judged| judged.measured.figure(short))
         .column("what the value is", |judged| judged.claim.number)
 }
 
@@ -214,11 +214,6 @@ pub fn range(claims: &[JudgedClaim]) -> Table<Vec<(&JudgedClaim, Parameter)>> {
         .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
             over(judged, *parameter)
         })
-}
-
-/// Writes a number with three digits, and a whole one as it is.
-fn rounded(x: f64) -> String {
-    if x.fract() == 0.0 { short(x) } else { format!("{x:.3}") }
 }
 
 /// Reports a line for each claim that was judged over the range, and one for each parameter.
@@ -240,7 +235,7 @@ pub fn over(judged: &JudgedClaim, parameter: Parameter) -> String {
     let words = alike.map(|places| {
         let values = places
             .iter()
-            .map(|other| format!("{} ({})", other.place.value, other.measured.figure(rounded)));
+            .map(|other| format!("{} ({})", other.place.value, other.measured.figure(short)));
         format!("{} at {}", places[0].measured.words(), listed(values))
     });
     words.collect::<Vec<_>>().join("; ")
