@@ -47,14 +47,16 @@ impl Hertz {
     pub fn from_solution(solution: &Solution) -> Option<Self> {
         let Pressed { gaps, pairings, least, load, modulus, centre } = Pressed::of(solution)?;
         // The half width decides which gaps count for the radius, which decides the half width.
-        let mut half_width = 0.25 * (gaps[gaps.len() - 1].arc - gaps[0].arc);
+        let length = gaps[gaps.len() - 1].arc - gaps[0].arc;
+        let mut half_width = 0.25 * length;
         let mut radius = 0.0;
         for _ in 0..20 {
             radius = fit(&gaps, centre, least, half_width)?;
             half_width = (4.0 * load * radius / (PI * modulus)).sqrt();
         }
         let contact = Hertz { radius, half_width, peak: 2.0 * load / (PI * half_width), centre };
-        let is_shallow = half_width < SHALLOW * radius
+        // Flat surfaces, whose radius is rounding, touch up to their ends.
+        let is_shallow = half_width < length.min(SHALLOW * radius)
             && contact.turn(&solution.model, &gaps, &pairings) < 2.0 * SHALLOW;
         (is_shallow && contact.fits(&gaps, least)).then_some(contact)
     }

@@ -22,6 +22,7 @@ mod extremes;
 mod faults;
 mod first_difference;
 mod fuzz;
+mod gmsh;
 mod hostile;
 mod limits;
 mod mathcad;

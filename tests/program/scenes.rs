@@ -151,6 +151,8 @@ fn text_that_is_no_scene() {
     ] {
         says(&parse(&whole.replacen("0.001", value, 1)), "field contact.c_tll, line 1", &[words]);
     }
+    let two = r#"{"restraints":[{"on":"top","fix":[{"direction":[0,1],"displacement":1}]}]}"#;
+    says(&parse(two), "restraints[0].fix[0]", &["a second field stands in an object of one"]);
     let twice = r#"{"plane":"strain","materials":{"1":{"E":1,"nu":0},"1":{"E":2,"nu":0}}}"#;
     says(&parse(twice), "materials", &["\"1\" is given twice"]);
 }

@@ -130,6 +130,9 @@ fn words(error: &serde_json::Error, text: &str) -> String {
     let bare = found.trim_start_matches(['-', '+']).to_lowercase();
     let expected = match &*said {
         "number out of range" => return format!("{found} is a {said}"),
+        "expected value" if goes_on(text, error.line(), error.column()) => {
+            return "a second field stands in an object of one".into();
+        }
         "key must be a string" => "text in double quotes",
         "expected value" | "expected ident" | "invalid number" => {
             if ["nan", "inf", "infinity"].contains(&bare.as_str()) {
@@ -143,6 +146,14 @@ fn words(error: &serde_json::Error, text: &str) -> String {
         _ => return said,
     };
     format!("{found} where {expected} is expected")
+}
+
+/// Returns whether a list or an object ends at a place, and a comma follows.
+fn goes_on(text: &str, line: usize, column: usize) -> bool {
+    let line = text.split('\n').nth(line - 1).unwrap_or_default();
+    let behind = line.get(column.saturating_sub(1)..).unwrap_or_default();
+    let behind = behind.strip_prefix([']', '}']);
+    behind.is_some_and(|behind| behind.trim_start().starts_with(','))
 }
 
 /// Returns the word at a place: letters and digits with what may stand in a number, or the one
