@@ -7,6 +7,9 @@ use plane_contact::studies::snapshot::{Bounds, Snapshot, verify};
 use plane_contact::{Error, Request, Scene, files};
 
 /// Verifies the snapshot of a scene; records it where there is none.
+///
+/// # Errors
+/// Those of the scene and of its solution, or the snapshot cannot be read or written.
 pub fn check(scene: &str, path: &Path) -> Result<bool, Error> {
     if !path.exists() {
         let scene = Scene::open(scene)?;
