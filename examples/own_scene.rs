@@ -10,6 +10,9 @@ use plane_contact::report::vtu::vtu;
 use plane_contact::{Error, Request, Scene, files, solve};
 
 /// Solves the scene and writes `fields.vtu` to a folder.
+///
+/// # Errors
+/// Those of the scene and of its solution, or the file cannot be written.
 pub fn own_scene(path: &Path, out: &Path) -> Result<(), Error> {
     let scene = Scene::open(path)?;
     let reference = solve(&Request::new(&scene).reference(), &mut |_| ())?;

@@ -9,7 +9,7 @@ use plane_contact::{Error, Request, Scene, files};
 /// Verifies the snapshot of a scene; records it where there is none.
 ///
 /// # Errors
-/// The scene or the snapshot cannot be read, or a file cannot be written.
+/// Those of the scene and of its solution, or the snapshot cannot be read or written.
 pub fn check(scene: &str, path: &Path) -> Result<bool, Error> {
     if !path.exists() {
         let scene = Scene::open(scene)?;

@@ -10,6 +10,7 @@ use std::thread::{Builder, available_parallelism};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
+use clap_complete::Shell;
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
 use plane_contact::files;
@@ -49,7 +50,7 @@ Examples:
 struct Cli {
     /// Print the completions of a shell: bash, elvish, fish, powershell, zsh.
     #[arg(long, value_name = "SHELL")]
-    completions: Option<clap_complete::Shell>,
+    completions: Option<Shell>,
     /// Write the man pages of all commands to a folder.
     #[arg(long, value_name = "DIR", conflicts_with = "completions")]
     man: Option<PathBuf>,
@@ -131,8 +132,12 @@ fn shell_files(cli: &Cli, mut grammar: clap::Command) -> Result<(), Error> {
         let mut text = Vec::new();
         clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text);
         let text = String::from_utf8(text).expect("help is UTF-8");
-        // In bash, a command with a hyphen has two names (clap-rs/clap#6421).
-        commands::print(&text.replace("plane__subcmd__contact", "plane__contact"))?;
+        commands::print(&match shell {
+            // A command with a hyphen has two names there (clap-rs/clap#6421).
+            Shell::Bash => text.replace("plane__subcmd__contact", "plane__contact"),
+            Shell::Fish => text + &fish_values(&grammar, ""),
+            _ => text,
+        })?;
     }
     if let Some(folder) = &cli.man {
         grammar.build();
@@ -140,6 +145,26 @@ fn shell_files(cli: &Cli, mut grammar: clap::Command) -> Result<(), Error> {
         commands::report_written(folder);
     }
     Ok(())
+}
+
+/// Returns what clap leaves out for fish: the values of the arguments that have no option, command by command; `seen`
+/// asks whether the words before are those of the command.
+fn fish_values(command: &clap::Command, seen: &str) -> String {
+    let offered = command.get_positionals().flat_map(clap::Arg::get_possible_values);
+    let names: Vec<String> = offered.map(|value| value.get_name().to_string()).collect();
+    let own = match names.is_empty() {
+        true => String::new(),
+        false => format!("complete -c plane-contact -n \"{seen}\" -a \"{}\"\n", names.join(" ")),
+    };
+    let inner = command.get_subcommands().map(|inner| {
+        let name = inner.get_name();
+        let seen = match seen {
+            "" => format!("__fish_plane_contact_using_subcommand {name}"),
+            seen => format!("{seen}; and __fish_seen_subcommand_from {name}"),
+        };
+        fish_values(inner, &seen)
+    });
+    own + &inner.collect::<String>()
 }
 
 /// Returns the man pages of a command and of those in it, each with the name of its file.

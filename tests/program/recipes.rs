@@ -183,3 +183,22 @@ fn the_hook_verifies_the_snapshots_of_a_repository() {
     edit(folder.path());
     assert!(!status());
 }
+
+/// The module of Python beside scikit-fem, its examples and its types.
+#[cfg(unix)]
+#[test]
+fn the_module_of_python_passes_its_tests() {
+    let mut python = Command::new("python3");
+    python.args(["-c", "import numpy, pytest, skfem, meshio, mypy"]);
+    if !is_there(python, "REQUIRE_PYTEST") {
+        return;
+    }
+    let (folder, programs) = repository();
+    let args =
+        ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "plane_contact.pytest_plugin", "-c"];
+    let mut pytest = command("python3", &args, folder.path(), &programs);
+    pytest.args([Path::new(ROOT).join("pyproject.toml"), Path::new(ROOT).join("src/python")]);
+    pytest.env("PYTHONPATH", Path::new(ROOT).join("src/python"));
+    pytest.env("PYTHONDONTWRITEBYTECODE", "1");
+    succeeds(&pytest.output().expect("python3"), "pytest");
+}

@@ -254,7 +254,8 @@ fn pages_are_cited_by_the_command_that_prints_them() {
     let mut texts = Vec::new();
     let recorded = files(&Path::new(ROOT).join("golden"));
     let of_program = |file: &&PathBuf| {
-        file.extension().is_some_and(|ending| ending == "snap") || file.ends_with("mistakes.md")
+        file.extension().is_some_and(|ending| ending == "snap")
+            || file.ends_with("golden/mistakes.md")
     };
     for file in recorded.iter().filter(of_program) {
         texts.push((file.display().to_string(), std::fs::read_to_string(file).expect("text")));
@@ -264,7 +265,8 @@ fn pages_are_cited_by_the_command_that_prints_them() {
         texts.push((command.clone(), printed(&args)));
     }
     for (name, text) in texts {
-        for file in ["src/guide/", "golden/tables/", "listings/README", "src/mathcad/README"] {
+        for file in ["src/guide/", "golden/tables/", "listings/README.md", "src/mathcad/README.md"]
+        {
             assert!(!text.contains(file), "{name} cites {file}");
         }
     }

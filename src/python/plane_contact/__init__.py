@@ -68,7 +68,8 @@ def solve(scene: Scene = "strand", **options: Any) -> Result:
     >>> solve("fig1", variant="tied", reading={"R5": "node_n"})["coupling"]
     'nts'
     """
-    return _json(["solve"], scene, options)
+    # Large meshes have their fields too.
+    return _json(["solve"], scene, {"fields": True, **options})
 
 
 def reference(scene: Scene = "strand", **options: Any) -> Result:
