@@ -58,7 +58,7 @@ fn to_be_chosen(text: &[u8]) -> Option<InputError> {
     let mut open = Vec::new();
     collect_open(&scene, "", "", &mut open);
     let is_open = |name: &&str| open.iter().any(|(_, field)| field == *name);
-    let fix = OPEN.iter().filter(|(name, _)| is_open(&name)).map(|(_, words)| *words);
+    let fix = OPEN.iter().filter(|(name, _)| is_open(name)).map(|(_, words)| *words);
     let fix = format!("give each a value in place of null; {}", fix.collect::<Vec<_>>().join("; "));
     let places = open.iter().map(|(place, _)| place.as_str()).collect::<Vec<_>>().join(", ");
     let what = "the scene leaves values to be chosen: they are null";
