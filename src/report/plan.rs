@@ -31,14 +31,16 @@ pub fn line(plan: &Plan) -> String {
     text
 }
 
-/// Reports the plan with the units of the scene.
-pub fn report(plan: &Plan, units: &Units) -> Report {
+/// Reports the plan of a scene, with what is to be said of that.
+pub fn report(plan: &Plan, scene: &Scene) -> Report {
+    let units = &scene.units;
     let locking = plan.bodies.iter().filter_map(|body| {
         let why = body.locking.as_ref()?;
         Some(format!("NOTE: body {}: {why}; the error of the mesh is not estimated", body.name))
     });
     Report::default()
         .line(line(plan))
+        .notes(scene.adapted().to_vec())
         .table("What is built", built(plan))
         .table("Bodies", bodies(&plan.bodies, units))
         .notes(locking)

@@ -108,7 +108,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     }
     let unknown = |group: &GroupRef| (group.text(), json!({ "E": null, "nu": null }));
     let mut scene = json!({
-        "title": name.trim_end_matches(".msh"),
+        "title": name.rsplit('/').next().unwrap_or(name).trim_end_matches(".msh"),
         "mesh": name,
         "plane": Plane::Strain.name(),
         "units": { "length": "", "stress": "", "force": "" },

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::embedded::{Embedded, FINDING_SCENES, SCENES};
 use base::error::{InputError, Result};
-use base::files;
+use base::files::{self, kind_of};
 use base::plain::{shell_word, shown};
 use base::suggestion::did_you_mean;
 
@@ -122,22 +122,24 @@ impl SceneFile {
 
 /// Refuses a geometry or a mesh of Gmsh, and says what a scene is.
 fn no_scene(path: &Path, text: &[u8]) -> Result<()> {
-    let extension = path.extension().unwrap_or_default();
-    let (mesh, kind, first) = if extension == "geo" {
-        let mesh = shown(&path.with_extension("msh"));
-        (mesh, "a geometry", format!("gmsh {} -2 meshes it; then ", shell_word(&shown(path))))
-    } else if extension == "msh" || text.starts_with(b"$MeshFormat") {
-        (shown(path), "a mesh", String::new())
+    let is = |extension: &str, kind: &str| {
+        path.extension().is_some_and(|own| own == extension) || kind_of(text) == Some(kind)
+    };
+    let (mesh, kind, first) = if is("geo", "a Gmsh geometry") {
+        let geometry = shell_word(&shown(path));
+        (path.with_extension("msh"), "geometry", format!("gmsh {geometry} -2 meshes it; then "))
+    } else if is("msh", "a Gmsh mesh") {
+        (path.to_path_buf(), "mesh", String::new())
     } else {
         return Ok(());
     };
     let what = format!(
-        "this is {kind} of Gmsh, and no scene: a scene is a JSON file beside a mesh that names materials, restraints, \
+        "this is a Gmsh {kind}, not a scene file: a scene is a JSON file beside a mesh that names materials, restraints, \
          loads and what may touch"
     );
     let fix = format!(
         "{first}plane-contact scene new {} writes a first one, to be edited",
-        shell_word(&mesh)
+        shell_word(&shown(&mesh))
     );
     Err(InputError::new(shown(path), what, fix))
 }

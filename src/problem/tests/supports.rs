@@ -133,3 +133,28 @@ fn a_body_that_slides_or_turns_is_named_with_its_motion() {
     let turns = body().restrain_node(2, &[Axis::X, Axis::Y]).build().expect_err("it turns");
     assert!(turns.to_string().contains("rotate about 1, 0"), "{turns}");
 }
+
+/// Two groups that meet at a bend hold their common node along both normals; one group along their mean.
+#[test]
+fn a_smooth_curve_in_two_groups_is_named() {
+    let bent = |rise: f64| {
+        let mut mesh = MeshBuilder::default();
+        let bottom = mesh.row([[0.0, 0.0], [1.0, rise], [2.0, 0.0]]);
+        let top = mesh.row([[0.0, 2.0], [1.0, 2.0], [2.0, 2.0]]);
+        mesh.join("body", &bottom, &top);
+        mesh.edges("left", &bottom[..2]);
+        mesh.edges("right", &bottom[1..]);
+        let scene =
+            SceneBuilder::new("bent", mesh.finish(), Plane::Strain).material("body", 1.0, 0.3);
+        let scene = scene.restrain("left", &[Axis::Normal]).restrain("right", &[Axis::Normal]);
+        scene.build().expect("it is sound").adapted().to_vec()
+    };
+    let note = &bent(5.0_f64.to_radians().tan())[0];
+    assert!(
+        note.starts_with(
+            "Node 2 is held by restraints 1 (left) and 2 (right) along directions 10 degrees"
+        ),
+        "{note}"
+    );
+    assert_eq!(bent(1.0), [""; 0]);
+}

@@ -85,8 +85,10 @@ impl Rows {
             }
             if let Some(before) = found[node.index()].replace(row) {
                 let what = format!(
-                    "node {node} is that of {} {} and that of {}",
-                    self.kind, before.line, row.line
+                    "node {node} is that of {kind} {} and of {kind} {}",
+                    before.line,
+                    row.line,
+                    kind = self.kind
                 );
                 return Err(self.wrong(what, "give each node one row"));
             }

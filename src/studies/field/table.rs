@@ -47,6 +47,7 @@ pub fn report(compared: &Compared) -> Report {
             pressure::name(reference),
             request.contact.geometry
         ))
+        .notes(request.scene.adapted().to_vec())
         .heading("Result")
         .notes(verdict(beside))
         .notes(others)

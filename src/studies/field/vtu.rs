@@ -88,7 +88,7 @@ impl<'a> File<'a> {
         let array = match (&found[..], &vectors[..]) {
             ([array], _) | ([], [array]) => *array,
             _ => {
-                let names: Vec<_> = vectors.iter().map(called).collect();
+                let names: Vec<_> = vectors.iter().map(&called).collect();
                 let (there, names) = (names.len(), names.join(", "));
                 return Err(format!(
                     "{there} arrays of vectors at its points ({names}), of which not one alone is named displacement"

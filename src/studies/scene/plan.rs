@@ -37,5 +37,5 @@ pub fn run(args: &Args) -> Result<()> {
     if args.tables.json {
         return print(&report::json(&scene, &plan));
     }
-    args.tables.print(report::report(&plan, &scene.units))
+    args.tables.print(report::report(&plan, &scene))
 }

@@ -28,6 +28,23 @@ const CASES: &[Case] = &[
         contains: &["the start is not determined"],
         lacks: &["Largest |u|"],
     },
+    // The pressure at the edge of a punch has no limit; between blocks of one width it has.
+    Case {
+        input: "",
+        command: "plane-contact scene mesh punch --out p >log; plane-contact solve p --no-pictures --out o",
+        status: 0,
+        contains: &["the contact surface ends at this node, inside the target"],
+        lacks: &["one node alone"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact scene copy two-blocks --out m >log; sed -i 's/\"loads\": .*/\"loads\": [],/; \
+                  s/{ \"on\": 10, \"fix\": .\"y\". },/& { \"on\": 21, \"fix\": [\"y\"], \"displacement\": [-0.001] },/' \
+                  m/scene.json; plane-contact solve m --variant unilateral --friction 0 --no-pictures",
+        status: 0,
+        contains: &["Contact presses under given displacements: force on the target 29.8"],
+        lacks: &["without a load", "ends at this node"],
+    },
     Case {
         input: "ring",
         command: "plane-contact solve scene.json",
@@ -43,6 +60,7 @@ const CASES: &[Case] = &[
         status: 0,
         contains: &[
             "In contact at the end: nodes 85\n",
+            "one node alone is in contact",
             "\n85,3.29614598",
             ",2.1692196",
             ",1.1630403",

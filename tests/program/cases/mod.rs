@@ -4,6 +4,7 @@
 //! write there. Input files lie under `tests/program/cases/<area>/<input>/`.
 
 mod contact;
+mod fields;
 mod files;
 mod meshes;
 mod sentences;

@@ -1,0 +1,116 @@
+//! Displacements from elsewhere beside the reference solution. Those of `fig1` are its own without friction, written
+//! by meshio 5.3 and by hand.
+
+use super::{Case, check};
+
+#[test]
+fn fields() {
+    check("fields", CASES);
+}
+
+const CASES: &[Case] = &[
+    Case {
+        input: "fig1",
+        command: "for file in ascii.vtu plain.vtu zlib.vtu numbers.csv places.csv; do \
+                  plane-contact compare fig1 --friction 0 --with $file || exit; done",
+        status: 0,
+        contains: &["Same within 0.001", "array \"U\"", "by number", "by coordinates"],
+        lacks: &["DIFFERENT", "NOTE"],
+    },
+    Case {
+        input: "",
+        command: "plane-contact solve fig1 --variant unilateral --coupling mortar --friction 0 --no-pictures \
+                  --out o --csv csv >log && for file in o/fields.vtu csv/nodes.csv; do \
+                  plane-contact compare fig1 --friction 0 --rtol 0 --with $file || exit; done",
+        status: 0,
+        contains: &["Same within 0 (--rtol)", "Distance in the energy norm: 0 %"],
+        lacks: &["DIFFERENT", "NOTE", "The worst nodes"],
+    },
+    // The distance is the one that solve prints.
+    Case {
+        input: "",
+        command: "plane-contact solve fig1 --variant stepped --friction 0 --no-pictures --out o >log && \
+                  plane-contact compare fig1 --friction 0 --with o/fields.vtu >other; status=$?; \
+                  tail -n +2 other; \
+                  far=$(sed -n 's/.*energy norm of the difference: //p' log | tail -1) && \
+                  grep -q \"Distance in the energy norm: $far\" other && echo \"as solve says\"; exit $status",
+        status: 1,
+        contains: &[
+            "DIFFERENT by more than 0.001",
+            "as solve says",
+            "deepest penetration",
+            "The worst nodes",
+        ],
+        lacks: &["Distance in the energy norm: 0 %"],
+    },
+    Case {
+        input: "fig1",
+        command: "awk -F, -v OFS=, -v CONVFMT=%.17g 'NR>1{$2*=1.01;$3*=1.01}1' numbers.csv >more.csv; \
+                  plane-contact compare fig1 --friction 0 --with more.csv --rtol 0.0101 && \
+                  plane-contact compare fig1 --friction 0 --with more.csv",
+        status: 1,
+        contains: &[
+            "Same within 0.0101",
+            "Distance in the energy norm: 1.0",
+            "1.00 % of the largest",
+        ],
+        lacks: &["panicked"],
+    },
+    Case {
+        input: "fig1",
+        command: "plane-contact compare fig1 --friction 0 --with numbers.csv --json",
+        status: 0,
+        contains: &[
+            "\"is_same\":true",
+            "\"energy_relative\":",
+            "\"contact\":{\"field\":{\"force\"",
+        ],
+        lacks: &["Result"],
+    },
+    Case {
+        input: "fig1",
+        command: "sed 3d numbers.csv >few.csv; sed '4s/.*/4,nan,0/' numbers.csv >nan.csv; \
+                  sed 's/U1/V/' numbers.csv >names.csv; sed 's/^3,/2,/' numbers.csv >twice.csv; \
+                  sed 's/^3,/14,/' numbers.csv >more.csv; sed '2s/;/x;/' places.csv >words.csv; \
+                  sed '5s/^/1/' places.csv >moved.csv; sed 's/LittleEndian/BigEndian/' ascii.vtu >big.vtu; \
+                  sed 's/ZLib/LZMA/' zlib.vtu >lzma.vtu; head -c 1300 zlib.vtu >cut.vtu; sed 's/eJ/eK/' zlib.vtu >torn.vtu; \
+                  sed 's/\"13\"/\"12\"/' plain.vtu >count.vtu; cp ascii.vtu field.vtk; \
+                  for file in few.csv nan.csv names.csv twice.csv more.csv words.csv moved.csv none.csv big.vtu \
+                  lzma.vtu cut.vtu torn.vtu count.vtu field.vtk; do \
+                  plane-contact compare fig1 --friction 0 --with $file; echo \"$file $?\"; done; \
+                  plane-contact compare fig1 --with numbers.csv --friction 0 --penalty 1",
+        status: 2,
+        contains: &[
+            "1 of the scene's 13 nodes have no displacement, the first node 2",
+            "line 4 (node 4) has no finite displacement",
+            "\"Node | V | U2\"",
+            "node 2 is that of line 3 and of line 4",
+            "line 4: the mesh has no node 14",
+            "is no number, such as",
+            "is at no node of the scene",
+            "No such file",
+            "byte order LittleEndian",
+            "the compressor vtkLZMADataCompressor is not read",
+            "neither .csv nor .vtu",
+            "meshio convert FIELD field.vtu",
+            "few.csv 2",
+            "cut.vtu 2",
+            "torn.vtu 2",
+            "count.vtu 2",
+            "field.vtk 2",
+            "belong to --with calculix",
+        ],
+        lacks: &["panicked", ".csv 0", ".vtu 0", ".csv 1", ".vtu 1"],
+    },
+    // Bodies that touch have two nodes at one place.
+    Case {
+        input: "",
+        command: "plane-contact solve strand --variant unilateral --coupling mortar --friction 0 --no-pictures \
+                  --no-assessment --out o --csv csv >log; \
+                  (echo x,y,ux,uy; tail -n +2 csv/nodes.csv | tac | cut -d, -f2-5) >places.csv; \
+                  plane-contact compare strand --friction 0 --with places.csv",
+        status: 2,
+        contains: &["is that of node 35 and of node 113", "add a column node"],
+        lacks: &["panicked"],
+    },
+];
