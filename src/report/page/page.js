@@ -63,14 +63,10 @@ function t(english, values = {}) {
 const tell = (of) => (typeof of === "string" ? t(of) : t(of.text, of.values));
 
 /** Writes a value of a sentence: a number short, names one behind the other. */
-function inProse(value) {
-  return Array.isArray(value) ? value.map((name) => t(name)).join(", ") : short(value);
-}
+function inProse(value) { return Array.isArray(value) ? value.map((name) => t(name)).join(", ") : short(value); }
 
 /** Writes a text where another one stands. */
-function say(id, text) {
-  if (byId(id).textContent !== text) byId(id).textContent = text;
-}
+function say(id, text) { if (byId(id).textContent !== text) byId(id).textContent = text; }
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 

@@ -1,13 +1,11 @@
 // The page: what is chosen, and what is shown after each step.
 
 const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isBeside: false, edits: new Map() };
-
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
 /** The run beside which a run is shown: as printed, or with a repair less. */
 const runBefore = () => chapter().runs[run().programs ? Math.max(1, page.run - 1) : 0];
-
 const meshOf = (run, moved, turned) => new Mesh(data.meshes[run.mesh], chapter().units, moved, turned);
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 
@@ -16,9 +14,7 @@ const isMoved = () => page.factor !== 1 || page.moved.size > 0 || page.turned.si
 
 /** Whether a listing of the run is edited; one that other readings share is so in all of them. */
 const isEdited = () => LISTINGS.some((name) => page.edits.has(run()[name]));
-
 const isChanged = () => isMoved() || isEdited();
-
 const isIterating = () => page.which === "iterations";
 
 /** Whether the window has room for all that is said of a chapter. */

@@ -8,9 +8,7 @@ class Played {
     this.over = this.nextDecision = this.nextTurn = () => this.at + 1;
   }
 
-  goTo(at) {
-    this.at = Math.max(0, Math.min(at, this.steps.length));
-  }
+  goTo(at) { this.at = Math.max(0, Math.min(at, this.steps.length)); }
 }
 
 /** The iterations of the variant that is chosen: of a large scene as recorded, else made here. */
@@ -60,7 +58,6 @@ function errorsFrom(K, reference) {
 }
 
 const percent = (error) => `${inProse(Number((100 * error).toPrecision(3)))} %`;
-
 const listed = (nodes) => nodes.map((n) => page.mesh.name(n)).join(", ");
 const contactInWords = (nodes) => (nodes.length ? t("in contact: {nodes}", { nodes: listed(nodes) }) : t("no node in contact"));
 

@@ -100,9 +100,7 @@ class Programs {
   }
 
   /** `c_cnt` on the initial shape; nothing without contact. */
-  get c_cnt() {
-    return this.mesh.contact.length ? this.program("c_cnt", () => this.firstCall()) : null;
-  }
+  get c_cnt() { return this.mesh.contact.length ? this.program("c_cnt", () => this.firstCall()) : null; }
 
   /** What the iterations give `c_cnt` first: the nodes; in the corrected programs also forces that press, and the normals. */
   firstCall() {

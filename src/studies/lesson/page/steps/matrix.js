@@ -19,7 +19,6 @@ function mappedNodes(mesh, machine) {
 
 /** The name of a node in the map; behind the last one stand the equations of contact, p1 those of the first contact node. */
 const nodeInMap = (mesh, n) => (n > mesh.count ? `p${n - mesh.count}` : String(n));
-
 const equationInWords = (mesh, e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: nodeInMap(mesh, Math.ceil(e / 2)) });
 
 class MatrixMap {
@@ -35,9 +34,7 @@ class MatrixMap {
   }
 
   /** Whether the entry in a row and a column of the map would join the two bodies; those of contact are of both. */
-  isJoint(row, column) {
-    return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count);
-  }
+  isJoint(row, column) { return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count); }
 
   /** Where the middle of an entry, such as `MJS[3,4]`, is in the window; nothing for one that is not shown. */
   placeOf(name) {
