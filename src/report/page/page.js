@@ -2,9 +2,10 @@
 // short.
 
 const data = JSON.parse(document.getElementById("data").textContent);
+/** @returns {any} */
 const byId = (id) => document.getElementById(id);
 
-/** Makes an element; attributes that are undefined are left out, texts are never read as HTML. */
+/** Makes an element; attributes that are undefined are left out, texts are never read as HTML. @returns {any} */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {

@@ -2,6 +2,7 @@
 
 /** Where and why a listing failed: the printed line, the column without the indentation, from 1. */
 class Failure {
+  listing; line; column; text; statement; cause; isLimit;
   constructor(listing, line, { start, end }, { words, isLimit }) {
     const column = [...line.text.slice(0, start)].length + 1;
     Object.assign(this, { listing, line: line.number, column, text: line.text.slice(start, end), statement: line.text, cause: words, isLimit });
@@ -16,6 +17,7 @@ class Failure {
 
 /** Keeps every statement that is executed, a `for` line once for each turn. */
 class Recorder {
+  lines; steps;
   constructor(lines) { Object.assign(this, { lines, steps: [] }); }
   begin(line) { this.steps.push({ line, held: null, operands: [], reads: [], writes: [] }); }
 
@@ -37,6 +39,7 @@ const RANGE_END = 1e-12;
 /** A run of a listing in a worksheet: `values`, `programs` and `functions` by their names, and Mathcad's other
  * names, `known`. */
 class Run {
+  listing; worksheet; settings; limits; recorder; line; last; held;
   constructor(listing, worksheet, settings, { limits = LIMITS, recorder = null, caller = null } = {}) {
     Object.assign(this, { listing, worksheet, settings, limits, recorder, line: 0, last: undefined, held: false });
     this.values = new Map(worksheet.values);

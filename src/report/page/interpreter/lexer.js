@@ -27,7 +27,10 @@ const NUMBER = /^\d+(?:\.\d+)?(?:[eE][+\-−]?\d+)?/;
 const printed = (typed) => (typed === "in" ? "∈" : (OPERATORS.find((row) => row.typed === typed)?.sign ?? typed));
 
 /** A place in a line and what is wrong there. */
-class Complaint { constructor(at, message) { Object.assign(this, { at, message }); } }
+class Complaint {
+  at; message;
+  constructor(at, message) { Object.assign(this, { at, message }); }
+}
 
 /** A token as messages name it. */
 function tokenInWords({ type, value }) {

@@ -7,6 +7,7 @@ const MOST = { lines: 1000, characters: 2000, depth: 64 };
 /** Reads one line by descent. From the loosest to the tightest: ∨, ∧, ¬, comparisons, + −, · /, the sign
  * of −x, one power, and behind an operand xᵀ, x[i], x⟨j⟩. */
 class LineParser {
+  tokens; line; next; expected;
   constructor(tokens, line) { Object.assign(this, { tokens, line, next: 0, expected: [] }); }
   get token() { return this.tokens[this.next]; }
   get start() { return this.token?.start ?? this.tokens.at(-1)?.end ?? 0; }
@@ -338,6 +339,7 @@ function writtenBy(statement) {
 /** Where and why a text leaves the notation: the printed line, and the line and the column in the text,
  * all from 1. */
 class ParseError {
+  line; fileLine; column; message;
   constructor(line, at, message) {
     const behind = [...line.text.slice(0, at)].length;
     Object.assign(this, { line: line.number, fileLine: line.inFile, column: 2 * line.level + behind + 1, message });
@@ -370,6 +372,7 @@ function readListing(name, lines) {
 
 /** Reads the lines of a listing one after another, blocks with what stands in them. */
 class ListingReader {
+  lines; next;
   constructor(lines) { Object.assign(this, { lines, next: 0 }); }
   refuse(line, at, message) { throw new ParseError(line, at, message); }
 

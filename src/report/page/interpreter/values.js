@@ -4,6 +4,7 @@
 /** An array by rows; `depth` is 0 where all entries are numbers, else how deep arrays stand in it. One
  * that is `shared` is copied before it is written to. */
 class Grid {
+  rows; cols; entries; depth; shared;
   constructor(rows, cols, entries, depth = 0) { Object.assign(this, { rows, cols, entries, depth, shared: false }); }
 
   /** The entry in row `i` and column `j`, from 0; undefined outside. */
@@ -88,7 +89,10 @@ function kindOf(value) {
 const sizeOf = (value) => (isArray(value) ? `${value.rows} x ${value.cols}` : "1 x 1");
 
 /** Why an operation has no value, in words that begin with Mathcad's own where those are known. */
-class Cause { constructor(words, isLimit = false) { Object.assign(this, { words, isLimit }); } }
+class Cause {
+  words; isLimit;
+  constructor(words, isLimit = false) { Object.assign(this, { words, isLimit }); }
+}
 
 const wrongKind = (expected, found) => new Cause(`Expected ${expected}, found ${kindOf(found)}.`);
 const wrongSizes = (sign, a, b) => new Cause(`These array sizes do not match: ${sizeOf(a)} ${sign} ${sizeOf(b)}.`);

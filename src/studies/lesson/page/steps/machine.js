@@ -10,6 +10,7 @@ function shown(value) {
 
 /** A step: its line's place, what decided it, what it wrote, and what it read, each value once. */
 class Step {
+  line; turn; held; operands; all; writes;
   constructor({ line, turn, held, operands, reads, writes }) {
     Object.assign(this, { line, turn, held, operands, all: reads, writes: writes.map(accessOf) });
   }

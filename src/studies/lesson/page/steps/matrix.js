@@ -11,7 +11,7 @@ function mappedNodes(mesh, machine) {
   for (const { writes } of machine.steps) {
     for (const { name } of writes) {
       const place = /^MJS\[(\d+),(\d+)\]$/.exec(name);
-      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(e / 2)));
+      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(Number(e) / 2)));
     }
   }
   return [...found].sort((a, b) => a - b);
@@ -22,6 +22,7 @@ const nodeInMap = (mesh, n) => (n > mesh.count ? `p${n - mesh.count}` : String(n
 const equationInWords = (mesh, e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: nodeInMap(mesh, Math.ceil(e / 2)) });
 
 class MatrixMap {
+  mesh; machine; border; cell;
   constructor(mesh, machine) {
     Object.assign(this, { mesh, machine, border: isBordered(machine.lines) });
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
