@@ -308,6 +308,11 @@ impl Call {
         Ok(Call { sheet, pairs, statuses })
     }
 
+    /// Returns the call that found these pairs, as an edited listing may.
+    pub fn of_pairs(model: &Model, pairs: Pairs<f64>) -> Self {
+        Call { sheet: worksheet(model, |x| x), statuses: statuses(model, &pairs), pairs }
+    }
+
     /// Returns a call without any pair, with which `Km` builds the matrix without contact.
     pub fn without_contact(model: &Model) -> Self {
         let pairs = Pairs::none(model.nodes.len());

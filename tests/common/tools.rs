@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "some test programs need only one of them")]
 
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Whether a command succeeds; where the environment demands it, it must.
@@ -17,4 +18,17 @@ pub fn has_node() -> bool {
     let mut node = Command::new("node");
     node.arg("--version");
     is_there(node, "REQUIRE_BROWSER")
+}
+
+/// The folder of playwright-core and axe-core where a browser can be driven, as it must be where
+/// `REQUIRE_BROWSER` is set.
+pub fn browser() -> Option<PathBuf> {
+    let modules = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/browser/node_modules");
+    let starts = |program: &str| Command::new(program).arg("--version").output().is_ok();
+    let there = modules.join("playwright-core").is_dir() && starts("node") && starts("chromium");
+    assert!(there || std::env::var_os("REQUIRE_BROWSER").is_none(), "chromium is required");
+    if !there {
+        eprintln!("chromium cannot be driven: the pages are not opened in it");
+    }
+    there.then_some(modules)
 }

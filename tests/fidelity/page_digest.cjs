@@ -1,11 +1,10 @@
 // The digest of page_interpreter.rs.
 
-const double = new Float64Array(1);
-const halves = new Uint32Array(double.buffer);
-
-/** The digests of a page's steps and values. */
-module.exports = (page) =>
-  class Digest {
+/** The digests of a page's steps and values; it needs nothing but its argument. */
+module.exports = (page) => {
+  const double = new Float64Array(1);
+  const halves = new Uint32Array(double.buffer);
+  return class Digest {
     constructor() {
       this.state = 0;
     }
@@ -47,3 +46,4 @@ module.exports = (page) =>
       return this.state >>> 0;
     }
   };
+};

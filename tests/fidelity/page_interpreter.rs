@@ -24,16 +24,17 @@ use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
 use plane_contact::report::language::Language;
 use plane_contact::report::page::INTERPRETER;
+use plane_contact::studies::audit::Case as Audited;
 use plane_contact::studies::audit::findings::{FINDINGS, Repair};
 use plane_contact::studies::lesson::page::{self as lesson, Chapter};
-use plane_contact::studies::lesson::{Iterations, Switch, switches};
+use plane_contact::studies::lesson::{Iterations, Switch, chapter, switches};
 use proptest::strategy::{Strategy, ValueTree};
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
 
 use crate::common::draws::one_of;
 use crate::common::random::fixed;
-use crate::common::tools::has_node;
+use crate::common::tools::{browser, has_node};
 use testing::worksheets::{draw, initial, reading, worksheet};
 
 const SCENES: usize = 300;
@@ -230,6 +231,45 @@ fn any_settings(rng: &mut Rng) -> Settings {
     }
 }
 
+/// Both listings under each switch that a lesson offers, on the paper's figure, on the two blocks and on the scene of
+/// each finding: every reading, setting, tolerance and repair.
+fn offered() -> Vec<Case> {
+    let own = ["fig1", "two-blocks"].map(|name| Scene::open(name).expect("an embedded scene"));
+    let own = own.into_iter().map(|scene| (switches(&scene), scene));
+    let of_findings =
+        FINDINGS.iter().map(|finding| (chapter(finding), Audited::new(finding.scene()).scene));
+    let all = own.chain(of_findings).flat_map(|(switches, scene)| {
+        let models = switches.into_iter();
+        // A reading that does not allow the model has no run (R6).
+        models.filter_map(move |switch| Some((switch.model(&scene).ok()?, switch)))
+    });
+    all.flat_map(|(model, switch)| {
+        let sheet = Rc::new(door::worksheet(&model, |x| x));
+        let case = |which: Which, argument: Value| Case {
+            listing: switch.listing(which),
+            around: Around::Scene(sheet.clone()),
+            settings: switch.settings(),
+            arguments: vec![argument],
+        };
+        let c_cnt = model.has_contact().then(|| case(Which::CCnt, Value::from(&sheet.node)));
+        let none = || Value::from(&Table::filled(sheet.R(), 4, 0.0));
+        let pairs = c_cnt.as_ref().and_then(|c_cnt| c_cnt.execute(|_| ()).ok());
+        let km = case(Which::Km, pairs.map_or_else(none, |(k_cnt, _)| k_cnt));
+        c_cnt.into_iter().chain([km])
+    })
+    .collect()
+}
+
+/// The listings that fuzzing has kept.
+fn corpus() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus/listing");
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let texts = paths.iter().filter_map(|path| std::fs::read_to_string(path).ok());
+    texts.filter(|text| !text.contains('\0')).collect()
+}
+
 /// A sheet of Mathcad's own constants and these values, and all of them.
 fn defined(
     values: impl IntoIterator<Item = (&'static str, Value)>,
@@ -344,6 +384,7 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
     let mut rng = Rng::with_seed(46);
     let mut cases: Vec<Case> = (0..SCENES).flat_map(|_| drawn(&mut runner, &mut rng)).collect();
     cases.extend(["fig1", "two-blocks"].into_iter().flat_map(corrected));
+    cases.extend(offered());
     let mut texts = vec![];
     let mut read = |name: &str, text: &str| {
         let read = Listing::parse(name, text);
@@ -370,7 +411,7 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
     let (values, sheet) =
         defined([("v", Array::column(vec![1.0, 2.0, 3.0]).into()), ("m", matrix.into())]);
     let around = Around::Sheet(values, Rc::new(sheet));
-    for text in rules() {
+    for text in rules().into_iter().chain(corpus()) {
         read("f", &changed(&text, &mut rng));
         let Some(listing) = read("f", &text) else { continue };
         for settings in [Settings::default(), any_settings(&mut rng)] {
@@ -388,8 +429,19 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
         written(path, "cases", &cases.iter().map(Case::json).collect()),
         written(path, "texts", &json!(texts)),
     ];
+    let in_node = compared(&cases, &files, None);
+    if let Some(modules) = browser() {
+        assert_eq!(compared(&cases, &files, Some(&modules)), in_node, "in a browser as in node");
+    }
+}
+
+/// Compares the cases and the texts in node, or in the browser that these modules drive; returns the counts.
+fn compared(cases: &[Case], files: &[String], browser: Option<&Path>) -> Json {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fidelity/page_interpreter.cjs");
-    let output = Command::new("node").arg(script).args(files).output().expect("node starts");
+    let mut node = Command::new("node");
+    node.arg(script).args(files);
+    node.envs(browser.map(|modules| ("BROWSER_MODULES", modules)));
+    let output = node.output().expect("node starts");
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
     let said: Json = serde_json::from_str(&said).expect("JSON");
@@ -406,6 +458,7 @@ fn the_page_s_interpreter_has_the_bits_of_this_one() {
     assert!(count("refused") > EDITED as u64 && count("limited") < 20, "{said}");
     // The functions and powers that the page does not have.
     assert!(count("beyond") < 120, "{said}");
+    said
 }
 
 /// What a page of `fig1` shows: a run, nodes that were dragged, a tolerance over the run's, listings that

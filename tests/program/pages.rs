@@ -2,7 +2,7 @@
 //! pointer and by keyboard; in both schemes and three widths no message on the console, nothing from
 //! outside, nothing wider than the window, and nothing that axe-core finds.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use base64::Engine;
@@ -19,22 +19,9 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tools::is_there;
+use crate::common::tools::{browser, is_there};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-
-/// The folder of playwright-core and axe-core where a browser can be driven, as it must be where
-/// `REQUIRE_BROWSER` is set.
-fn browser() -> Option<PathBuf> {
-    let modules = Path::new(ROOT).join("target/browser/node_modules");
-    let starts = |program: &str| Command::new(program).arg("--version").output().is_ok();
-    let there = modules.join("playwright-core").is_dir() && starts("node") && starts("chromium");
-    assert!(there || std::env::var_os("REQUIRE_BROWSER").is_none(), "chromium is required");
-    if !there {
-        eprintln!("chromium cannot be driven: the pages are not opened in it");
-    }
-    there.then_some(modules)
-}
 
 /// Writes what a command prints, or the page that it makes, to a file of the folder.
 fn made(folder: &Path, name: &str, args: &[&str]) -> String {

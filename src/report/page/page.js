@@ -2,9 +2,10 @@
 // short.
 
 const data = JSON.parse(document.getElementById("data").textContent);
+/** @returns {any} */
 const byId = (id) => document.getElementById(id);
 
-/** Makes an element; attributes that are undefined are left out, texts are never read as HTML. */
+/** Makes an element; attributes that are undefined are left out, texts are never read as HTML. @returns {any} */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -63,14 +64,10 @@ function t(english, values = {}) {
 const tell = (of) => (typeof of === "string" ? t(of) : t(of.text, of.values));
 
 /** Writes a value of a sentence: a number short, names one behind the other. */
-function inProse(value) {
-  return Array.isArray(value) ? value.map((name) => t(name)).join(", ") : short(value);
-}
+function inProse(value) { return Array.isArray(value) ? value.map((name) => t(name)).join(", ") : short(value); }
 
 /** Writes a text where another one stands. */
-function say(id, text) {
-  if (byId(id).textContent !== text) byId(id).textContent = text;
-}
+function say(id, text) { if (byId(id).textContent !== text) byId(id).textContent = text; }
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 

@@ -2,14 +2,20 @@
 
 use std::path::PathBuf;
 
+use base::error::InputError;
 use base::limits;
+use base::plain::shown;
 use engine::Request;
 use engine::error::Result;
-use paper::door::{Call, check_restraints};
+use paper::door::{Call, check_restraints, node_n};
+use paper::edited::{Edited, Interpreter};
+use paper::listings;
+use paper::mirror::Reading;
+use problem::model::Model;
 use problem::scene::Scene;
 use report::{json, matrix_market, tables};
 
-use commands::{ReadingArg, TablesArgs, print, write_or_print};
+use commands::{ReadingArg, TablesArgs, print, read_listing, write_or_print};
 
 /// Run a listing once, at the initial shape of a scene.
 #[derive(clap::Subcommand)]
@@ -34,11 +40,15 @@ contact), then the rows of k_cnt that are not zero. --json: {\"ct\": [...], \"yt
 Examples:
   plane-contact listing run c_cnt fig1
   plane-contact listing run c_cnt fig1 --reading R4=left-to-right    the listing stops
+  plane-contact listing run c_cnt fig1 --listing my-c_cnt.txt        as edited, also in a lesson
   plane-contact listing run c_cnt my/scene.json --json")]
 pub struct CCntArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
+    /// Run this edited listing in place of the printed one (notation: listings/README.md).
+    #[arg(long, value_name = "FILE")]
+    listing: Option<PathBuf>,
     #[command(flatten)]
     reading: ReadingArg,
     #[command(flatten)]
@@ -64,6 +74,9 @@ pub struct KmArgs {
     /// The contact pairs that enter. c-cnt: those of c_cnt at the initial shape; none: no pair.
     #[arg(long, value_name = "PAIRS", default_value = "c-cnt")]
     coupled_by: CoupledBy,
+    /// Run this edited listing in place of the printed one (notation: listings/README.md).
+    #[arg(long, value_name = "FILE")]
+    listing: Option<PathBuf>,
     #[command(flatten)]
     reading: ReadingArg,
 }
@@ -85,7 +98,13 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = Request::new(&scene).reading(reading).model()?;
-    let call = Call::c_cnt(&model, &reading, &model.nodes)?;
+    let call = match interpreter(&args.listing, listings::Which::CCnt, &model, &reading)? {
+        None => Call::c_cnt(&model, &reading, &model.nodes)?,
+        Some(edited) => {
+            let found = edited.c_cnt(&node_n(&model, &model.nodes));
+            Call::of_pairs(&model, found.expect("c_cnt is edited")?)
+        }
+    };
     if args.tables.json {
         return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
     }
@@ -102,8 +121,28 @@ fn km(args: &KmArgs) -> Result<()> {
         CoupledBy::CCnt => Call::c_cnt(&model, &reading, &model.nodes)?,
         CoupledBy::None => Call::without_contact(&model),
     };
-    let matrix = call.km(&reading)?;
+    let matrix = match interpreter(&args.listing, listings::Which::Km, &model, &reading)? {
+        None => call.km(&reading)?,
+        Some(edited) => edited.km(&call.pairs.k_cnt).expect("Km is edited")?.as_matrix().clone(),
+    };
     let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
     let text = matrix_market::matrix_market(&matrix, &comment);
     write_or_print(&args.matrix_market, &text)
+}
+
+/// Returns what executes an edited listing; nothing where the printed one is run.
+fn interpreter(
+    file: &Option<PathBuf>,
+    which: listings::Which,
+    model: &Model,
+    reading: &Reading,
+) -> Result<Option<Interpreter>> {
+    let Some(file) = file else { return Ok(None) };
+    let edited = Edited::new(&shown(file), &read_listing(file)?)?;
+    if edited.which != which {
+        let what = format!("it is the listing {}, not {which}", edited.which);
+        let fix = format!("run it by listing run {}", edited.which);
+        return Err(InputError::new(shown(file), what, fix).into());
+    }
+    Ok(Some(Interpreter::new(model, reading, &[edited])))
 }

@@ -5,9 +5,7 @@
 /** A finite number, or the overflow that Mathcad reports. */
 function finite(x) {
   if (Number.isFinite(x)) return x;
-  throw new Cause(
-    `Found a number beyond 10^307. («Найдено число величиной более 10^307» in Mathcad 14.1.) The result is ${inDigits(x)}.`,
-  );
+  throw new Cause(`Found a number beyond 10^307. («Найдено число величиной более 10^307» in Mathcad 14.1.) The result is ${inDigits(x)}.`);
 }
 
 const divisionByZero = (x, y) =>

@@ -2,6 +2,7 @@
 
 /** Where and why a listing failed: the printed line, the column without the indentation, from 1. */
 class Failure {
+  listing; line; column; text; statement; cause; isLimit;
   constructor(listing, line, { start, end }, { words, isLimit }) {
     const column = [...line.text.slice(0, start)].length + 1;
     Object.assign(this, { listing, line: line.number, column, text: line.text.slice(start, end), statement: line.text, cause: words, isLimit });
@@ -16,13 +17,9 @@ class Failure {
 
 /** Keeps every statement that is executed, a `for` line once for each turn. */
 class Recorder {
-  constructor(lines) {
-    Object.assign(this, { lines, steps: [] });
-  }
-
-  begin(line) {
-    this.steps.push({ line, held: null, operands: [], reads: [], writes: [] });
-  }
+  lines; steps;
+  constructor(lines) { Object.assign(this, { lines, steps: [] }); }
+  begin(line) { this.steps.push({ line, held: null, operands: [], reads: [], writes: [] }); }
 
   /** The current statement, a new one when a loop's line comes round again. */
   on(line) {
@@ -42,6 +39,7 @@ const RANGE_END = 1e-12;
 /** A run of a listing in a worksheet: `values`, `programs` and `functions` by their names, and Mathcad's other
  * names, `known`. */
 class Run {
+  listing; worksheet; settings; limits; recorder; line; last; held;
   constructor(listing, worksheet, settings, { limits = LIMITS, recorder = null, caller = null } = {}) {
     Object.assign(this, { listing, worksheet, settings, limits, recorder, line: 0, last: undefined, held: false });
     this.values = new Map(worksheet.values);
@@ -63,9 +61,7 @@ class Run {
   }
 
   /** The failure of a part of the current line, or of the whole line. */
-  failure(cause, part = { start: 0, end: Infinity }) {
-    return new Failure(this.listing.name, this.listing.lines[this.line], part, cause);
-  }
+  failure(cause, part = { start: 0, end: Infinity }) { return new Failure(this.listing.name, this.listing.lines[this.line], part, cause); }
 
   spend() {
     this.count.steps += 1;
@@ -171,9 +167,7 @@ class Run {
   }
 
   /** The values that a loop runs over: of an array its entries column by column. */
-  entriesOf(parts) {
-    return parts.map((part) => this.eval(part)).flatMap((value) => (isArray(value) ? value.transposed().entries : [value]));
-  }
+  entriesOf(parts) { return parts.map((part) => this.eval(part)).flatMap((value) => (isArray(value) ? value.transposed().entries : [value])); }
 
   /** Writes a value to a name or an entry. */
   assign({ name, parts, start, end }, value) {
@@ -205,20 +199,10 @@ class Run {
   }
 
   /** Does what may have no value, whose cause becomes a failure of a part of the current line. */
-  located(part, act) {
-    try {
-      return act();
-    } catch (cause) {
-      throw cause instanceof Cause ? this.failure(cause, part) : cause;
-    }
-  }
+  located(part, act) { try { return act(); } catch (cause) { throw cause instanceof Cause ? this.failure(cause, part) : cause; } }
 
   eval(expression) {
-    try {
-      return this[expression.kind](expression);
-    } catch (cause) {
-      throw cause instanceof Cause ? this.failure(cause, expression) : cause;
-    }
+    try { return this[expression.kind](expression); } catch (cause) { throw cause instanceof Cause ? this.failure(cause, expression) : cause; }
   }
 
   number(expression) {
@@ -227,13 +211,8 @@ class Run {
     return value;
   }
 
-  truth(expression) {
-    return this.number(expression) !== 0;
-  }
-
-  constant({ value }) {
-    return value;
-  }
+  truth(expression) { return this.number(expression) !== 0; }
+  constant({ value }) { return value; }
 
   read({ name, parts }) {
     const subscripts = parts.map((part) => this.number(part));
@@ -289,12 +268,8 @@ class Run {
     return new Run(listing, this.worksheet, this.settings, { limits: this.limits, caller: this }).execute(values);
   }
 
-  program() {
-    throw unsupported("a program within an expression in the page");
-  }
-  group({ parts }) {
-    return this.eval(parts[0]);
-  }
+  program() { throw unsupported("a program within an expression in the page"); }
+  group({ parts }) { return this.eval(parts[0]); }
 
   entry({ parts: [array, ...subscripts] }) {
     const value = this.eval(array);
@@ -308,33 +283,15 @@ class Run {
     return array;
   }
 
-  magnitude({ parts }) {
-    return magnitude(this.eval(parts[0]));
-  }
-  negative({ parts }) {
-    return negative(this.eval(parts[0]));
-  }
-  transpose({ parts }) {
-    return transposed(this.eval(parts[0]));
-  }
-  not({ parts }) {
-    return this.truth(parts[0]) ? 0 : 1;
-  }
-  power({ parts: [x, y] }) {
-    return power(this.eval(x), this.number(y));
-  }
-  column({ parts: [array, j] }) {
-    return column(this.eval(array), this.number(j), this.settings.origin);
-  }
-  calculate({ sign, parts: [x, y] }) {
-    return operate(sign, this.eval(x), this.eval(y), this.settings);
-  }
-  choice({ parts: [condition, x, y] }) {
-    return this.truth(condition) ? this.eval(x) : this.eval(y);
-  }
-  series({ name }) {
-    throw name === "∑" || name === "∏" ? unsupported(`the function ${name} in the page`) : this.undefinedName(name, true);
-  }
+  magnitude({ parts }) { return magnitude(this.eval(parts[0])); }
+  negative({ parts }) { return negative(this.eval(parts[0])); }
+  transpose({ parts }) { return transposed(this.eval(parts[0])); }
+  not({ parts }) { return this.truth(parts[0]) ? 0 : 1; }
+  power({ parts: [x, y] }) { return power(this.eval(x), this.number(y)); }
+  column({ parts: [array, j] }) { return column(this.eval(array), this.number(j), this.settings.origin); }
+  calculate({ sign, parts: [x, y] }) { return operate(sign, this.eval(x), this.eval(y), this.settings); }
+  choice({ parts: [condition, x, y] }) { return this.truth(condition) ? this.eval(x) : this.eval(y); }
+  series({ name }) { throw name === "∑" || name === "∏" ? unsupported(`the function ${name} in the page`) : this.undefinedName(name, true); }
 
   /** Compares each operand with the next: numbers, or strings by the codes of their characters. After a
    * false comparison the rest is evaluated only if `∧` evaluates everything. */
@@ -360,9 +317,7 @@ class Run {
     return truth();
   }
 
-  any({ parts }) {
-    return this.decide(parts, true).truth();
-  }
+  any({ parts }) { return this.decide(parts, true).truth(); }
 
   /** What the operands of an `∧` or `∨` decide together by the worksheet's method; one that is `decisive`
    * decides alone. `truth` throws the failure that stands. */

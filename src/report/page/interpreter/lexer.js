@@ -28,9 +28,8 @@ const printed = (typed) => (typed === "in" ? "∈" : (OPERATORS.find((row) => ro
 
 /** A place in a line and what is wrong there. */
 class Complaint {
-  constructor(at, message) {
-    Object.assign(this, { at, message });
-  }
+  at; message;
+  constructor(at, message) { Object.assign(this, { at, message }); }
 }
 
 /** A token as messages name it. */

@@ -7,25 +7,14 @@ const MOST = { lines: 1000, characters: 2000, depth: 64 };
 /** Reads one line by descent. From the loosest to the tightest: ∨, ∧, ¬, comparisons, + −, · /, the sign
  * of −x, one power, and behind an operand xᵀ, x[i], x⟨j⟩. */
 class LineParser {
-  constructor(tokens, line) {
-    Object.assign(this, { tokens, line, next: 0, expected: [] });
-  }
-
-  get token() {
-    return this.tokens[this.next];
-  }
-  get start() {
-    return this.token?.start ?? this.tokens.at(-1)?.end ?? 0;
-  }
+  tokens; line; next; expected;
+  constructor(tokens, line) { Object.assign(this, { tokens, line, next: 0, expected: [] }); }
+  get token() { return this.tokens[this.next]; }
+  get start() { return this.token?.start ?? this.tokens.at(-1)?.end ?? 0; }
 
   /** An expression from `start` to the end of the last token taken. */
-  node(kind, start, parts) {
-    return { kind, start, end: this.tokens[this.next - 1].end, ...parts };
-  }
-
-  expect(words) {
-    this.expected.push([this.next, words]);
-  }
+  node(kind, start, parts) { return { kind, start, end: this.tokens[this.next - 1].end, ...parts }; }
+  expect(words) { this.expected.push([this.next, words]); }
 
   takesToken(type, words) {
     const isNext = this.token?.type === type;
@@ -41,13 +30,8 @@ class LineParser {
     return isNext;
   }
 
-  need(sign) {
-    if (!this.takes(sign)) this.refuse();
-  }
-
-  end() {
-    if (this.token) this.refuse();
-  }
+  need(sign) { if (!this.takes(sign)) this.refuse(); }
+  end() { if (this.token) this.refuse(); }
 
   refuse() {
     if (isSign(this.token, "<-")) throw new Complaint(this.start, `found ${ARROW}`);
@@ -117,12 +101,8 @@ class LineParser {
     const condition = word === "while" || word === "if" ? this.expression() : undefined;
     return { step: word, condition, body: [], fallback: word === "try" ? [] : undefined };
   }
-  value() {
-    return { step: "return", value: this.expression(), condition: this.guard() };
-  }
-  jump(word) {
-    return { step: word, condition: this.guard() };
-  }
+  value() { return { step: "return", value: this.expression(), condition: this.guard() }; }
+  jump(word) { return { step: word, condition: this.guard() }; }
 
   /** Reads an assignment, or a value alone. */
   assignment() {
@@ -142,9 +122,7 @@ class LineParser {
     return { step: "evaluate", value, condition: this.guard() };
   }
 
-  guard() {
-    return this.takes("if") ? this.expression() : undefined;
-  }
+  guard() { return this.takes("if") ? this.expression() : undefined; }
 
   /** Whether the function `if` comes next: the brackets behind it have a comma. */
   isChoice() {
@@ -183,9 +161,7 @@ class LineParser {
     return list;
   }
 
-  expression() {
-    return this.joined("∨", "any", () => this.joined("∧", "all", () => this.not()));
-  }
+  expression() { return this.joined("∨", "any", () => this.joined("∧", "all", () => this.not())); }
 
   /** Reads operands with a sign between them; one alone is itself. */
   joined(sign, kind, operand) {
@@ -213,12 +189,8 @@ class LineParser {
     return signs.length === 0 ? parts[0] : this.node("compare", start, { signs, parts });
   }
 
-  sum() {
-    return this.calculation("sum", () => this.product());
-  }
-  product() {
-    return this.calculation("product", () => this.power());
-  }
+  sum() { return this.calculation("sum", () => this.product()); }
+  product() { return this.calculation("product", () => this.power()); }
   calculation(level, operand) {
     const start = this.start;
     let value = operand();
@@ -351,7 +323,6 @@ const ownExpressions = ({ range, target, value, condition }) =>
 
 /** The expressions of a statement and of those below it. */
 const expressionsOf = (statement) => [...ownExpressions(statement), ...blocksOf(statement).flatMap(expressionsOf)];
-
 const blocksOf = ({ body = [], fallback = [] }) => [...body, ...fallback];
 
 /** How deep statements stand below one, itself included. */
@@ -368,6 +339,7 @@ function writtenBy(statement) {
 /** Where and why a text leaves the notation: the printed line, and the line and the column in the text,
  * all from 1. */
 class ParseError {
+  line; fileLine; column; message;
   constructor(line, at, message) {
     const behind = [...line.text.slice(0, at)].length;
     Object.assign(this, { line: line.number, fileLine: line.inFile, column: 2 * line.level + behind + 1, message });
@@ -400,13 +372,9 @@ function readListing(name, lines) {
 
 /** Reads the lines of a listing one after another, blocks with what stands in them. */
 class ListingReader {
-  constructor(lines) {
-    Object.assign(this, { lines, next: 0 });
-  }
-
-  refuse(line, at, message) {
-    throw new ParseError(line, at, message);
-  }
+  lines; next;
+  constructor(lines) { Object.assign(this, { lines, next: 0 }); }
+  refuse(line, at, message) { throw new ParseError(line, at, message); }
 
   /** Does what reads a line, whose complaint becomes an error of that line. */
   on(line, read) {

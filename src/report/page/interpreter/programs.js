@@ -19,7 +19,7 @@ function worksheetOf(tables, plane, known) {
 }
 
 /** Executes a listing on its argument. Returns its steps (none without a recorder), its output, its value and
- * the values of the names that it wrote, or the failure that stopped it. */
+ * the values of the names that it wrote, or the failure that stopped it. @returns {any} */
 function executed(listing, worksheet, settings, values, limits = LIMITS, recorder = new Recorder(listing.lines)) {
   const run = new Run(listing, worksheet, settings, { recorder, limits });
   const done = { steps: recorder?.steps, output: run.output, locals: run.values, failure: null };

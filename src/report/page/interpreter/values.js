@@ -4,18 +4,12 @@
 /** An array by rows; `depth` is 0 where all entries are numbers, else how deep arrays stand in it. One
  * that is `shared` is copied before it is written to. */
 class Grid {
-  constructor(rows, cols, entries, depth = 0) {
-    Object.assign(this, { rows, cols, entries, depth, shared: false });
-  }
+  rows; cols; entries; depth; shared;
+  constructor(rows, cols, entries, depth = 0) { Object.assign(this, { rows, cols, entries, depth, shared: false }); }
 
   /** The entry in row `i` and column `j`, from 0; undefined outside. */
-  get(i, j) {
-    return i < this.rows && j < this.cols ? this.entries[i * this.cols + j] : undefined;
-  }
-
-  copy() {
-    return new Grid(this.rows, this.cols, [...this.entries], this.depth);
-  }
+  get(i, j) { return i < this.rows && j < this.cols ? this.entries[i * this.cols + j] : undefined; }
+  copy() { return new Grid(this.rows, this.cols, [...this.entries], this.depth); }
 
   /** Writes an entry and makes the array larger where it does not reach so far; new entries are 0. */
   write(i, j, value) {
@@ -96,9 +90,8 @@ const sizeOf = (value) => (isArray(value) ? `${value.rows} x ${value.cols}` : "1
 
 /** Why an operation has no value, in words that begin with Mathcad's own where those are known. */
 class Cause {
-  constructor(words, isLimit = false) {
-    Object.assign(this, { words, isLimit });
-  }
+  words; isLimit;
+  constructor(words, isLimit = false) { Object.assign(this, { words, isLimit }); }
 }
 
 const wrongKind = (expected, found) => new Cause(`Expected ${expected}, found ${kindOf(found)}.`);

@@ -36,9 +36,7 @@ const FIELDS = [
 ];
 
 /** The names of the components of a quantity; its title where it has only one. */
-function componentsOf({ title, symbols }) {
-  return symbols.length > 1 ? symbols.map((symbol) => `${title} ${symbol}`) : [title];
-}
+function componentsOf({ title, symbols }) { return symbols.length > 1 ? symbols.map((symbol) => `${title} ${symbol}`) : [title]; }
 
 const unitOf = (field) => (field.unit ? (data.units[field.unit] ?? "") : "");
 

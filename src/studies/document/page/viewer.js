@@ -106,7 +106,6 @@ function drawMarks(context, { x, y, marks }, ratio) {
 
 /** The pixels to one of the page of a picture at rest, whose edges are then smooth. */
 const fine = () => Math.max(2, window.devicePixelRatio);
-
 const drawAll = (ratio) => view.panels.forEach((panel) => draw(panel, ratio));
 
 /** Draws a moving view once a frame, and finely when it rests. */
@@ -196,7 +195,6 @@ function foundAt(panel, x, y, within) {
 
 /** How near to a contact node the pointer finds it, pixels. */
 const NEAR = 14;
-
 const said = (value) => (value === null ? t("not known") : inUnit(inProse(value), view.field));
 
 function pointed(panel, place) {

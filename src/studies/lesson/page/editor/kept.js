@@ -7,13 +7,7 @@ const keyOf = (chapter) => `plane-contact lesson ${data.version} ${data.scene_sh
 const ownerOf = (place) => chapter().runs.flatMap((run) => LISTINGS.map((name) => [run, name])).find(([run, name]) => run[name] === place);
 
 /** Does what needs the storage, which a browser may refuse. */
-function stored(act) {
-  try {
-    return act();
-  } catch {
-    return null;
-  }
-}
+function stored(act) { try { return act(); } catch { return null; } }
 
 /** What was typed in the chapter before. */
 function typedBefore() {

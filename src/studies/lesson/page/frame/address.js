@@ -9,6 +9,7 @@ const nameOf = ({ finding, repairs, name }) => finding?.id ?? (repairs ? "repair
 /** The address of the situation that is shown. */
 function address() {
   const moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
+  /** @type {Record<string, any>} */
   const fields = { chapter: nameOf(chapter()), run: run().name, listing: page.which, step: page.machine.at, tolerance: page.factor, moved };
   if (page.turned.size) fields.turned = [...page.turned].join();
   if (isIterating()) fields.variant = page.variant;

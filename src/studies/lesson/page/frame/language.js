@@ -7,7 +7,7 @@ const FIXED = [];
 function readBody() {
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (walker.nextNode()) {
-    const node = walker.currentNode;
+    const node = /** @type {Text} */ (walker.currentNode);
     const words = node.data.trim();
     const english = words.replace(/\s+/g, " ");
     const [before, after] = words ? node.data.split(words) : [];

@@ -1,13 +1,11 @@
 // The page: what is chosen, and what is shown after each step.
 
 const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isBeside: false, edits: new Map() };
-
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
 /** The run beside which a run is shown: as printed, or with a repair less. */
 const runBefore = () => chapter().runs[run().programs ? Math.max(1, page.run - 1) : 0];
-
 const meshOf = (run, moved, turned) => new Mesh(data.meshes[run.mesh], chapter().units, moved, turned);
 const programsOf = (run) => new Programs(run, meshOf(run), chapter().nodes);
 
@@ -16,10 +14,11 @@ const isMoved = () => page.factor !== 1 || page.moved.size > 0 || page.turned.si
 
 /** Whether a listing of the run is edited; one that other readings share is so in all of them. */
 const isEdited = () => LISTINGS.some((name) => page.edits.has(run()[name]));
-
 const isChanged = () => isMoved() || isEdited();
-
 const isIterating = () => page.which === "iterations";
+
+/** The choices of a listing. @returns {any[]} */
+const radios = () => [...document.getElementsByName("which")];
 
 /** Whether the window has room for all that is said of a chapter. */
 const isWide = () => window.innerWidth >= 1100;
@@ -46,7 +45,7 @@ function choose(change) {
   byId("slider").max = page.machine.steps.length;
   byId("chapter").value = page.chapter;
   byId("run").value = page.run;
-  for (const radio of document.getElementsByName("which")) radio.checked = radio.value === page.which;
+  for (const radio of radios()) radio.checked = radio.value === page.which;
   const { label, lines, about } = run();
   const words = (about.text ? [tell(about)] : about.map((text) => t(text))).join(", ");
   say("about", t("Scene {scene}. Reading: {label} ({about}).", { scene: chapter().name, label: tell(label), about: lines && !run().programs ? `${t(lines)}: ${words}` : words }));
@@ -104,7 +103,7 @@ function show() {
   const { at, steps } = page.machine;
   // What it takes of the window the others have not.
   if (at === steps.length && at > 0) unfoldConclusion();
-  document.querySelector(".columns").hidden = isIterating();
+  byId("columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   if (isIterating()) showIterations();
   else showSteps();
@@ -148,7 +147,7 @@ function showSteps() {
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
 }
 
-/** What each button does, and its key. */
+/** What each button does, and its key. @type {Record<string, any>} */
 const moves = {
   start: ["Home", () => 0],
   back: ["ArrowLeft", (machine) => machine.at - 1],
@@ -179,7 +178,7 @@ function watch() {
   for (const [id, [, to]] of Object.entries(moves)) on(id, "click", () => go(to(page.machine), true));
   document.addEventListener("keydown", pressed);
   // A button that the pointer has pressed gives the focus back, so that the keys step.
-  document.addEventListener("click", ({ target, detail }) => detail && target.closest(".controls button, .heading button") && byId("editor").hidden && document.activeElement.blur());
+  document.addEventListener("click", (/** @type {any} */ { target, detail }) => detail && target.closest(".controls button, .heading button") && byId("editor").hidden && target.closest("button").blur());
   on("play", "click", () => play(!page.playing));
   on("variant", "change", (variant) => choose({ variant, at: 0 }));
   on("slider", "input", (at) => go(Number(at)));
@@ -197,7 +196,7 @@ function watch() {
   watchDrag();
   watchMeanings();
   watchEditor();
-  for (const radio of document.getElementsByName("which")) radio.addEventListener("change", () => choose({ which: radio.value }));
+  for (const radio of radios()) radio.addEventListener("change", () => choose({ which: radio.value }));
   window.addEventListener("resize", show);
   matchMedia("screen and (prefers-color-scheme: dark)").addEventListener("change", show);
   watchMatrix(() => page.map);
@@ -228,12 +227,12 @@ function openChapter(k) {
   const { contact } = data.meshes[run().mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
   const inKm = contact.length === 0 || chapter().finding?.listing === "Km";
-  for (const radio of document.getElementsByName("which")) radio.disabled = contact.length === 0 && radio.value !== "Km";
+  for (const radio of radios()) radio.disabled = contact.length === 0 && radio.value !== "Km";
   page.typed = typedBefore();
   choose({ run: 0, which: inKm ? "Km" : "c_cnt", variant: chapter().variant, at: 0, factor: 1, moved: new Map(), turned: new Set(), isMine: page.typed.size > 0 });
 }
 
-document.querySelector(".choices").open = window.innerWidth >= 700;
+byId("choices").open = window.innerWidth >= 700;
 readBody();
 watch();
 showExactValues();

@@ -30,6 +30,7 @@ function solved(matrix, f) {
 
 /** A scene's equations under a run's listings, which are given as read; `at(n)` is where node n stands. */
 class Equations {
+  listings; settings; own; plane; readsRestraintOfY; K;
   constructor({ plane, settings, readsRestraintOfY }, listings, own, at, c_tll) {
     Object.assign(this, { listings, settings, own, plane, readsRestraintOfY });
     this.tables = (own) => worksheetOf(tablesOf(own, at, c_tll), plane, KNOWN);
@@ -116,8 +117,7 @@ class Equations {
   /** The iterations of the corrected programs, which end once the contact state is settled. */
   *corrected({ programs, settings }) {
     const { values, functions } = this.worksheet;
-    const names = [...values, ["F", valueOf(this.own.load.map((f) => [f]))], ["both", 0]];
-    const worksheet = { values: new Map(names), programs, functions, known: KNOWN };
+    const worksheet = { values: new Map(values).set("F", valueOf(this.own.load.map((f) => [f]))).set("both", 0), programs, functions, known: KNOWN };
     const done = executed(programs.get("iterate"), worksheet, settings, [ITERATIONS], MOST_SHOWN);
     let pairs;
     for (const { name, subscripts, value } of done.steps.flatMap(({ writes }) => writes)) {

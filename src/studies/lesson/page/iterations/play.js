@@ -2,15 +2,14 @@
 
 /** The iterations of a variant, gone through by the bar as the steps of a program are. */
 class Played {
+  steps; failure; lines; turns; at;
   constructor({ states, failure }, error) {
     Object.assign(this, { steps: states, failure, lines: [], turns: [], at: 0 });
     this.errors = states.map((state) => state.error ?? error?.(state.u));
     this.over = this.nextDecision = this.nextTurn = () => this.at + 1;
   }
 
-  goTo(at) {
-    this.at = Math.max(0, Math.min(at, this.steps.length));
-  }
+  goTo(at) { this.at = Math.max(0, Math.min(at, this.steps.length)); }
 }
 
 /** The iterations of the variant that is chosen: of a large scene as recorded, else made here. */
@@ -33,8 +32,9 @@ function equationsOf(run, edits) {
 
 /** The corrected programs, with the faults that the run puts back, and the settings under which they run. */
 function correctedOf({ programs = data.corrected.programs }) {
-  const read = ([name, place]) => [name, listingOf(name, linesAt(place, page.edits))];
-  return { programs: new Map(Object.entries(programs).map(read)), settings: data.corrected.settings };
+  const read = new Map();
+  for (const [name, place] of Object.entries(programs)) read.set(name, listingOf(name, linesAt(place, page.edits)));
+  return { programs: read, settings: data.corrected.settings };
 }
 
 /** Whether the reference solution is one of the scene as it is now. */
@@ -60,7 +60,6 @@ function errorsFrom(K, reference) {
 }
 
 const percent = (error) => `${inProse(Number((100 * error).toPrecision(3)))} %`;
-
 const listed = (nodes) => nodes.map((n) => page.mesh.name(n)).join(", ");
 const contactInWords = (nodes) => (nodes.length ? t("in contact: {nodes}", { nodes: listed(nodes) }) : t("no node in contact"));
 
@@ -115,7 +114,7 @@ function drawShape(mesh, { steps, at }) {
   drawn(mesh.at, true);
   drawn(now, false);
   for (const n of mesh.contact) {
-    status(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
+    drawStatus(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
   }
   byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times });
@@ -164,7 +163,7 @@ function drawCurve(canvas, errors, at, names) {
   // A run that stopped has no error.
   const points = errors.flatMap((error, k) => (error === undefined ? [] : [[k, to(k, error > 0 ? Math.log10(error) : low)]]));
   path(context, points.map(([, point]) => point), { stroke: colour("accent"), width: 2 });
-  for (const [k, point] of points) status(context, point, k === at ? 1 : undefined, k === at);
+  for (const [k, point] of points) drawStatus(context, point, k === at ? 1 : undefined, k === at);
   names.forEach((name, k) => label(context, name, [to(k, low)[0], height - 8], colour("muted")));
   return true;
 }

@@ -52,6 +52,7 @@ const MOST_SHOWN = { ...LIMITS, steps: 4_000_000, kept: 20_000, entries: 1 << 23
 /** Keeps the statements of the turns that are shown: over the contact nodes, or over the elements, of which
  * there are `count`; an edited loop may pass them by. */
 class TurnRecorder extends Recorder {
+  name; turns; count; turn;
   constructor({ name, lines }, turns, count) {
     super(lines);
     Object.assign(this, { name, turns, count, turn: null });
@@ -93,6 +94,7 @@ function listingOf(name, lines) {
 /** The two listings of a run, each executed when it is first asked for; `edits` has the texts of those that are
  * edited, by their place. */
 class Programs {
+  run; mesh; shown; c_tll; edits; done;
   constructor(run, mesh, shown, c_tll = run.c_tll, edits = new Map()) {
     Object.assign(this, { run, mesh, shown, c_tll, edits, done: new Map() });
     this.worksheet = worksheetOf(tablesOf(mesh.own, mesh.stands, c_tll), run.plane, KNOWN);
@@ -100,9 +102,7 @@ class Programs {
   }
 
   /** `c_cnt` on the initial shape; nothing without contact. */
-  get c_cnt() {
-    return this.mesh.contact.length ? this.program("c_cnt", () => this.firstCall()) : null;
-  }
+  get c_cnt() { return this.mesh.contact.length ? this.program("c_cnt", () => this.firstCall()) : null; }
 
   /** What the iterations give `c_cnt` first: the nodes; in the corrected programs also forces that press, and the normals. */
   firstCall() {

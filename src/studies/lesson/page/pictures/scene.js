@@ -13,6 +13,7 @@ function withReversed(own, turned) {
 
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
+  own; triangles; contact; edges; target; restrained; bodies;
   constructor(given, units, moved = new Map(), turned = new Set()) {
     const own = withReversed(given, turned);
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
@@ -74,7 +75,7 @@ function view(points, width, height, margin, magnify) {
   return { to, from, factor, sy };
 }
 
-/** Draws a path through points. */
+/** Draws a path through points. @param {any} context @param {any[]} points @param {any} style */
 function path(context, points, { fill, stroke, width = 1, dash = [], close = false }) {
   context.beginPath();
   points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
@@ -99,14 +100,15 @@ function arrow(context, from, to, stroke) {
   path(context, [[to[0] - size / 2, to[1] - up * size], to, [to[0] + size / 2, to[1] - up * size]], { stroke, width: 2 });
 }
 
-/** Writes on a ground of its own, so that lines below do not cross the letters; where a picture keeps its labels in
+/** @param {any} context @param {any} text @param {any} at @param {any} ink @param {any} align @param {any} placed
+ * Writes on a ground of its own, so that lines below do not cross the letters; where a picture keeps its labels in
  * `placed`, at the nearest place above, below or beside that none of them covers. */
 function label(context, text, [x, y], ink, align = "center", placed = null) {
   if (placed) {
     const width = context.measureText(text).width;
     const room = context.canvas.clientHeight;
-    const boxAt = ([dx, dy]) => [x + dx - width / 2, y + dy - 12, x + dx + width / 2, y + dy + 3];
-    const isFree = ([l, t, r, b]) => t > -2 && b < room && placed.every(([l2, t2, r2, b2]) => r <= l2 || r2 <= l || b <= t2 || b2 <= t);
+    const boxAt = (/** @type {number[]} */ [dx, dy]) => [x + dx - width / 2, y + dy - 12, x + dx + width / 2, y + dy + 3];
+    const isFree = (/** @type {number[]} */ [l, t, r, b]) => t > -2 && b < room && placed.every(([l2, t2, r2, b2]) => r <= l2 || r2 <= l || b <= t2 || b2 <= t);
     const tries = [[0, 0], [0, -14], [0, 15], [width / 2 + 10, 0], [-width / 2 - 10, 0], [0, -28], [0, 30], [width / 2 + 12, 15], [-width / 2 - 12, 15], [width / 2 + 12, -14], [-width / 2 - 12, -14]];
     const by = tries.find((by) => isFree(boxAt(by))) ?? tries[0];
     placed.push(boxAt(by));
@@ -121,8 +123,8 @@ function label(context, text, [x, y], ink, align = "center", placed = null) {
   context.fillText(text, x, y);
 }
 
-/** A contact node: filled in contact, open apart, a small dot where its status is not known. */
-function status(context, [x, y], dy, current) {
+/** A contact node: filled in contact, open apart, a small dot where its status is not known. @param {any} context @param {any} at @param {any} dy @param {boolean} current */
+function drawStatus(context, [x, y], dy, current) {
   context.beginPath();
   context.arc(x, y, dy === undefined ? 3 : 6, 0, 2 * Math.PI);
   context.fillStyle = dy === 0 ? colour("paper") : dy === 1 ? colour("accent") : colour("stamp-ink");
@@ -230,7 +232,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   }
   for (const { node, place, dy } of nodes) {
     const [x, y] = to(mesh.at(node));
-    status(context, [x, y], dy, place === turn);
+    drawStatus(context, [x, y], dy, place === turn);
     labels.push([mesh.name(node), [x, Math.max(14, y - 15)], "stamp-ink", placed]);
   }
   for (const n of new Set(zone.edges.flatMap(([, ends]) => ends))) {
@@ -290,7 +292,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   for (const { node, place, height: above, dy } of known) {
     const point = to(mesh.at(node)[0], above);
     arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
-    status(context, point, dy, place === turn);
+    drawStatus(context, point, dy, place === turn);
     const below = point[1] > height / 2;
     label(context, mesh.figure.get(node) ?? String(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"), "center", placed);
   }

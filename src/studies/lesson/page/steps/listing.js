@@ -43,9 +43,7 @@ function lightLine(machine) {
   if (!seen) return;
   const box = byId("listing-box");
   const top = seen.offsetTop - box.offsetTop;
-  if (top < box.scrollTop || top + seen.offsetHeight > box.scrollTop + box.clientHeight) {
-    box.scrollTop = top - box.clientHeight / 3;
-  }
+  if (top < box.scrollTop || top + seen.offsetHeight > box.scrollTop + box.clientHeight) { box.scrollTop = top - box.clientHeight / 3; }
 }
 
 /** Writes accesses, each with its exact value at hand. */

@@ -10,6 +10,7 @@ function shown(value) {
 
 /** A step: its line's place, what decided it, what it wrote, and what it read, each value once. */
 class Step {
+  line; turn; held; operands; all; writes;
   constructor({ line, turn, held, operands, reads, writes }) {
     Object.assign(this, { line, turn, held, operands, all: reads, writes: writes.map(accessOf) });
   }
@@ -77,17 +78,11 @@ class Machine {
     }
   }
 
-  get(name) {
-    return this.values.get(name);
-  }
+  get(name) { return this.values.get(name); }
 
   /** The step that was executed last, and the next one. */
-  get last() {
-    return this.steps[this.at - 1];
-  }
-  get next() {
-    return this.steps[this.at];
-  }
+  get last() { return this.steps[this.at - 1]; }
+  get next() { return this.steps[this.at]; }
 
   /** The turn of the outer loop that step `k` belongs to; null outside, and before the first. */
   turnAt(k) {
@@ -111,9 +106,7 @@ class Machine {
     const level = this.last ? this.lines[this.last.line].level : 0;
     return this.last ? this.after((at) => this.lines[this.steps[at].line].level <= level) : 1;
   }
-  nextDecision() {
-    return this.after((at) => this.steps[at].held !== null);
-  }
+  nextDecision() { return this.after((at) => this.steps[at].held !== null); }
   nextTurn() {
     const begin = this.turns.find(({ from, turn }) => from >= this.at && turn !== null);
     return begin ? begin.from + 1 : this.steps.length;

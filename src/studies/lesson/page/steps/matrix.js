@@ -11,7 +11,7 @@ function mappedNodes(mesh, machine) {
   for (const { writes } of machine.steps) {
     for (const { name } of writes) {
       const place = /^MJS\[(\d+),(\d+)\]$/.exec(name);
-      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(e / 2)));
+      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(Number(e) / 2)));
     }
   }
   return [...found].sort((a, b) => a - b);
@@ -19,10 +19,10 @@ function mappedNodes(mesh, machine) {
 
 /** The name of a node in the map; behind the last one stand the equations of contact, p1 those of the first contact node. */
 const nodeInMap = (mesh, n) => (n > mesh.count ? `p${n - mesh.count}` : String(n));
-
 const equationInWords = (mesh, e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: nodeInMap(mesh, Math.ceil(e / 2)) });
 
 class MatrixMap {
+  mesh; machine; border; cell;
   constructor(mesh, machine) {
     Object.assign(this, { mesh, machine, border: isBordered(machine.lines) });
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
@@ -35,9 +35,7 @@ class MatrixMap {
   }
 
   /** Whether the entry in a row and a column of the map would join the two bodies; those of contact are of both. */
-  isJoint(row, column) {
-    return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count);
-  }
+  isJoint(row, column) { return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count); }
 
   /** Where the middle of an entry, such as `MJS[3,4]`, is in the window; nothing for one that is not shown. */
   placeOf(name) {

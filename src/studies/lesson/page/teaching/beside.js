@@ -11,7 +11,7 @@ const correctedRun = () => {
 function openBeside() {
   const isThere = page.isBeside && !isIterating() && !run().programs && page.mesh.contact.length > 0;
   byId("beside").hidden = !isThere;
-  document.querySelector(".columns").classList.toggle("with-beside", isThere);
+  byId("columns").classList.toggle("with-beside", isThere);
   page.beside = null;
   if (!isThere) return;
   const programs = new Programs(correctedRun(), page.mesh, chapter().nodes, page.programs.c_tll);

@@ -36,7 +36,7 @@ function putBeside(box, { left, right, top, bottom }) {
   const { offsetWidth: width, offsetHeight: height } = box;
   const inside = (x, size, room) => Math.max(4, Math.min(x, room - size - 4));
   const corners = [[right + 8, top], [left - width - 8, top], [left, bottom + 8], [left, top - height - 8]].map(([x, y]) => [inside(x, width, innerWidth), inside(y, height, innerHeight)]);
-  const covers = ([x, y]) => Math.max(0, Math.min(x + width, right) - Math.max(x, left)) * Math.max(0, Math.min(y + height, bottom) - Math.max(y, top));
+  const covers = (/** @type {number[]} */ [x, y]) => Math.max(0, Math.min(x + width, right) - Math.max(x, left)) * Math.max(0, Math.min(y + height, bottom) - Math.max(y, top));
   const [x, y] = corners.sort((a, b) => covers(a) - covers(b))[0];
   Object.assign(box.style, { left: `${x}px`, top: `${y}px` });
 }
