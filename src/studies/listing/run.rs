@@ -7,6 +7,7 @@ use base::limits;
 use base::plain::shown;
 use engine::Request;
 use engine::error::Result;
+use mathcad::SparseSquare;
 use paper::door::{Call, check_restraints, node_n};
 use paper::edited::{Edited, Interpreter};
 use paper::listings;
@@ -123,7 +124,10 @@ fn km(args: &KmArgs) -> Result<()> {
     };
     let matrix = match interpreter(&args.listing, listings::Which::Km, &model, &reading)? {
         None => call.km(&reading)?,
-        Some(edited) => edited.km(&call.pairs.k_cnt).expect("Km is edited")?.as_matrix().clone(),
+        Some(edited) => {
+            let table = edited.km(&call.pairs.k_cnt).expect("Km is edited")?;
+            SparseSquare::from_dense(table.as_matrix())
+        }
     };
     let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
     let text = matrix_market::matrix_market(&matrix, &comment);
