@@ -81,7 +81,14 @@ impl SceneFile {
             let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
             let what = format!("the scene file cannot be read: {why}");
             let near = did_you_mean(&name.to_string_lossy(), names.iter().copied());
-            let fix = format!("{near}give a path, or one of the scenes {}", names.join(", "));
+            let first = beside(path).map_or(String::new(), |mesh| {
+                format!(
+                    "; plane-contact scene new {} writes a first one",
+                    shell_word(&shown(&mesh))
+                )
+            });
+            let fix =
+                format!("{near}give a path, or one of the scenes {}{first}", names.join(", "));
             InputError::new(shown(path), what, fix)
         })?;
         let place = shown(path);
@@ -118,6 +125,12 @@ impl SceneFile {
             }
         }
     }
+}
+
+/// Returns the first mesh of Gmsh in the folder of a path.
+fn beside(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty())?;
+    files::names(folder, "msh").ok()?.first().map(|name| folder.join(name))
 }
 
 /// Refuses a geometry or a mesh of Gmsh, and says what a scene is.

@@ -42,6 +42,25 @@ macro_rules! mesh_edited {
 }
 
 const CASES: &[Case] = &[
+    Case {
+        input: "",
+        command: "plane-contact scene mesh punch --out p >log; rm p/scene.json; plane-contact solve p; \
+                  plane-contact solve p/punch.msh; plane-contact scene new p/punch.msh; \
+                  plane-contact scene new p/punch.msh; plane-contact scene new p/punch.msh --out q/s.json; \
+                  plane-contact solve p/punch.json",
+        status: 2,
+        contains: &[
+            "; plane-contact scene new p/punch.msh writes a first one",
+            "this is a Gmsh mesh, not a scene file: a scene is",
+            "Guessed from the groups of the mesh",
+            "Written to p/punch.json",
+            "it exists already",
+            "name a file in the mesh's folder",
+            "values to be chosen",
+            "contact.friction",
+        ],
+        lacks: &["panicked"],
+    },
     edited!(
         "s/-2.5/NaN/",
         2,
