@@ -64,7 +64,7 @@ function ask(machine, mesh) {
   const isOpening = machine.at === 0 && page.which === "c_cnt" && !run().programs && machine.steps.length > 0;
   const asked = isOpening && page.asked < mesh.contact.length ? nodeQuestion(mesh, page.asked) : byId("ask").checked ? question(machine, mesh) : null;
   place.hidden = !asked;
-  const key = asked && JSON.stringify([asked.words, asked.right, speech.language, page.which, machine.at]);
+  const key = asked && JSON.stringify([asked.words, asked.reason, page.chapter, page.run, page.which, machine.at]);
   // A question that stands stays as far as it was answered.
   const isNew = page.question !== key;
   page.question = key;
