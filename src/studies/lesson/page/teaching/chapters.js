@@ -40,7 +40,7 @@ function showChanges(run, programs) {
   // A repair may be of Fm alone.
   const isSame = run === before || (run.programs && LISTINGS.every((name) => run[name] === before[name]));
   place.hidden = isIterating() || (isSame && !isChanged());
-  if (place.hidden) return;
+  if (place.hidden) return place.replaceChildren();
   const changed = changes(results(programsOf(before)), results(programs));
   const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
