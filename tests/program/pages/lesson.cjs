@@ -346,6 +346,9 @@ async function chapters(browser) {
   await page.selectOption("#run", { label: "repaired" });
   const changed = await page.locator("#changes tbody tr").allTextContents();
   assert.deepEqual(changed.slice(0, 2), ["dy[1]10", "dy[2]01"]);
+  await page.selectOption("#chapter", { index: names.findIndex((name) => name.startsWith("C1:")) });
+  await page.click("#question button:text-is('no')");
+  assert.match(await page.textContent("#question [role=status]"), /^Right\. .*: no box of lines 5 and 6 holds it, although it is nearer than c_tll = 0\.1\./);
   assert.deepEqual(said, []);
 }
 

@@ -34,6 +34,19 @@ run(async (browser) => {
   assert.doesNotMatch((await texts()).replace("Русский", ""), /[а-яё]/i, "all is English");
   await page.click("#language");
   assert.equal(await texts(), russian, "the switch there and back leaves nothing behind");
+  await page.click("#edit");
+  const text = await page.inputValue("#text");
+  for (const [from, to, words] of [
+    ["|yt[i1]| < c_tll ∧", "|yt[i1]| < ∧", "Строка 16, столбец 30: найдено: `∧`; ожидается: операнд. Вероятно: не хватает операнда или знак стоит дважды."],
+    ["yt[i1] ← 0", "yt[i1] ← 0 & 1", "такого знака в записи нет"],
+    ["      trace(ct[i1])", "        trace(ct[i1])", "Строка 20, столбец 9: отступ 8, а должен быть 6."],
+    ["dy[i1] ← 0", "dyy[i1] ← 0", "Имя dyy получает значение, но ни одна строка его не читает. Возможно, dy?"],
+  ]) {
+    await page.fill("#text", text.replace(from, to));
+    await page.locator("#text-error", { hasText: words }).waitFor();
+  }
+  await page.fill("#text", text);
+  await page.click("#edit");
   await page.check("#ask");
   for (const index of (await page.locator("#chapter option").all()).keys()) {
     await page.selectOption("#chapter", { index });

@@ -96,7 +96,7 @@ class MatrixMap {
     byId("matrix-caption").textContent = [
       t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
       this.border ? t("The rows and columns p1, p2, ... join the two bodies: the equations of contact.") : this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
-      joints.all ? t("Grey: the entries between the two bodies, {filled} of {all} filled.", joints) : "",
+      joints.all && (!this.joins || joints.filled) ? t("Grey: the entries between the two bodies, {filled} of {all} filled.", joints) : "",
     ].join(" ");
     canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
     this.say();

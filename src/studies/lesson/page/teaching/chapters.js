@@ -40,7 +40,7 @@ function showChanges(run, programs) {
   // A repair may be of Fm alone.
   const isSame = run === before || (run.programs && LISTINGS.every((name) => run[name] === before[name]));
   place.hidden = isIterating() || (isSame && !isChanged());
-  if (place.hidden) return;
+  if (place.hidden) return place.replaceChildren();
   const changed = changes(results(programsOf(before)), results(programs));
   const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
@@ -130,7 +130,7 @@ function ofFinding(row) {
   const { runs } = chapter();
   const figure = `${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}.`;
   const prices = row.prices.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: row.prices.map(priceInWords).join("; ") })}` : "";
-  const repaired = row.edit.none ? t(row.edit.none.reason) : t("choose the reading “repaired” and see what it changes; the listing as printed is run with {about}", { about: runs[0].about.map((words) => t(words)).join(", ") });
+  const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
     [t("What the listing did"), row.verdict === "present" ? t(row.detail) : `${t(row.verdict)}: ${t(row.detail)}`],
     [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],

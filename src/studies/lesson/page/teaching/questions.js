@@ -64,7 +64,7 @@ function ask(machine, mesh) {
   const isOpening = machine.at === 0 && page.which === "c_cnt" && !run().programs && machine.steps.length > 0;
   const asked = isOpening && page.asked < mesh.contact.length ? nodeQuestion(mesh, page.asked) : byId("ask").checked ? question(machine, mesh) : null;
   place.hidden = !asked;
-  const key = asked && JSON.stringify([asked.words, asked.right, speech.language, page.which, machine.at]);
+  const key = asked && JSON.stringify([asked.words, asked.reason, page.chapter, page.run, page.which, machine.at]);
   // A question that stands stays as far as it was answered.
   const isNew = page.question !== key;
   page.question = key;
@@ -138,7 +138,7 @@ function whyOf(mesh, end, { node, place, dy, ct, yt }) {
   const isFar = where.distance > page.programs.c_tll;
   const at = isDeepest ? t("{name} is the deepest, {distance} inside the target", values) : where.isInside ? t("{name} is {distance} inside the target", values) : t("{name} is {distance} away from the target", values);
   const verdict = dy === 1 ? (isFar && !where.isInside ? t("and is taken all the same") : t("and is found")) : where.isInside ? t("and is missed") : isFar ? t("and is left out") : t("and is left out all the same");
-  if (!(ct > 0)) return `${at}, ${verdict}: ${t("lines 5 to 7 look no further than c_tll = {c_tll} around an edge", values)}.`;
+  if (!(ct > 0)) return `${at}, ${verdict}: ${isFar ? t("lines 5 to 7 look no further than c_tll = {c_tll} around an edge", values) : t("no box of lines 5 and 6 holds it, although it is nearer than c_tll = {c_tll}", values)}.`;
   const decisions = end.steps.filter((step, k) => step.held !== null && end.turnAt(k) === place && /^dy\[\w+\] ← 1/.test(end.lines[step.line].text));
   const said = decisions.map(({ line, held, operands }) => {
     const wrong = operands.find(([, holds]) => holds === false)?.[0];
