@@ -187,8 +187,8 @@ def test_the_example_of_the_front_page_runs(capsys):
 
 
 def test_it_is_typed():
-    folder = Path(plane_contact.__file__).parent
-    assert (folder / "py.typed").exists()
-    mypy = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull, str(folder)]
+    assert (Path(plane_contact.__file__).parent / "py.typed").exists()
+    source = ROOT / "src/python/plane_contact"
+    mypy = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull, str(source)]
     checked = subprocess.run(mypy, capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout
