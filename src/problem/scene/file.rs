@@ -21,7 +21,7 @@ pub const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    json::read(text, &SCENE).map_err(|why| to_be_chosen(text).unwrap_or(why))
+    to_be_chosen(text).map_or_else(|| json::read(text, &SCENE), Err)
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line
@@ -53,7 +53,8 @@ const MOST: usize = 1 << 20;
 
 /// Names the fields that are still to be chosen, which are null; None where there are none, or the text is no JSON.
 fn to_be_chosen(text: &[u8]) -> Option<InputError> {
-    let text = Some(text).filter(|text| text.len() <= MOST)?;
+    let has_null = |text: &&[u8]| text.windows(4).any(|word| word == b"null");
+    let text = Some(text).filter(|text| text.len() <= MOST).filter(has_null)?;
     let scene: Value = serde_json::from_slice(text).ok()?;
     let mut open = Vec::new();
     collect_open(&scene, "", "", &mut open);
