@@ -3,7 +3,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::numbers::{Digits, percent, short};
+use super::numbers::{Digits, long, percent};
 use problem::model::{NodeId, TriangleId};
 
 /// A report, from its first block to its last.
@@ -215,8 +215,8 @@ pub enum Cell {
 /// How a number is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
-    /// As [`short`] writes it.
-    Short,
+    /// As [`long`] writes it.
+    Long,
     /// With all its digits.
     Plain,
     /// With these digits.
@@ -290,7 +290,7 @@ impl Display for Cell {
             Cell::Missing(_) => write!(out, "-"),
             Cell::Text(ref text) => write!(out, "{text}"),
             Cell::Integer(n) => write!(out, "{n}"),
-            Cell::Number { value, notation: Notation::Short } => write!(out, "{}", short(value)),
+            Cell::Number { value, notation: Notation::Long } => write!(out, "{}", long(value)),
             Cell::Number { value, notation: Notation::Plain } => write!(out, "{value}"),
             Cell::Number { value, notation: Notation::Digits(digits) } => {
                 out.write_str(&digits.write(value))
@@ -303,7 +303,7 @@ impl Display for Cell {
 /// Shows a number as [`short`] writes it.
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
-        Cell::number(value, Notation::Short)
+        Cell::number(value, Notation::Long)
     }
 }
 

@@ -19,6 +19,18 @@ pub fn short(x: f64) -> String {
     if x.abs() < 1e9 && x.fract() == 0.0 { format!("{:.0}", x + 0.0) } else { figure(x, None) }
 }
 
+/// Writes a whole number as it is, another one with five decimals, and one that is very large or very small in
+/// scientific notation; `-` stands for what is no number: an input or a place, of which no digit is to be lost.
+pub fn long(x: f64) -> String {
+    match x.abs() {
+        size if size.is_finite() && x.fract() != 0.0 && (1e-3..1e5).contains(&size) => {
+            format!("{x:.5}")
+        }
+        size if size.is_finite() && x.fract() != 0.0 => format!("{x:.3e}"),
+        _ => short(x),
+    }
+}
+
 /// Returns a point as text, `x, y`.
 pub fn coordinates([x, y]: [f64; 2], decimals: usize) -> String {
     format!("{x:.decimals$}, {y:.decimals$}")
