@@ -171,7 +171,7 @@ fn displacements(restraint: &Restraint, place: &str) -> Result<Vec<f64>> {
     }
     let place = format!("{place}.displacement");
     if displacement.len() != fix.len() {
-        let what = format!("{} displacements for {} directions", displacement.len(), fix.len());
+        let what = format!("a list of {}, where fix has {}", displacement.len(), fix.len());
         return Err(InputError::new(place, what, "give one for each of fix"));
     }
     match displacement.iter().find(|x| !x.is_finite()) {

@@ -111,7 +111,10 @@ fn a_restraint_that_says_nothing_is_refused() {
     let cases = [
         (on(Vec::new()), "fixes no direction"),
         (on(vec![Axis::Direction([0.0, 0.0])]), "has no length"),
-        (Restraint { displacement: vec![1.0, 2.0], ..on(vec![Axis::X]) }, "2 displacements for 1"),
+        (
+            Restraint { displacement: vec![1.0, 2.0], ..on(vec![Axis::X]) },
+            "a list of 2, where fix has 1",
+        ),
         (Restraint { displacement: vec![f64::NAN], ..on(vec![Axis::X]) }, "is not finite"),
         (Restraint { node: Some(1), ..on(vec![Axis::X]) }, "exactly one of on, node and at"),
         (

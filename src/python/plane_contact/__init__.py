@@ -89,7 +89,10 @@ def compare(scene: Scene, u: Any, **options: Any) -> Result:
     difference of a node and the distance in the energy norm, ``contact`` what the displacements imply of
     contact. With ``friction=0, geometry="initial"`` it is the distance from the reference solution.
     """
-    rows = ((n, *row) for n, row in enumerate(np.asarray(u, dtype=float).tolist(), 1))
+    u = np.asarray(u, dtype=float)
+    if u.ndim != 2 or u.shape[1] not in (2, 3):
+        raise ValueError(f"u has the shape {u.shape}, expected a row of two or three for each node")
+    rows = ((n, x, y) for n, (x, y) in enumerate(u[:, :2].tolist(), 1))
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "field.csv")
         Path(path).write_text("node,ux,uy\n" + "".join(f"{n},{x!r},{y!r}\n" for n, x, y in rows))
@@ -159,7 +162,7 @@ def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any])
             if hasattr(scene.get("mesh"), "cells"):
                 write(os.path.join(folder, "mesh.msh"), scene["mesh"])
                 scene["mesh"], place = "mesh.msh", folder
-            text = json.dumps(scene, default=lambda array: array.tolist())
+            text = json.dumps(scene, default=_plain)
             words.append("-")
         elif scene is not None:
             words += ["--", os.fspath(scene)]
@@ -167,6 +170,10 @@ def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any])
     if ran.returncode != 0:
         raise _error(ran)
     return ran.stdout
+
+
+def _plain(value: Any) -> Any:
+    return os.fspath(value) if isinstance(value, os.PathLike) else np.asarray(value).tolist()
 
 
 def _word(value: Any) -> str:

@@ -25,7 +25,8 @@ pub struct DeckArgs {
     /// penalty.
     #[arg(long, default_value_t = ContactKind::Equation, value_parser = offered::<ContactKind>(ContactKind::ALL))]
     pub contact: ContactKind,
-    /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's].
+    /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's; beside a field,
+    /// unilateral].
     #[arg(long, value_parser = offered::<Variant>(Variant::ALL))]
     pub variant: Option<Variant>,
     #[command(flatten)]

@@ -6,6 +6,7 @@ use super::table::{self, Compared};
 use super::{Beside, Rows};
 use base::error::InputError;
 use base::exit::ExitStatus;
+use base::plain::six_digits;
 use engine::error::Result;
 use engine::{self, Request, max_displacement};
 
@@ -13,6 +14,9 @@ use commands::{TablesArgs, print, waiting};
 
 /// The tolerance where none is asked for: that of another code's contact by penalty.
 const TOLERANCE: f64 = 1e-3;
+
+/// The largest displacement over the size of the mesh: more is no slip of units, of metres for nanometres.
+const FARTHEST: f64 = 1e9;
 
 /// Puts a file of displacements beside the solution of a request, and prints it; returns whether they are the same.
 ///
@@ -28,6 +32,16 @@ pub fn run(
     let rows = Rows::read(path)?;
     engine::check(request)?;
     let (u, how) = rows.on_mesh(&request.scene, &request.scene.model)?;
+    if u.amax() > FARTHEST * request.scene.model.bounds().larger_side() {
+        let what = format!(
+            "a displacement of {} in a mesh of {}",
+            six_digits(u.amax()),
+            six_digits(request.scene.model.bounds().larger_side())
+        );
+        return Err(
+            InputError::new(rows.place, what, "give them in the scene's unit of length").into()
+        );
+    }
     let reference = waiting("solving", || engine::solve(request, &mut |_| ()))?;
     let beside = Beside::new(&reference, u, tolerance)?;
     let moves = max_displacement(&reference.u) > 0.0;

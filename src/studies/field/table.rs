@@ -50,6 +50,7 @@ pub fn report(compared: &Compared) -> Report {
         .notes(request.scene.adapted().to_vec())
         .heading("Result")
         .notes(verdict(beside))
+        .notes(hidden(beside))
         .notes(others)
         .notes(unbalanced(beside))
         .table("Largest differences, by body", bodies(beside))
@@ -77,6 +78,24 @@ fn verdict(beside: &Beside) -> [String; 3] {
             part(displacement_relative)
         ),
     ]
+}
+
+/// Names the body in which the largest von Mises stress differs by more than ten times the tolerance, where both norms,
+/// which are those of all bodies together, take the field for the same.
+fn hidden(beside: &Beside) -> Option<String> {
+    let largest = beside
+        .distance
+        .bodies
+        .iter()
+        .max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs()))?;
+    let is_hidden = beside.is_same() && largest.relative.abs() > 10.0 * beside.tolerance;
+    is_hidden.then(|| {
+        format!(
+            "NOTE: both are of all bodies together; the largest von Mises stress of body {:?} differs by {}",
+            largest.name,
+            part(largest.relative)
+        )
+    })
 }
 
 /// Writes a part of 1 in per cent, and a very small or large one as a power of ten.

@@ -149,7 +149,10 @@ impl<'a> File<'a> {
         match array.attribute("type") {
             Some("Float64") => Ok(values(&bytes, f64::from_le_bytes)),
             Some("Float32") => Ok(values(&bytes, |bytes| f32::from_le_bytes(bytes).into())),
-            other => Err(format!("its numbers are of type {other:?}, expected Float64 or Float32")),
+            other => {
+                let other = other.unwrap_or("unknown");
+                Err(format!("its numbers are of type {other}, expected Float64 or Float32"))
+            }
         }
     }
 

@@ -54,7 +54,11 @@ function openAddress() {
   const nodes = (fields.get("moved") ?? "").split(";").map((text) => text.split(/[:,]/).map(Number));
   const isNode = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
   const edited = LISTINGS.filter((name) => fields.has(name) && !errorIn(name, fields.get(name)));
-  for (const name of edited) page.typed.set(chapter().runs[chosen][name], { text: fields.get(name), last: fields.get(name) });
+  // A later text that has an error stays where the link has the one before it.
+  for (const name of edited) {
+    const [place, text] = [chapter().runs[chosen][name], fields.get(name)];
+    if (page.typed.get(place)?.last !== text) page.typed.set(place, { text, last: text });
+  }
   choose({
     run: chosen,
     which,

@@ -28,7 +28,9 @@ function changes(before, after) {
   const place = (name) => RESULTS.indexOf(name.split("[")[0]);
   const names = [...new Set([...before.keys(), ...after.keys()])].sort((a, b) => place(a) - place(b));
   const value = (of, name) => of.get(name) ?? (name === "stops" ? t("no") : 0);
-  return names.map((name) => [name, value(before, name), value(after, name)]).filter(([, a, b]) => a !== b);
+  // Sums in another order differ by less.
+  const isOther = (a, b) => (isNumber(a) && isNumber(b) ? Math.abs(a - b) > 1e-9 * Math.max(Math.abs(a), Math.abs(b)) : a !== b);
+  return names.map((name) => [name, value(before, name), value(after, name)]).filter(([, a, b]) => isOther(a, b));
 }
 
 const MOST_CHANGES = 12;

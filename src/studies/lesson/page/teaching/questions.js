@@ -82,12 +82,13 @@ function pose(asked, place) {
     verdict.textContent = `${isRight ? t("Right.") : t("No: the answer is {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}`;
     if (asked.next) verdict.append(" ", button(t("next"), asked.next));
     lightLine(page.machine);
+    // The button that had the focus is disabled.
+    (verdict.querySelector("button") ?? byId("forward")).focus();
     verdict.scrollIntoView({ block: "nearest" });
   };
   const showHint = button(t("hint"), () => {
     hint.replaceChildren(...asked.hint());
     hint.hidden = false;
-    showHint.disabled = true;
   });
   const answers = asked.number === undefined ? asked.answers.map((text) => button(text, () => answered(text === asked.right), { class: "answer" })) : numberToType(asked, answered, verdict);
   byId("below").scrollTop = 0;
