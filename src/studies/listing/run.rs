@@ -47,7 +47,7 @@ pub struct CCntArgs {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Run this edited listing in place of the printed one (notation: listings/README.md).
+    /// Run this edited listing in place of the printed one (notation: plane-contact guide notation).
     #[arg(long, value_name = "FILE")]
     listing: Option<PathBuf>,
     #[command(flatten)]
@@ -75,7 +75,7 @@ pub struct KmArgs {
     /// The contact pairs that enter. c-cnt: those of c_cnt at the initial shape; none: no pair.
     #[arg(long, value_name = "PAIRS", default_value = "c-cnt")]
     coupled_by: CoupledBy,
-    /// Run this edited listing in place of the printed one (notation: listings/README.md).
+    /// Run this edited listing in place of the printed one (notation: plane-contact guide notation).
     #[arg(long, value_name = "FILE")]
     listing: Option<PathBuf>,
     #[command(flatten)]
