@@ -98,7 +98,7 @@ async function tables(browser) {
   assert.equal(Number(value.split(",")[0]), fourth.number);
   await page.click("#menu > summary");
   await page.locator("#menu a").last().click();
-  assert.ok(await page.locator("#fields").isVisible());
+  await page.locator("#fields").waitFor();
 }
 
 /** Each part unfolds from its row: a claim its sentence, value and command, a finding its lines, scene and picture. */
@@ -109,10 +109,10 @@ async function unfolds(browser) {
   assert.equal(await part.getByText(claim.quote).isVisible(), false);
   await page.locator(`.statements a[href="#${claim.id.toLowerCase()}"]`).focus();
   await page.keyboard.press("Enter");
-  for (const words of [claim.quote, claim.condition, claim.command.join(" ")]) assert.ok(await part.getByText(words).first().isVisible(), words);
+  for (const words of [claim.quote, claim.condition, claim.command.join(" ")]) await part.getByText(words).first().waitFor();
   const finding = page.locator("#k1");
   await page.locator('.verdict a[href="#k1"]').click();
-  assert.ok(await finding.locator("pre").first().isVisible());
+  await finding.locator("pre").first().waitFor();
   assert.ok(await finding.locator("img").evaluate(async (image) => (await image.decode(), image.naturalWidth > 100)));
   const titles = await page.locator('#first a[href^="#"]').evaluateAll((all) => all.map(({ title }) => title));
   assert.ok(titles.length > 10 && titles.every((title) => title.length > 10), String(titles));
