@@ -300,7 +300,7 @@ impl Display for Cell {
     }
 }
 
-/// Shows a number as [`short`] writes it.
+/// Shows a number as [`long`] writes it.
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
         Cell::number(value, Notation::Long)
