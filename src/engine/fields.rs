@@ -2,15 +2,16 @@
 
 use super::quantities::SupportForce;
 use super::solution::Solution;
-use problem::model::NodeId;
+use numbers::scalar::Scalar;
+use problem::model::{NodeId, TriangleId};
 
 impl Solution {
     /// Returns the displacement of a node along x and y, length; None where there is no such node.
     ///
     /// `node`: its number, from 1.
     pub fn displacement(&self, node: usize) -> Option<[f64; 2]> {
-        let node = self.model.node_ids().nth(node.checked_sub(1)?)?;
-        Some(node.components(&self.u))
+        let is_there = (1..=self.model.nodes.len()).contains(&node);
+        is_there.then(|| NodeId::from_number(node).components(&self.u))
     }
 
     /// Returns sigma_x, sigma_y and tau_xy at a point of the undeformed shape, stress; None outside of all triangles.
@@ -18,19 +19,13 @@ impl Solution {
     /// Stress is constant in a triangle and jumps from one to the next: a point on a common edge has that of the
     /// triangle which the mesh lists first.
     pub fn stress_at(&self, x: f64, y: f64) -> Option<[f64; 3]> {
-        let at = [x, y];
-        let is_left_of = |[from, to]: [[f64; 2]; 2]| {
-            let [[dx, dy], [px, py]] = [to, at].map(|[x, y]| [x - from[0], y - from[1]]);
-            dx * py - dy * px >= 0.0
-        };
-        let has_point = |nodes: [[f64; 2]; 3]| {
-            let [a, b, c] = nodes;
+        let is_left_of = |[from, to]: [[f64; 2]; 2]| f64::orientation(from, to, [x, y]) >= 0.0;
+        let has_point = |triangle: &TriangleId| {
+            let [a, b, c] = self.model.corners(*triangle);
             [[a, b], [b, c], [c, a]].into_iter().all(is_left_of)
         };
-        let model = &self.model;
-        let corners = |nodes: &[_; 3]| nodes.map(|node| model.nodes[NodeId::index(node)]);
-        let place = model.triangles.iter().position(|triangle| has_point(corners(&triangle.nodes)));
-        Some(self.elements[place?].sigma.into())
+        let triangle = self.model.triangle_ids().find(has_point)?;
+        Some(self.elements[triangle.index()].sigma.into())
     }
 
     /// Returns the force of the restraints of a group along x and y, force; None where the scene holds no such group.

@@ -13,6 +13,13 @@ pub fn is_there(mut command: Command, demanded_by: &str) -> bool {
     is_there
 }
 
+/// Whether Python has some packages, as it must where the environment demands it.
+pub fn has_python(packages: &str, demanded_by: &str) -> bool {
+    let mut python = Command::new("python3");
+    python.args(["-c", &format!("import {packages}")]);
+    is_there(python, demanded_by)
+}
+
 /// Whether node is installed, as it must be where `REQUIRE_BROWSER` is set.
 pub fn has_node() -> bool {
     let mut node = Command::new("node");

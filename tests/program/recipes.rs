@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tools::is_there;
+use crate::common::tools::{has_python, is_there};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -137,30 +137,31 @@ fn the_recipe_for_ctest_runs() {
     assert!(!ran("ctest", &["--test-dir", "build"]).status.success());
 }
 
+/// pytest with the module of Python and its fixtures.
+#[cfg(unix)]
+fn pytest(folder: &Path, programs: &Path) -> Command {
+    let args =
+        ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "plane_contact.pytest_plugin"];
+    let mut pytest = command("python3", &args, folder, programs);
+    pytest.env("PYTHONPATH", Path::new(ROOT).join("src/python"));
+    pytest.env("PYTHONDONTWRITEBYTECODE", "1");
+    pytest
+}
+
 #[cfg(unix)]
 #[test]
 fn the_recipe_for_pytest_runs() {
-    let mut python = Command::new("python3");
-    python.args(["-c", "import numpy, pytest"]);
-    if !is_there(python, "REQUIRE_PYTEST") {
+    if !has_python("numpy, pytest", "REQUIRE_PYTEST") {
         return;
     }
     let (folder, programs) = repository();
     fs::write(folder.path().join("test_snapshots.py"), &blocks("python")[0]).expect("written");
-    let pytest = || {
-        let args =
-            ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "plane_contact.pytest_plugin"];
-        let output = command("python3", &args, folder.path(), &programs)
-            .env("PYTHONPATH", Path::new(ROOT).join("src/python"))
-            .env("PYTHONDONTWRITEBYTECODE", "1")
-            .output();
-        output.expect("python3")
-    };
-    let output = pytest();
+    let ran = || pytest(folder.path(), &programs).output().expect("python3");
+    let output = ran();
     succeeds(&output, "pytest");
     assert!(String::from_utf8_lossy(&output.stdout).contains("2 passed"));
     edit(folder.path());
-    let output = pytest();
+    let output = ran();
     assert!(String::from_utf8_lossy(&output.stdout).contains("Differs"), "{output:?}");
 }
 
@@ -188,17 +189,12 @@ fn the_hook_verifies_the_snapshots_of_a_repository() {
 #[cfg(unix)]
 #[test]
 fn the_module_of_python_passes_its_tests() {
-    let mut python = Command::new("python3");
-    python.args(["-c", "import numpy, pytest, skfem, meshio, mypy"]);
-    if !is_there(python, "REQUIRE_PYTEST") {
+    if !has_python("numpy, pytest, skfem, meshio, mypy", "REQUIRE_PYTEST") {
         return;
     }
     let (folder, programs) = repository();
-    let args =
-        ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "plane_contact.pytest_plugin", "-c"];
-    let mut pytest = command("python3", &args, folder.path(), &programs);
+    let mut pytest = pytest(folder.path(), &programs);
+    pytest.arg("-c");
     pytest.args([Path::new(ROOT).join("pyproject.toml"), Path::new(ROOT).join("src/python")]);
-    pytest.env("PYTHONPATH", Path::new(ROOT).join("src/python"));
-    pytest.env("PYTHONDONTWRITEBYTECODE", "1");
     succeeds(&pytest.output().expect("python3"), "pytest");
 }

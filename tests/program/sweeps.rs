@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tools::is_there;
+use crate::common::tools::{has_python, is_there};
 
 fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
     let output = run(folder, args);
@@ -267,12 +267,6 @@ with LocalCluster() as cluster:
     sys.exit(subprocess.run([sys.executable, 'jobs'], env=environment).returncode)
 ";
 
-fn has_hyperqueue() -> bool {
-    let mut package = Command::new("python3");
-    package.args(["-c", "import hyperqueue"]);
-    is_there(package, "REQUIRE_HYPERQUEUE")
-}
-
 #[test]
 fn any_name_reaches_make() {
     let mut program = Command::new("make");
@@ -284,7 +278,7 @@ fn any_name_reaches_make() {
 
 #[test]
 fn any_name_reaches_hyperqueue() {
-    if has_hyperqueue() {
+    if has_python("hyperqueue", "REQUIRE_HYPERQUEUE") {
         names_reach("hyperqueue", |at| succeeds(Command::new("python3").args(["-c", CLUSTER]), at));
     }
 }
@@ -303,7 +297,7 @@ fn any_name_reaches_snakemake() {
 /// nothing is lost.
 #[test]
 fn hyperqueue_runs_two_hundred_jobs_with_its_workers_killed_in_the_middle() {
-    if !has_hyperqueue() {
+    if !has_python("hyperqueue", "REQUIRE_HYPERQUEUE") {
         return;
     }
     let folder = folder(&of_fig1(200));

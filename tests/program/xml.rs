@@ -12,7 +12,7 @@ use roxmltree::Document;
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tools::is_there;
+use crate::common::tools::has_python;
 
 #[test]
 fn text_reads_back() {
@@ -140,9 +140,7 @@ fn missing_values_are_refused() {
 /// of several blocks.
 #[test]
 fn fields_are_read_by_other_programs() {
-    let mut packages = Command::new("python3");
-    packages.args(["-c", "import meshio"]);
-    if !is_there(packages, "REQUIRE_VTU") {
+    if !has_python("meshio", "REQUIRE_VTU") {
         return;
     }
     let folder = TempDir::new().expect("a folder");

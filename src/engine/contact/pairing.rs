@@ -13,11 +13,12 @@
 
 use std::fmt;
 
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::search::{dot, minus};
 use numbers::scalar::Scalar;
-use problem::model::{EdgeId, NodeId};
+use problem::model::{EdgeId, Model, NodeId};
 
 /// The component of a normal beyond which the one free motion of a node makes its gap, and the
 /// equation of that motion determines its force.
@@ -42,6 +43,13 @@ pub struct Pairing<T = f64> {
     /// edge's; 0 elsewhere.
     #[serde(skip)]
     pub corner: f64,
+}
+
+impl Pairing {
+    /// Returns the gap of a model after displacements `u`, along the normal, length.
+    pub fn gap_after(&self, model: &Model, u: &DVector<f64>) -> f64 {
+        self.opening(|node| model.coordinates(node)) + self.opening(|node| node.components(u))
+    }
 }
 
 impl<T: Scalar> Pairing<T> {

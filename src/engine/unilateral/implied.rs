@@ -54,10 +54,7 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
     let known = forces.iter().map(|force| {
         [force.normal, force.tangent].map(|component| (!force.undetermined).then_some(component))
     });
-    let gaps = pairings.iter().map(|pairing| {
-        let pairing = pairing.as_ref()?;
-        Some(pairing.opening(|n| model.coordinates(n)) + pairing.opening(|n| n.components(&u)))
-    });
+    let gaps = pairings.iter().map(|pairing| Some(pairing.as_ref()?.gap_after(model, &u)));
     let gaps: Vec<Option<f64>> = gaps.collect();
     let closed = APART * max_displacement(&u);
     let in_contact: Vec<bool> =

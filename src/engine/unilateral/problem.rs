@@ -261,8 +261,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the gap of each entry after displacements `u`, along the normals of a place, length.
     pub(super) fn gaps(&self, config: &Configuration, u: &DVector<f64>) -> Vec<Option<f64>> {
-        let gap =
-            |p: &Pairing| p.opening(|n| self.model.coordinates(n)) + p.opening(|n| n.components(u));
+        let gap = |p: &Pairing| p.gap_after(self.model, u);
         config.pairings.iter().map(|p| p.as_ref().map(gap)).collect()
     }
 

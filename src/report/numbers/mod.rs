@@ -22,12 +22,12 @@ pub fn short(x: f64) -> String {
 /// Writes a whole number as it is, another one with five decimals, and one that is very large or very small in
 /// scientific notation; `-` stands for what is no number: an input or a place, of which no digit is to be lost.
 pub fn long(x: f64) -> String {
-    match x.abs() {
-        size if size.is_finite() && x.fract() != 0.0 && (1e-3..1e5).contains(&size) => {
-            format!("{x:.5}")
-        }
-        size if size.is_finite() && x.fract() != 0.0 => format!("{x:.3e}"),
-        _ => short(x),
+    if !x.is_finite() || x.fract() == 0.0 {
+        short(x)
+    } else if (1e-3..1e5).contains(&x.abs()) {
+        format!("{x:.5}")
+    } else {
+        format!("{x:.3e}")
     }
 }
 

@@ -65,13 +65,6 @@ pub struct Price {
     pub outcome: Outcome,
 }
 
-impl Price {
-    /// Returns whether its fault is one that a finding describes.
-    pub fn is_of(&self, finding: &str) -> bool {
-        self.name.iter().any(|name| name.split(' ').any(|word| word == finding))
-    }
-}
-
 impl Display for Price {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         write!(out, "{}: {}", self.name.as_deref().unwrap_or("-"), self.fault)
@@ -231,6 +224,11 @@ impl Compared {
     /// Runs the corrected algorithm along the normal, then, where it is at the solution, with each fault put
     /// back, in the order of [`FAULTS`]. `watch` is called after each of the [`runs`].
     pub fn prices(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
+        self.prices_of(&FAULTS.iter().collect::<Vec<_>>(), watch)
+    }
+
+    /// The same with each of some faults put back. `watch` is called once more than there are faults.
+    pub fn prices_of(&self, faults: &[&'static Fault], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let run = |fault: Option<&'static Fault>| {
             let edits: Vec<&str> = fault.iter().map(|fault| fault.edit).collect();
             let is_sticking = fault.is_some_and(|fault| fault.name() == STICKING);
@@ -243,11 +241,11 @@ impl Compared {
         };
         let corrected = run(None);
         if !corrected.outcome.is_sound() {
-            FAULTS.iter().for_each(|_| watch());
+            faults.iter().for_each(|_| watch());
             return vec![corrected];
         }
-        let faults = FAULTS.par_iter().map(|fault| run(Some(fault)));
-        rayon::iter::once(corrected).chain(faults).collect()
+        let put_back = faults.par_iter().map(|fault| run(Some(*fault)));
+        rayon::iter::once(corrected).chain(put_back).collect()
     }
 
     /// Runs the corrected algorithm with all faults put back, then repairs one at a time. The order is

@@ -32,12 +32,10 @@ pub fn run(
     let rows = Rows::read(path)?;
     engine::check(request)?;
     let (u, how) = rows.on_mesh(&request.scene, &request.scene.model)?;
-    if u.amax() > FARTHEST * request.scene.model.bounds().larger_side() {
-        let what = format!(
-            "a displacement of {} in a mesh of {}",
-            six_digits(u.amax()),
-            six_digits(request.scene.model.bounds().larger_side())
-        );
+    let size = request.scene.model.bounds().larger_side();
+    if u.amax() > FARTHEST * size {
+        let what =
+            format!("a displacement of {} in a mesh of {}", six_digits(u.amax()), six_digits(size));
         return Err(
             InputError::new(rows.place, what, "give them in the scene's unit of length").into()
         );

@@ -148,7 +148,7 @@ impl Rows {
                 "in the order of the mesh, at the same coordinates",
             ));
         }
-        Ok((self.by_coordinates(model, near)?, "by coordinates"))
+        Ok((self.by_coordinates(model, near, is_at)?, "by coordinates"))
     }
 
     /// Returns the node of each row by its number, whose place among the nodes is `index`.
@@ -180,8 +180,13 @@ impl Rows {
         self.rows.iter().map(node).collect()
     }
 
-    /// Returns the only node within `near` of each row's place.
-    fn by_coordinates(&self, model: &Model, near: f64) -> Result<Vec<NodeId>> {
+    /// Returns the only node that is at each row's place, within `near`.
+    fn by_coordinates(
+        &self,
+        model: &Model,
+        near: f64,
+        is_at: impl Fn(&Row, NodeId) -> bool,
+    ) -> Result<Vec<NodeId>> {
         let mut sorted: Vec<NodeId> = model.node_ids().filter(|n| !model.is_dropped(*n)).collect();
         sorted.sort_by(|a, b| model.coordinates(*a)[0].total_cmp(&model.coordinates(*b)[0]));
         let node = |row: &Row| {
@@ -189,11 +194,7 @@ impl Rows {
             let from = sorted.partition_point(|n| model.coordinates(*n)[0] < x - near);
             let column =
                 sorted[from..].iter().take_while(|n| model.coordinates(**n)[0] <= x + near);
-            let is_at = |n: &&NodeId| {
-                let [nx, ny] = model.coordinates(**n);
-                (x - nx).hypot(y - ny) <= near
-            };
-            let all: Vec<NodeId> = column.filter(is_at).copied().collect();
+            let all: Vec<NodeId> = column.copied().filter(|n| is_at(row, *n)).collect();
             let place =
                 format!("{} {} at {}, {}", self.kind, row.line, six_digits(x), six_digits(y));
             match all[..] {

@@ -10,6 +10,7 @@ use crate::lesson::page::{self as page, Chapter, Measured};
 use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
 use base::plain::shown;
 use engine::error::Result;
+use paper::corrected::FAULTS;
 use paper::door::check_restraints;
 use paper::edited::Edited;
 use problem::model::Model;
@@ -76,8 +77,8 @@ fn lesson(args: &Args) -> Result<String> {
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        let on_fig1 = prices(&Case::new(Scene::open("fig1")?));
-        let findings = FINDINGS.iter().map(|finding| chapter(finding, &on_fig1));
+        let on_fig1 = Compared::new(&Case::new(Scene::open("fig1")?)).ok();
+        let findings = FINDINGS.iter().map(|finding| chapter(finding, on_fig1.as_ref()));
         chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
@@ -100,24 +101,27 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     Ok(Chapter { scene, runs, nodes, finding: None, repairs: Some(repairs), iterations })
 }
 
-/// Returns the chapter of a finding, on the smallest scene that shows it; `on_fig1` are the prices of that scene.
-fn chapter(finding: &'static Finding, on_fig1: &[Price]) -> Result<Chapter> {
+/// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on fig1.
+fn chapter(finding: &'static Finding, on_fig1: Option<&Compared>) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
-    let (own, evidence) = (prices(&case), finding.measure(&case));
-    let of_scenes = [(case.scene.name.as_str(), own.as_slice()), ("fig1", on_fig1)];
-    let priced = of_scenes.into_iter().flat_map(|(scene, prices)| {
-        let own = prices.iter().filter(|price| price.is_of(finding.id));
-        own.map(move |price| (scene.to_string(), price.clone()))
+    let (evidence, own) = (finding.measure(&case), Compared::new(&case).ok());
+    let of_scenes = [(case.scene.name.as_str(), own.as_ref()), ("fig1", on_fig1)];
+    let priced = of_scenes.into_iter().flat_map(|(scene, compared)| {
+        let prices = compared.map_or(vec![], |compared| prices(compared, finding));
+        prices.into_iter().map(move |price| (scene.to_string(), price))
     });
     let measured = Measured { finding, evidence, prices: priced.collect() };
     Ok(opened(case.scene, runs, vec![], Some(measured)))
 }
 
-/// Returns what each fault costs on a scene; nothing where the corrected algorithm itself has no result that is sure.
-fn prices(case: &Case) -> Vec<Price> {
-    Compared::new(case).map_or(vec![], |compared| compared.prices(&|| ()))
+/// Returns what a finding's faults cost on a scene; nothing where the corrected algorithm itself has no result that is
+/// sure.
+fn prices(compared: &Compared, finding: &Finding) -> Vec<Price> {
+    let faults: Vec<_> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    // The first price is that of no fault.
+    compared.prices_of(&faults, &|| ()).into_iter().skip(1).collect()
 }
 
 /// Returns a chapter with its iterations, on the model of its first run.
