@@ -149,7 +149,7 @@ fn zip(
     if a.size() != b.size() {
         return Err(Cause::sizes(operation.sign(), a.size(), b.size()));
     }
-    for (x, y) in Rc::make_mut(&mut a).entries_mut().iter_mut().zip(b.entries()) {
+    for (x, y) in Rc::make_mut(&mut a).entries_mut().zip(b.entries()) {
         *x = f(*x, *y)?;
     }
     Ok(Value::Array(a))
@@ -164,18 +164,18 @@ fn zip(
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
     if column(a) && column(b) && a.rows() == b.rows() {
-        return finite(sum(a.entries().iter().zip(b.entries()).map(|(x, y)| x * y)))
+        return finite(sum(a.entries().zip(b.entries()).map(|(x, y)| x * y)))
             .map(Value::Number);
     }
     if a.cols() != b.rows() {
         return Err(Cause::sizes("·", a.size(), b.size()));
     }
     let product = Array::from_fn(a.rows(), b.cols(), |i, j| {
-        sum((0..a.cols()).map(|k| a.entries()[i * a.cols() + k] * b.entries()[k * b.cols() + j]))
+        sum((0..a.cols()).map(|k| a.at(i, k) * b.at(k, j)))
     });
-    product.entries().iter().try_for_each(|&x| finite(x).map(drop))?;
-    match product.entries() {
-        [x] => Ok(Value::Number(*x)),
+    product.entries().try_for_each(|&x| finite(x).map(drop))?;
+    match product.size() {
+        (1, 1) => Ok(Value::Number(*product.at(0, 0))),
         _ => Ok(product.into()),
     }
 }
@@ -226,7 +226,7 @@ pub fn fold(values: &[Value], f: impl Fn(f64, f64) -> f64) -> Result<Value, Caus
     for value in values {
         match value {
             Value::Number(x) => take(*x),
-            Value::Array(a) => a.entries().iter().copied().for_each(&mut take),
+            Value::Array(a) => a.entries().copied().for_each(&mut take),
             other => return Err(kind("a number or an array", other)),
         }
     }

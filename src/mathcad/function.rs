@@ -206,7 +206,7 @@ fn characters(value: &Value) -> usize {
     // All 17 digits and as many zeros as the exponent asks for.
     let of_number = |x: f64| 24 + Scalar::abs(x).max(f64::MIN_POSITIVE).log10().abs() as usize;
     match value {
-        Value::Array(array) => array.entries().iter().map(|x| of_number(*x)).sum(),
+        Value::Array(array) => array.entries().map(|x| of_number(*x)).sum(),
         Value::Number(x) => of_number(*x),
         Value::Nested(_) | Value::Text(_) => 8 * value.count(),
     }
@@ -294,7 +294,7 @@ fn sort(arguments: &[Value]) -> Result<Value, Cause> {
     let [value] = exactly(arguments)?;
     match value {
         Value::Array(column) if column.cols() == 1 => {
-            let mut entries = column.entries().to_vec();
+            let mut entries: Vec<f64> = column.entries().copied().collect();
             entries.sort_by(f64::total_cmp);
             Ok(Array::column(entries).into())
         }
@@ -356,7 +356,7 @@ fn submatrix(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
 
 fn total(value: &Value) -> Result<Value, Cause> {
     match value {
-        Value::Array(a) => finite(sum(a.entries().iter().copied())).map(Value::Number),
+        Value::Array(a) => finite(sum(a.entries().copied())).map(Value::Number),
         other => Err(kind("an array of numbers", other)),
     }
 }

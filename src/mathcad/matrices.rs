@@ -30,7 +30,7 @@ pub fn magnitude(value: &Value) -> Result<Value, Cause> {
     match value {
         Value::Number(x) => Ok(Value::Number(x.abs())),
         Value::Array(a) if a.cols() == 1 => {
-            finite(sum(a.entries().iter().map(|x| x * x)).sqrt()).map(Value::Number)
+            finite(sum(a.entries().map(|x| x * x)).sqrt()).map(Value::Number)
         }
         Value::Array(_) => determinant(value),
         other => Err(kind("a number or an array", other)),
@@ -43,8 +43,8 @@ pub fn magnitude(value: &Value) -> Result<Value, Cause> {
 /// ```
 pub fn determinant(value: &Value) -> Result<Value, Cause> {
     let a = square(value)?;
-    let determinant = match a.entries() {
-        [a, b, c, d] => a * d - b * c,
+    let determinant = match a.rows() {
+        2 => a.at(0, 0) * a.at(1, 1) - a.at(0, 1) * a.at(1, 0),
         _ => {
             let (factors, order, sign) = factor(a);
             order.iter().enumerate().map(|(k, &i)| factors[i][k]).fold(sign, |d, x| d * x)
@@ -72,14 +72,14 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     if n > DENSE {
         return sparse(a, b).map(|x| Array::column(x).into());
     }
-    substituted(&factor(a), b.entries()).map(|x| Array::column(x).into())
+    substituted(&factor(a), &numbers(b)).map(|x| Array::column(x).into())
 }
 
 /// Solves the equations of a matrix by its entries that are not 0.
 #[cfg(feature = "sparse")]
 fn sparse(a: &Array, b: &Array) -> Result<Vec<f64>, Cause> {
     let matrix = super::SparseSquare::from_rows(a.rows(), a.entries());
-    let x = super::sparse::solved(&matrix, b.entries()).ok_or(Cause::Singular)?;
+    let x = super::sparse::solved(&matrix, &numbers(b)).ok_or(Cause::Singular)?;
     x.into_iter().map(finite).collect()
 }
 
@@ -97,6 +97,10 @@ pub fn inverse(value: &Value) -> Result<Value, Cause> {
     });
     let columns = columns.collect::<Result<Vec<_>, _>>()?;
     Ok(Array::from_fn(n, n, |i, j| columns[j][i]).into())
+}
+
+fn numbers(array: &Array) -> Vec<f64> {
+    array.entries().copied().collect()
 }
 
 fn square(value: &Value) -> Result<&Array, Cause> {
@@ -132,7 +136,7 @@ type Factors = (Vec<Vec<f64>>, Vec<usize>, f64);
 /// Factors a square matrix by elimination.
 fn factor(a: &Array) -> Factors {
     let n = a.rows();
-    let mut rows: Vec<Vec<f64>> = a.entries().chunks(n.max(1)).map(<[f64]>::to_vec).collect();
+    let mut rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| *a.at(i, j)).collect()).collect();
     let (mut order, mut sign): (Vec<usize>, _) = ((0..n).collect(), 1.0);
     for k in 0..n {
         let size = |at: usize| rows[order[at]][k].abs();
@@ -172,9 +176,9 @@ pub fn spread(value: &Value, rows: usize, cols: usize) -> Result<Vec<Value>, Cau
 }
 
 /// Returns the entries of a column of three numbers.
-fn three(value: &Value) -> Result<&[f64], Cause> {
+fn three(value: &Value) -> Result<Vec<f64>, Cause> {
     match value {
-        Value::Array(array) if value.size() == (3, 1) => Ok(array.entries()),
+        Value::Array(array) if value.size() == (3, 1) => Ok(numbers(array)),
         other => Err(kind("a column of three numbers", other)),
     }
 }
@@ -217,7 +221,7 @@ pub fn eigenvecs(value: &Value) -> Result<Value, Cause> {
 }
 
 fn dense(a: &Array) -> DMatrix<f64> {
-    DMatrix::from_row_slice(a.rows(), a.cols(), a.entries())
+    DMatrix::from_fn(a.rows(), a.cols(), |i, j| *a.at(i, j))
 }
 
 /// Returns the eigenvalues in ascending order and, of a symmetric matrix, the eigenvectors.

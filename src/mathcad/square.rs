@@ -28,13 +28,10 @@ impl<T: Scalar> SparseSquare<T> {
     }
 
     /// Takes the entries of n rows, one row after the other, zeros left out.
-    pub fn from_rows(n: usize, entries: &[T]) -> Self {
+    pub fn from_rows<'a>(n: usize, entries: impl Iterator<Item = &'a T>) -> Self {
         let mut matrix = Self::zeros(n);
-        for (i, row) in entries.chunks(n.max(1)).enumerate() {
-            for (j, value) in row.iter().enumerate().filter(|(_, value)| !value.is_zero()) {
-                matrix.columns[j].push((i, *value));
-            }
-        }
+        let entries = entries.enumerate().filter(|(_, value)| !value.is_zero());
+        entries.for_each(|(k, value)| matrix.columns[k % n].push((k / n, *value)));
         matrix
     }
 

@@ -224,7 +224,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         let cell = &mut self.cells[slot].value;
         if let Some(Value::Array(array)) = cell {
             let grid = Grid::from_fn(array.rows(), array.cols(), |i, j| {
-                Value::Number(array.entries()[i * array.cols() + j])
+                Value::Number(*array.at(i, j))
             });
             *cell = Some(Value::Nested(Rc::new(Nested::new(grid))));
         }

@@ -20,14 +20,18 @@ pub enum Value {
     Text(Rc<str>),
 }
 
-/// A matrix, a column when `cols` is 1. It is stored by rows, so that a new row does not move the
-/// others.
+/// A matrix, a column when `cols` is 1. Its entries stand row by row in blocks, each shared until it is written to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid<T> {
     rows: usize,
     cols: usize,
-    entries: Vec<T>,
+    /// Every block but the last has [`BLOCK`] entries, and none is empty.
+    blocks: Vec<Rc<Vec<T>>>,
 }
+
+/// The entries of a block. A copy of a stiffness matrix of 5 million entries, to which an iteration writes some
+/// thousand, takes TIMING.
+const BLOCK: usize = 512;
 
 /// A matrix of numbers.
 pub type Array = Grid<f64>;
@@ -37,17 +41,17 @@ impl<T: Clone + Default> Grid<T> {
     pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> T) -> Self {
         let mut entries = Vec::with_capacity(rows * cols);
         (0..rows).for_each(|i| entries.extend((0..cols).map(|j| entry(i, j))));
-        Grid { rows, cols, entries }
+        Grid { rows, cols, blocks: blocks(entries) }
     }
 
     /// Makes a grid of one column.
     pub fn column(entries: Vec<T>) -> Self {
-        Grid { rows: entries.len(), cols: 1, entries }
+        Grid { rows: entries.len(), cols: 1, blocks: blocks(entries) }
     }
 
     /// Makes an array of `cols` columns, at least one, from its entries row by row.
     pub fn from_rows(cols: usize, entries: Vec<T>) -> Self {
-        Grid { rows: entries.len() / cols, cols, entries }
+        Grid { rows: entries.len() / cols, cols, blocks: blocks(entries) }
     }
 
     /// Returns the numbers of rows and columns.
@@ -65,24 +69,36 @@ impl<T: Clone + Default> Grid<T> {
         self.cols
     }
 
+    /// Returns the number of entries.
+    pub fn count(&self) -> usize {
+        self.rows * self.cols
+    }
+
     /// Returns the entries row by row.
-    pub fn entries(&self) -> &[T] {
-        &self.entries
+    pub fn entries(&self) -> impl Iterator<Item = &T> {
+        self.blocks.iter().flat_map(|block| block.iter())
     }
 
     /// Returns the entries row by row, to be changed in place.
-    pub fn entries_mut(&mut self) -> &mut [T] {
-        &mut self.entries
+    pub fn entries_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.blocks.iter_mut().flat_map(|block| Rc::make_mut(block).iter_mut())
     }
 
     /// Returns the entry in row `i` and column `j`, from 0, if there is one.
     pub fn get(&self, i: usize, j: usize) -> Option<&T> {
-        (i < self.rows && j < self.cols).then(|| &self.entries[i * self.cols + j])
+        (i < self.rows && j < self.cols).then(|| self.at(i, j))
+    }
+
+    /// Returns the entry in row `i` and column `j`, from 0, which is there.
+    pub fn at(&self, i: usize, j: usize) -> &T {
+        let k = i * self.cols + j;
+        &self.blocks[k / BLOCK][k % BLOCK]
     }
 
     /// Writes an entry that [`Grid::get`] finds, and returns the old one.
     pub fn set(&mut self, i: usize, j: usize, value: T) -> T {
-        std::mem::replace(&mut self.entries[i * self.cols + j], value)
+        let k = i * self.cols + j;
+        std::mem::replace(&mut Rc::make_mut(&mut self.blocks[k / BLOCK])[k % BLOCK], value)
     }
 
     /// Returns how many entries [`Grid::grow`] would add.
@@ -91,16 +107,23 @@ impl<T: Clone + Default> Grid<T> {
             return 0;
         }
         let (rows, cols) = (self.rows.max(i.saturating_add(1)), self.cols.max(j.saturating_add(1)));
-        rows.saturating_mul(cols) - self.entries.len()
+        rows.saturating_mul(cols) - self.count()
     }
 
     /// Makes room for row `i` and column `j`, from 0; new entries are 0.
     pub fn grow(&mut self, i: usize, j: usize) {
         let (rows, cols) = (self.rows.max(i + 1), self.cols.max(j + 1));
         if cols != self.cols {
-            self.widen(cols);
+            let entry = |i, j| self.get(i, j).cloned().unwrap_or_default();
+            *self = Grid::from_fn(self.rows, cols, entry);
         }
-        self.entries.resize(rows * cols, T::default());
+        let mut missing = (rows - self.rows) * cols;
+        if let Some(last) = self.blocks.last_mut().filter(|last| last.len() < BLOCK) {
+            let more = missing.min(BLOCK - last.len());
+            Rc::make_mut(last).extend(vec![T::default(); more]);
+            missing -= more;
+        }
+        self.blocks.extend(blocks(vec![T::default(); missing]));
         self.rows = rows;
     }
 
@@ -111,16 +134,14 @@ impl<T: Clone + Default> Grid<T> {
 
     /// Returns the array with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
-        Grid::from_fn(self.cols, self.rows, |i, j| self.entries[j * self.cols + i].clone())
+        Grid::from_fn(self.cols, self.rows, |i, j| self.at(j, i).clone())
     }
+}
 
-    fn widen(&mut self, cols: usize) {
-        let old = std::mem::take(&mut self.entries);
-        self.entries = vec![T::default(); self.rows * cols];
-        for (i, row) in old.chunks_exact(self.cols.max(1)).enumerate() {
-            self.entries[i * cols..i * cols + self.cols].clone_from_slice(row);
-        }
-        self.cols = cols;
+fn blocks<T: Clone>(entries: Vec<T>) -> Vec<Rc<Vec<T>>> {
+    match entries.len() {
+        1..=BLOCK => vec![Rc::new(entries)],
+        _ => entries.chunks(BLOCK).map(|block| Rc::new(block.to_vec())).collect(),
     }
 }
 
@@ -136,8 +157,8 @@ pub struct Nested {
 impl Nested {
     /// Makes an array of a grid of values.
     pub fn new(grid: Grid<Value>) -> Self {
-        let count = grid.entries.iter().map(Value::count).sum();
-        let depth = 1 + grid.entries.iter().map(Value::depth).max().unwrap_or(0);
+        let count = grid.entries().map(Value::count).sum();
+        let depth = 1 + grid.entries().map(Value::depth).max().unwrap_or(0);
         Nested { grid, count, depth }
     }
 
@@ -175,7 +196,7 @@ impl Value {
     pub fn count(&self) -> usize {
         match self {
             Value::Number(_) => 1,
-            Value::Array(a) => a.entries.len(),
+            Value::Array(a) => a.count(),
             Value::Nested(v) => v.count,
             Value::Text(t) => t.len() / size_of::<f64>() + 1,
         }
@@ -228,8 +249,8 @@ impl Value {
 
     /// Makes an array of entries: of numbers, if all are numbers.
     pub fn grid(grid: Grid<Value>) -> Self {
-        match grid.entries.iter().map(Value::number).collect() {
-            Some(entries) => Array { rows: grid.rows, cols: grid.cols, entries }.into(),
+        match grid.entries().map(Value::number).collect() {
+            Some(entries) => Array { rows: grid.rows, cols: grid.cols, blocks: blocks(entries) }.into(),
             None => Value::Nested(Rc::new(Nested::new(grid))),
         }
     }
@@ -242,8 +263,8 @@ impl fmt::Display for Value {
             Value::Text(t) => f.write_str(t),
             Value::Nested(_) => f.write_str(&self.kind()),
             Value::Array(a) => {
-                for (i, row) in a.entries.chunks(a.cols.max(1)).enumerate() {
-                    let row: Vec<_> = row.iter().map(f64::to_string).collect();
+                for i in 0..a.rows {
+                    let row: Vec<_> = (0..a.cols).map(|j| a.at(i, j).to_string()).collect();
                     write!(f, "{}{}", if i == 0 { "" } else { "; " }, row.join(" "))?;
                 }
                 Ok(())
@@ -308,7 +329,7 @@ impl<T: Scalar> TryFrom<&Value> for Table<T> {
         let Value::Array(a) = value else {
             return Err(Cause::Kind { expected: "an array", found: value.kind() });
         };
-        Ok(Table::from_fn(a.rows, a.cols, |i, j| T::from_f64(a.entries[(i - 1) * a.cols + j - 1])))
+        Ok(Table::from_fn(a.rows, a.cols, |i, j| T::from_f64(*a.at(i - 1, j - 1))))
     }
 }
 
@@ -317,7 +338,7 @@ impl<T: Scalar> TryFrom<&Value> for Column<T> {
     fn try_from(value: &Value) -> Result<Self, Cause> {
         match value {
             Value::Array(a) if a.cols == 1 => {
-                Ok(Column::from_vec(a.entries.iter().map(|&x| T::from_f64(x)).collect()))
+                Ok(Column::from_vec(a.entries().map(|&x| T::from_f64(x)).collect()))
             }
             _ => Err(Cause::Kind { expected: "a column", found: value.kind() }),
         }

@@ -307,7 +307,7 @@ impl Execution<'_> {
         };
         match self.run(&[format!("  {numbers}")], inputs) {
             Outcome::Value(Value::Array(numbers)) => {
-                let numbers = match *numbers.entries() {
+                let numbers = match *numbers.entries().copied().collect::<Vec<_>>() {
                     [from, second, to] => (from, Some(second), to),
                     ref ends => (ends[0], None, ends[1]),
                 };
@@ -523,9 +523,9 @@ fn unordered(value: &Value) -> Value {
         column.into_iter().map(|x| sign * x).collect::<Vec<_>>()
     };
     let mut columns: Vec<Vec<f64>> = match cols {
-        1 => array.entries().iter().map(|x| vec![*x]).collect(),
+        1 => array.entries().map(|x| vec![*x]).collect(),
         _ => (0..cols)
-            .map(|j| signed((0..rows).map(|i| array.entries()[i * cols + j]).collect()))
+            .map(|j| signed((0..rows).map(|i| *array.at(i, j)).collect()))
             .collect(),
     };
     columns.sort_by(|a, b| {

@@ -16,7 +16,7 @@ fn numbers(json: &Json, found: &mut Vec<f64>) {
 fn flat(value: &Value) -> Vec<f64> {
     match value {
         Value::Number(x) => vec![*x],
-        Value::Array(a) => a.entries().to_vec(),
+        Value::Array(a) => a.entries().copied().collect(),
         other => panic!("{} is no array of numbers", other.kind()),
     }
 }

@@ -16,7 +16,7 @@ fn what_is_missing_is_what_growing_adds() {
         assert_eq!(missing, rows * cols - 6, "{i}, {j}");
         array.grow(i, j);
         assert_eq!((array.rows(), array.cols()), (rows, cols));
-        assert_eq!(array.entries().len(), 6 + missing);
+        assert_eq!(array.entries().count(), 6 + missing);
         assert_eq!(array.get(2, 1), Some(&6.0), "the entries keep their places");
     }
 }

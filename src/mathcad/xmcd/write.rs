@@ -51,7 +51,7 @@ pub fn id(name: &str) -> Element {
 pub fn matrix(array: &Array) -> Element {
     let (rows, cols) = (array.rows(), array.cols());
     let places = (0..cols).flat_map(|j| (0..rows).map(move |i| (i, j)));
-    let entries = places.map(|(i, j)| real(array.entries()[i * cols + j]));
+    let entries = places.map(|(i, j)| real(*array.at(i, j)));
     Element::new("ml:matrix")
         .set("rows", rows.to_string())
         .set("cols", cols.to_string())

@@ -216,12 +216,11 @@ fn literal(value: &Value) -> String {
     match value {
         Value::Number(x) => number(*x),
         Value::Array(a) => {
-            let rows = a.entries().chunks(a.cols().max(1));
-            let row = |row: &[f64]| row.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
-            format!("[ ...\n    {}]", rows.map(row).collect::<Vec<_>>().join("; ...\n    "))
+            let row = |i| (0..a.cols()).map(|j| number(*a.at(i, j))).collect::<Vec<_>>().join(", ");
+            format!("[ ...\n    {}]", (0..a.rows()).map(row).collect::<Vec<_>>().join("; ...\n    "))
         }
         Value::Nested(v) => {
-            let entries: Vec<_> = v.grid().entries().iter().map(literal).collect();
+            let entries: Vec<_> = v.grid().entries().map(literal).collect();
             format!("{{ ...\n    {}}}", entries.join("; ...\n    "))
         }
         Value::Text(_) => unreachable!("no table is a string"),
