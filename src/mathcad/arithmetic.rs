@@ -164,8 +164,7 @@ fn zip(
 fn product(a: &Array, b: &Array) -> Result<Value, Cause> {
     let column = |a: &Array| a.cols() == 1 && a.rows() > 1;
     if column(a) && column(b) && a.rows() == b.rows() {
-        return finite(sum(a.entries().zip(b.entries()).map(|(x, y)| x * y)))
-            .map(Value::Number);
+        return finite(sum(a.entries().zip(b.entries()).map(|(x, y)| x * y))).map(Value::Number);
     }
     if a.cols() != b.rows() {
         return Err(Cause::sizes("·", a.size(), b.size()));

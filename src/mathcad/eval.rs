@@ -9,6 +9,7 @@ use super::function::{Builtin, FUNCTION, Function, Meaning, each, real};
 use super::matrices;
 use super::observe::Observer;
 use super::settings::Conjunction;
+use super::sheet::Sheet;
 use super::sheet::{Defined, Numbers};
 use super::state::{Outcome, Run, Variable};
 use super::syntax::{
@@ -89,11 +90,16 @@ impl<O: Observer> Run<'_, '_, O> {
     /// Executes the program, its first statements once where they read no argument.
     fn program(&mut self) -> Fallible<Flow> {
         let (first, rest) = self.listing.program.split_at(self.listing.unchanging);
-        if self.limits.steps < u64::MAX || first.is_empty() {
+        let (Some(begun), u64::MAX, false) = (self.begun, self.limits.steps, first.is_empty())
+        else {
             return self.block(&self.listing.program);
-        }
-        let listing = std::ptr::from_ref(self.listing);
-        let known = self.begun.borrow().get(&listing).cloned();
+        };
+        let lines = rest.first().map_or(self.listing.lines.len(), |statement| statement.line);
+        let mut key = format!("{:?}\n", self.settings);
+        self.listing.lines[..lines].iter().for_each(|line| key += &format!("{line}\n"));
+        let names = self.listing.names_of(first);
+        self.sheet.into_iter().for_each(|sheet| sheet.write_programs(&names, &mut key));
+        let known = begun.borrow().get(&key).cloned();
         if let Some((values, last)) = known {
             for (slot, value) in values {
                 self.store(slot, value)?;
@@ -107,8 +113,8 @@ impl<O: Observer> Run<'_, '_, O> {
             if self.trace.is_empty() {
                 let cells = self.cells.iter().enumerate().filter(|(_, cell)| cell.local);
                 let written = cells.filter_map(|(slot, cell)| Some((slot, cell.value.clone()?)));
-                let begun = (written.collect(), self.last.clone());
-                self.begun.borrow_mut().insert(listing, begun);
+                let values = (written.collect(), self.last.clone());
+                begun.borrow_mut().insert(key, values);
             }
         }
         self.block(rest)
@@ -829,7 +835,7 @@ impl<O: Observer> Run<'_, '_, O> {
             observer: &mut (),
             line: 0,
             spent: self.spent,
-            begun: self.begun,
+            begun: sheet.map(Sheet::begun),
             stored: self.stored,
             depth,
             last: None,

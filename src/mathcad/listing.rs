@@ -181,11 +181,19 @@ impl Listing {
     /// Returns the names that the program takes from its worksheet: those that it reads or calls,
     /// and neither receives nor writes to.
     pub fn free_names(&self) -> Vec<&str> {
+        let is_own = |name: &&str| {
+            let slot = self.names.find(name).expect("it is one of its names");
+            self.assigned[slot] || self.parameters.contains(&slot)
+        };
+        self.names_of(&self.program).into_iter().filter(|name| !is_own(name)).collect()
+    }
+
+    /// Returns the names that some of its statements read or call.
+    pub(super) fn names_of(&self, block: &[Statement]) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
-        uses(&self.program, &mut used);
-        self.parameters.iter().for_each(|slot| used[*slot] = false);
-        let free = (0..self.names.len()).filter(|slot| used[*slot] && !self.assigned[*slot]);
-        free.map(|slot| self.names.name(slot)).collect()
+        uses(block, &mut used);
+        let used = used.iter().enumerate().filter(|(_, used)| **used);
+        used.map(|(slot, _)| self.names.name(slot)).collect()
     }
 
     /// Returns the lines, those that start with `#` left out.

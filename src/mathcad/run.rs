@@ -9,7 +9,7 @@ use super::listing::Listing;
 use super::observe::Observer;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::state::{Begun, Outcome, Run, Variable};
+use super::state::{Outcome, Run, Variable};
 use super::value::Value;
 
 /// Returns the value of an expression, or of the lines of a program, under the default settings.
@@ -129,7 +129,7 @@ impl<'l> Runner<'l> {
             observer: &mut *observer,
             line: 0,
             spent,
-            begun: &Begun::default(),
+            begun: None,
             stored: 0,
             depth: listing.depth,
             last: None,

@@ -23,12 +23,12 @@ pub struct Variable {
     pub local: bool,
 }
 
-/// What the programs called in a run have after their first statements that read no argument: the names that
-/// these write to, with their values, and the value of the last statement; by the listing.
+/// What programs called in a worksheet have after their first statements that read no argument: the names that
+/// these write to, with their values, and the value of the last statement; by what the statements say.
 ///
-/// Kept where steps are not counted. The corrected algorithm assembles the stiffness of the bodies once a run, not
-/// once an iteration: `audit strand --prices` takes a third of the time.
-pub type Begun = RefCell<HashMap<*const Listing, (Vec<(Slot, Value)>, Option<Value>)>>;
+/// Kept where steps are not counted. The corrected algorithm assembles the stiffness of the bodies once for a mesh,
+/// not once an iteration of each fault: `audit strand --prices` takes a fifth of the time.
+pub type Begun = RefCell<HashMap<String, (Vec<(Slot, Value)>, Option<Value>)>>;
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
@@ -54,8 +54,8 @@ pub struct Run<'r, 'l, O> {
     pub line: usize,
     /// The steps taken, those of the functions that were called too; `limits.steps` bounds them.
     pub spent: &'r Cell<u64>,
-    /// What programs that were called before begin with.
-    pub begun: &'r Begun,
+    /// What programs that were called before begin with; nothing for a program that none called.
+    pub begun: Option<&'r Begun>,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
     /// How deep blocks and expressions stand within each other, the calls that led here included;
@@ -223,9 +223,8 @@ impl<'r, O: Observer> Run<'r, '_, O> {
     fn write_nested(&mut self, slot: Slot, i: usize, j: usize, value: Value) {
         let cell = &mut self.cells[slot].value;
         if let Some(Value::Array(array)) = cell {
-            let grid = Grid::from_fn(array.rows(), array.cols(), |i, j| {
-                Value::Number(*array.at(i, j))
-            });
+            let grid =
+                Grid::from_fn(array.rows(), array.cols(), |i, j| Value::Number(*array.at(i, j)));
             *cell = Some(Value::Nested(Rc::new(Nested::new(grid))));
         }
         if let Some(Value::Nested(nested)) = cell {

@@ -250,7 +250,9 @@ impl Value {
     /// Makes an array of entries: of numbers, if all are numbers.
     pub fn grid(grid: Grid<Value>) -> Self {
         match grid.entries().map(Value::number).collect() {
-            Some(entries) => Array { rows: grid.rows, cols: grid.cols, blocks: blocks(entries) }.into(),
+            Some(entries) => {
+                Array { rows: grid.rows, cols: grid.cols, blocks: blocks(entries) }.into()
+            }
             None => Value::Nested(Rc::new(Nested::new(grid))),
         }
     }

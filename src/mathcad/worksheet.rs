@@ -524,9 +524,7 @@ fn unordered(value: &Value) -> Value {
     };
     let mut columns: Vec<Vec<f64>> = match cols {
         1 => array.entries().map(|x| vec![*x]).collect(),
-        _ => (0..cols)
-            .map(|j| signed((0..rows).map(|i| *array.at(i, j)).collect()))
-            .collect(),
+        _ => (0..cols).map(|j| signed((0..rows).map(|i| *array.at(i, j)).collect())).collect(),
     };
     columns.sort_by(|a, b| {
         let orders = a.iter().zip(b).map(|(x, y)| x.total_cmp(y));

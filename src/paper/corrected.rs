@@ -170,23 +170,64 @@ pub fn check(model: &Model) -> Result<(), InputError> {
     }
 }
 
-/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model.
-///
-/// `edits` change the programs, in the format of `listings/readings/README.md`, the last of them first:
-/// none for the texts of record.
+/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model: [`Worksheet::iterate`].
 ///
 /// # Errors
-/// A program fails: the matrix is singular where contact and restraints leave a body free to move.
+/// A program fails.
 pub fn iterate(
     model: &Model,
     bound: Bound,
     edits: &[&str],
     steps: usize,
 ) -> Result<Ending, Box<Failure>> {
-    let sheet = sheet(model, bound, edits);
-    let main = program(Program::Iterate, edits);
+    Worksheet::new(model, bound).iterate(edits, steps)
+}
+
+/// A model as the programs read it. What they find before their first iteration is kept for the next run.
+pub struct Worksheet<'m> {
+    model: &'m Model,
+    sheet: Sheet,
+}
+
+impl<'m> Worksheet<'m> {
+    /// Makes the worksheet above the programs: the scene's tables, its load, and D.
+    pub fn new(model: &'m Model, bound: Bound) -> Self {
+        let mut sheet = Sheet::default();
+        for (name, value) in tables(&door::worksheet(model, |x| x)) {
+            sheet.define(name, value);
+        }
+        let load = model.load_in(|x| x);
+        sheet.define("F", Array::column(load.iter().copied().collect()));
+        sheet.define("both", bound.both());
+        let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
+        sheet.define_program(Rc::new(d));
+        Worksheet { model, sheet }
+    }
+
+    /// Executes the iterations, at most `steps`, on the initial shape and the whole load.
+    ///
+    /// `edits` change the programs, in the format of `listings/readings/README.md`, the last of them first:
+    /// none for the texts of record.
+    ///
+    /// # Errors
+    /// A program fails: the matrix is singular where contact and restraints leave a body free to move.
+    pub fn iterate(&self, edits: &[&str], steps: usize) -> Result<Ending, Box<Failure>> {
+        let mut sheet = self.sheet.clone();
+        for other in Program::ALL.iter().filter(|other| **other != Program::Iterate) {
+            sheet.define_program(Rc::new(program(*other, edits)));
+        }
+        ending(self.model, &sheet, &program(Program::Iterate, edits), steps)
+    }
+}
+
+fn ending(
+    model: &Model,
+    sheet: &Sheet,
+    main: &Listing,
+    steps: usize,
+) -> Result<Ending, Box<Failure>> {
     let limits = Limits { steps: u64::MAX, entries: 1 << 28, ..Limits::default() };
-    let mut runner = main.runner_in(&sheet, &Settings::default(), &limits);
+    let mut runner = main.runner_in(sheet, &Settings::default(), &limits);
     let outcome = runner.call(&[Value::from(steps)])?;
     let local = |name: &str| &outcome.locals[name];
     let column = |value| Column::<f64>::try_from(value).expect("a column");
@@ -207,23 +248,6 @@ pub fn iterate(
         is_settled: period == Some(1) && u.iter().all(|x| x.abs() < size),
         u,
     })
-}
-
-/// Returns the worksheet above `iterate`: the scene's tables, its load, and the other programs.
-fn sheet(model: &Model, bound: Bound, edits: &[&str]) -> Sheet {
-    let mut sheet = Sheet::default();
-    for (name, value) in tables(&door::worksheet(model, |x| x)) {
-        sheet.define(name, value);
-    }
-    let load = model.load_in(|x| x);
-    sheet.define("F", Array::column(load.iter().copied().collect()));
-    sheet.define("both", bound.both());
-    let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
-    let others = Program::ALL.iter().filter(|other| **other != Program::Iterate);
-    for listing in others.map(|other| program(*other, edits)).chain([d]) {
-        sheet.define_program(Rc::new(listing));
-    }
-    sheet
 }
 
 /// Returns a program with what concerns it of the edits.

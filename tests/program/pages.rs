@@ -134,10 +134,10 @@ fn accessed(named: &Named) -> Value {
     let value = match &named.value {
         mathcad::Value::Number(x) => json!(x),
         mathcad::Value::Array(a) if a.rows() * a.cols() > 36 => json!(named.value.kind()),
-        mathcad::Value::Array(a) if a.cols() == 1 => json!(a.entries()),
-        mathcad::Value::Array(a) => {
-            a.entries().chunks(a.cols().max(1)).map(|row| json!(row)).collect()
-        }
+        mathcad::Value::Array(a) if a.cols() == 1 => json!(a.entries().collect::<Vec<_>>()),
+        mathcad::Value::Array(a) => (0..a.rows())
+            .map(|i| (0..a.cols()).map(|j| json!(a.at(i, j))).collect::<Value>())
+            .collect(),
         other => json!(other.kind()),
     };
     json!({ "name": name, "value": value })

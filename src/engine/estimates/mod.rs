@@ -22,7 +22,9 @@ pub use arithmetic::{Certainty, certain};
 use discretisation::Discretisation;
 use numbers::finite;
 use numbers::largest::{is_as_large, largest};
-pub use perturbed::{ContactChange, Perturbed, equivalent, moves, perturbed, perturbed_requests};
+pub use perturbed::{
+    ContactChange, Perturbed, RUNS, equivalent, moves, perturbed, perturbed_requests,
+};
 use problem::model::{Body, NodeId};
 pub use singular::{Cause, Singular, singular};
 

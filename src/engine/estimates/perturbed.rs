@@ -25,7 +25,7 @@ use numbers::finite;
 use problem::model::{Force, Model, NodeId};
 
 /// The number of runs.
-const RUNS: u64 = 3;
+pub const RUNS: usize = 3;
 
 /// The largest change, in units of the last digit.
 const ULPS: i32 = 2;
@@ -73,7 +73,7 @@ pub struct ContactChange {
 pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
     solution.last().unilateral()?;
     let mut found = Perturbed {
-        runs: RUNS,
+        runs: RUNS as u64,
         other_steps: 0,
         failures: Vec::new(),
         contact: None,
@@ -92,7 +92,7 @@ pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
 /// Returns requests that mean the same: coordinates, loads and moduli differ in their last digits, and in two
 /// of them the load by a billionth, less and more.
 pub fn equivalent(request: &Request) -> impl Iterator<Item = Request> {
-    let factors = [1.0 - LOAD, 1.0 + LOAD, 1.0];
+    let factors: [f64; RUNS] = [1.0 - LOAD, 1.0 + LOAD, 1.0];
     (0..).zip(factors).map(|(seed, factor)| changed(request, seed, factor))
 }
 
@@ -149,7 +149,7 @@ fn ends(solution: &Solution) -> Vec<(f64, &[Status])> {
 
 /// Returns the requests of the runs with changed inputs.
 pub fn perturbed_requests(request: &Request) -> impl Iterator<Item = Request> {
-    (0..RUNS).map(|seed| changed(request, seed, 1.0))
+    (0..RUNS as u64).map(|seed| changed(request, seed, 1.0))
 }
 
 /// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.

@@ -226,6 +226,46 @@ fn first_statements_that_read_no_argument() {
     }
 }
 
+/// Worksheets that were one share what first statements come to until a value changes, or what the statements say or
+/// call.
+#[test]
+fn first_statements_are_shared_where_they_mean_the_same() {
+    let program = |text: &str| Rc::new(Listing::parse("p", text).unwrap());
+    let mut first = Sheet::default();
+    first.define("w", 1.0).define_program(program("h(y) :=\n  y + w"));
+    first.define_program(program("f(x) :=\n  a ← h(1)\n  a·x"));
+    let run = |sheet: &Sheet, origin| {
+        let main = Listing::parse("g", "g() :=\n  f(3)").unwrap();
+        let limits = Limits { steps: u64::MAX, ..Limits::default() };
+        let settings = Settings { origin, ..Settings::default() };
+        main.runner_in(sheet, &settings, &limits).call(&[]).unwrap().value
+    };
+    let changed = |change: &dyn Fn(&mut Sheet)| {
+        let mut sheet = first.clone();
+        change(&mut sheet);
+        run(&sheet, 1)
+    };
+    assert_eq!((run(&first, 1), run(&first, 1)), (6.0.into(), 6.0.into()));
+    let first_says = |text| {
+        changed(&|sheet| {
+            sheet.define_program(program(text));
+        })
+    };
+    assert_eq!(first_says("f(x) :=\n  a ← h(1)\n  a + x"), 5.0.into(), "the rest may differ");
+    assert_eq!(first_says("f(x) :=\n  a ← h(2)\n  a·x"), 9.0.into(), "the statements");
+    assert_eq!(first_says("h(y) :=\n  y − w"), 0.0.into(), "what they call");
+    let doubled = |sheet: &mut Sheet| {
+        sheet.define("w", 2.0);
+    };
+    assert_eq!(changed(&doubled), 9.0.into(), "a value");
+    let column = "f(x) :=\n  a ← last((7; 8))\n  a·x";
+    let by_origin = |origin| {
+        let mut sheet = first.clone();
+        run(sheet.define_program(program(column)), origin)
+    };
+    assert_eq!((by_origin(1), by_origin(0)), (6.0.into(), 3.0.into()), "ORIGIN");
+}
+
 /// Arrays within arrays, one deeper each turn.
 #[test]
 fn arrays_nest_less_deep_than_the_limit() {

@@ -217,7 +217,10 @@ fn literal(value: &Value) -> String {
         Value::Number(x) => number(*x),
         Value::Array(a) => {
             let row = |i| (0..a.cols()).map(|j| number(*a.at(i, j))).collect::<Vec<_>>().join(", ");
-            format!("[ ...\n    {}]", (0..a.rows()).map(row).collect::<Vec<_>>().join("; ...\n    "))
+            format!(
+                "[ ...\n    {}]",
+                (0..a.rows()).map(row).collect::<Vec<_>>().join("; ...\n    ")
+            )
         }
         Value::Nested(v) => {
             let entries: Vec<_> = v.grid().entries().map(literal).collect();

@@ -91,7 +91,7 @@ pub struct Compared {
     pub rounding: Option<Perturbed>,
 }
 
-/// The number of times that [`audit`] calls its `watch`.
+/// The number of times that [`audit`] calls its `watch` at most.
 pub fn steps() -> usize {
     FINDINGS.len() + prices::runs() + 5
 }
