@@ -85,6 +85,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "messages": messages().map(|(english, russian)| (english, json!(russian))).collect::<Value>(),
     });
     let script = [
+        include_str!("page/frame/interpreter.js"),
         include_str!("page/steps/machine.js"),
         include_str!("page/editor/checks.js"),
         include_str!("page/editor/kept.js"),

@@ -13,7 +13,7 @@ function withReversed(own, turned) {
 
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
-  own; triangles; contact; edges; target; restrained; bodies;
+  own; triangles; contact; edges; target; restrained; bodies; side;
   constructor(given, units, moved = new Map(), turned = new Set()) {
     const own = withReversed(given, turned);
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
@@ -25,6 +25,10 @@ class Mesh {
     this.figure = new Map(figure);
     this.edge = new Map(edges);
     this.length = units.length;
+    const heightOf = (nodes) => nodes.reduce((sum, n) => sum + this.at(n)[1], 0) / nodes.length;
+    const ofTarget = triangles.filter(([, body]) => body === target).flatMap(([nodes]) => nodes);
+    // Which way the stamp lies from the target: 1 above it, -1 below.
+    this.side = edges.length && heightOf(ofTarget) > heightOf(edges.flatMap(([, ends]) => ends)) ? -1 : 1;
   }
 
   /** A node's name in the manner of the paper's fig. 1, and its number. */
@@ -53,7 +57,7 @@ function contactNodes(mesh, pairs) {
     const yt = of("yt");
     // The corrected yt is positive apart, and along the normal n.
     const normal = [1, 2].map((j) => number(pairs.get(`n[${k + 1},${j}]`)));
-    const [height, toTarget] = normal.includes(undefined) ? [-yt, [0, yt]] : [yt, normal.map((x) => -x * yt)];
+    const [height, toTarget] = normal.includes(undefined) ? [-yt, [0, yt]] : [mesh.side * yt, normal.map((x) => -x * yt)];
     return { node, place: k + 1, ct: of("ct"), yt, dy: of("dy"), row, height, toTarget };
   });
 }
@@ -282,7 +286,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];
   const band = Math.max(tolerance * sx * factor, 1);
   context.fillStyle = colour("target");
-  context.fillRect(0, height / 2, width, height / 2);
+  context.fillRect(0, mesh.side > 0 ? height / 2 : 0, width, height / 2);
   context.globalAlpha = 0.28;
   context.fillStyle = colour("band");
   context.fillRect(0, height / 2 - band, width, 2 * band);
@@ -298,7 +302,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
   say("gaps-caption", known.length
-    ? [...scale, run().programs ? t("Above the line, apart: yt > 0; below it, inside the target: yt < 0.") : t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
+    ? [...scale, t("The target's side is tinted."), run().programs ? t("Apart: yt > 0; inside the target: yt < 0.") : t("Above the line: yt < 0; below it: yt > 0.")].join(" ")
     : t("No gap is known yet."));
   canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }

@@ -2,7 +2,7 @@
 
 /** The steps of the tour: what is looked at, and what is said of it. */
 const tourSteps = () => [
-  ["#pictures", t("The stamp stands above the target, heights magnified. The green band is c_tll wide. Which nodes touch?")],
+  ["#pictures", t("The stamp stands above the target, heights magnified. The green band reaches c_tll above and below each edge. Which nodes touch?")],
   ["#listing-box", t("c_cnt answers line by line, as the paper prints it. The key → makes a step, ← takes it back, N runs to the next node.")],
   ["#values", t("What the lines write stands here: ct, yt, dy, k_cnt. Pointer or focus on a value says what its array is.")],
   ["#tolerance", t("Change something: move c_tll, drag a node, choose a reading, edit the listing. Everything follows at once.")],
@@ -45,7 +45,7 @@ function putBeside(box, { left, right, top, bottom }) {
 function meaningOf(name) {
   const turn = t("the turn of a loop");
   const ofCorrected = run().programs && {
-    yt: t("the distance of each contact node from its target edge, along the normal"),
+    yt: t("the distance of each contact node from its target edge, along the normal: positive apart, as a gap is; the print has it the other way round"),
     gt: t("that distance in the initial shape"),
     kt: t("where on its edge the node has its nearest point: 0 at the first end, 1 at the second"),
     k_cnt: t("of each node the two nodes of its target edge with their weights, the normal, and the gap"),
@@ -58,7 +58,7 @@ function meaningOf(name) {
   };
   return {
     ct: t("the number of each contact node's target edge, 0 for none"),
-    yt: t("the vertical distance of each contact node from its target line"),
+    yt: t("the height of the target's line over each contact node: negative where the node lies above the line"),
     dy: t("1 for a contact node in contact, else 0"),
     k_cnt: t("of each node its master node, weight, master node, weight"),
     ntx: t("the ends of the search box along x: the edge's nodes, with c_tll"),
