@@ -159,7 +159,7 @@ function watchEditor() {
     const isOpen = !byId("editor").hidden;
     clearTimeout(timer);
     if (isOpen) readText();
-    if (isOpen && page.isStale) return document.querySelector("#text-error button").click();
+    if (isOpen && page.isStale) return byId("text-error").querySelector("button").click();
     showEditor(!isOpen);
   });
   const chosen = (change) => {

@@ -123,7 +123,7 @@ function drawShape(mesh, { steps, at }) {
   const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
   const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
   const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
-  const { to } = view([...points, ...corners], width, height, 26, false);
+  const { to } = viewOf([...points, ...corners], width, height, 26, false);
   const drawn = (at, isInitial) => {
     const colours = (nodes, body) => (isInitial ? { stroke: colour("rule") } : { stroke: colour(body === mesh.target ? "target-ink" : "stamp-ink"), fill: nodes.length > 2 && colour(body === mesh.target ? "target" : "stamp") });
     const parts = chapter().recorded?.rim.map((nodes) => [nodes]) ?? mesh.triangles;

@@ -63,7 +63,7 @@ function contactNodes(mesh, pairs) {
 }
 
 /** A view: where a point of the scene is drawn, in pixels. */
-function view(points, width, height, margin, magnify) {
+function viewOf(points, width, height, margin, magnify) {
   const [xs, ys] = [0, 1].map((j) => points.map((p) => p[j]));
   const range = (values) => [Math.min(...values), Math.max(...values)];
   const [[left, right], [low, high]] = [range(xs), range(ys)];
@@ -197,7 +197,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const ends = zone.edges.flatMap(([, ends]) => ends).map(mesh.at);
   const points = [...zone.nodes.map(mesh.at), ...ends.flatMap(([x, y]) => [[x, y - tolerance], [x, y + tolerance]])];
   // While a node is dragged the view stays.
-  page.view = page.dragged ? page.view : view(points, width, height, 42, true);
+  page.view = page.dragged ? page.view : viewOf(points, width, height, 42, true);
   const { to, factor, sy } = page.view;
   drawBodies(context, mesh, to);
   const placed = [];
@@ -312,7 +312,7 @@ function drawWhole(mesh, pairs, element, linked) {
   const canvas = byId("whole");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
   const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
-  const { to } = view(points, width, height, 26, false);
+  const { to } = viewOf(points, width, height, 26, false);
   drawBodies(context, mesh, to, element);
   const numbered = mesh.count <= 60;
   mesh.triangles.forEach(([nodes], k) => {

@@ -62,10 +62,8 @@ function showChanges(run, programs) {
 /** Where a finding stands in the listings. */
 const placeOf = ({ listing, lines }) => (lines.length ? `${listing} ${lines.join(", ")}` : t("around the listings"));
 
-const isLoaded = ({ load }) => load.some((f) => f !== 0);
-
 /** What to try in a chapter, each a button. */
-function trials({ lines, listing, edit }, { contact, ...mesh }) {
+function trials({ lines, listing, edit }, { contact, load }) {
   const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
   const [line] = lines;
   const runToLine = () => {
@@ -76,13 +74,14 @@ function trials({ lines, listing, edit }, { contact, ...mesh }) {
     choose({ run, which: "iterations" });
     play(true);
   };
-  const isPlayed = contact.length > 0 && isLoaded(mesh);
+  const isStill = load.every((f) => f === 0);
+  const isPlayed = contact.length > 0 && !isStill;
   return [
     ...trial(lines.length, t("run to line {line}", { line }), runToLine),
     ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
     ...trial(isPlayed, t("play the iterations"), playIterations(0)),
     ...trial(isPlayed && !edit.none, t("play them repaired"), playIterations(1)),
-    ...(contact.length && !isLoaded(mesh) ? [t("No load acts on this scene: nothing moves in its iterations.")] : []),
+    ...(contact.length && isStill ? [t("No load acts on this scene: nothing moves in its iterations.")] : []),
   ];
 }
 
