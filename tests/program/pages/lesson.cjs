@@ -721,14 +721,14 @@ async function printed(browser) {
     const isCut = (element) => getComputedStyle(element).overflowY !== "visible" && element.scrollHeight > element.clientHeight + 1;
     const parts = [...document.querySelectorAll("main > *, .columns > *, .way > *, .played > *")].map((element) => element.getBoundingClientRect());
     const own = (element) => element.id || element.outerHTML.slice(0, 60);
-    const deepest = Math.max(...[...document.querySelectorAll("#finding *")].map((element) => element.getBoundingClientRect().bottom));
+    const deepest = Math.max(...[...document.querySelectorAll("#finding *")].filter((element) => element.checkVisibility()).map((element) => element.getBoundingClientRect().bottom));
     const matrix = document.getElementById("mjs");
     return {
       cut: seen.filter(isCut).map(own),
       wide: [...document.querySelectorAll("table, canvas")].filter((element) => element.getBoundingClientRect().right > innerWidth).map(own),
       empty: parts.filter(({ width, height }) => (width > 0) !== (height > 0)).length,
       covers: deepest > document.getElementById("finding").getBoundingClientRect().bottom + 1,
-      isSquare: Math.abs(matrix.clientWidth - matrix.clientHeight) <= 1 && matrix.width === matrix.height,
+      isSquare: Math.abs(matrix.clientWidth - matrix.clientHeight) <= 1 && (!matrix.clientWidth || matrix.width === matrix.height),
     };
   });
   for (const address of ["fig1&step=9999", "K1&listing=Km&step=9999", "K5&listing=iterations&variant=tied&step=20", "repairs&run=after+3"]) {

@@ -166,13 +166,13 @@ function drawErrors({ errors, at }) {
 /** Draws errors side by side by powers of ten, each over its name, that at `at` marked; returns whether there are any. */
 function drawCurve(canvas, errors, at, names) {
   const known = errors.filter((error) => error > 0 && Number.isFinite(error)).map(Math.log10);
-  canvas.hidden = known.length === 0;
+  canvas.hidden = known.length === 0 && !errors.includes(0);
   if (canvas.hidden) return false;
   const { context, width, height } = prepared(canvas, 150);
   // No error stands at the foot of the axis, as far below the least as a power of ten.
-  const least = Math.floor(Math.min(...known));
+  const least = Math.floor(Math.min(...known, 0));
   const low = errors.includes(0) ? least - 1 : least;
-  const high = Math.max(Math.ceil(Math.max(...known)), low + 1);
+  const high = Math.max(Math.ceil(Math.max(...known, least)), low + 1);
   const to = (k, power) => [64 + (k / Math.max(1, errors.length - 1)) * (width - 84), 14 + ((high - power) / (high - low)) * (height - 42)];
   for (let power = low; power <= high; power += Math.ceil((high - low) / 4)) {
     path(context, [to(0, power), to(errors.length - 1, power)], { stroke: colour("rule") });
