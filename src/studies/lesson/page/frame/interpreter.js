@@ -3,7 +3,7 @@
 /** The sentences of the interpreter and their parts, the more special before the general. */
 const SENTENCES = ((t) => [
   t("{listing}, line {line}: {cause} In `{text}`, column {column} of `{statement}`."),
-  t("{listing}, line {line}: This array index is invalid for this array. {values}"),
+  t("{listing}, line {line}: This array index is invalid for this array. {values}, index of {name} = {index}, {size}"),
   t("Division by zero. («Деление на ноль.» in Mathcad 14.1.) {quotient}."),
   t("Found a number beyond 10^307. («Найдено число величиной более 10^307» in Mathcad 14.1.) The result is {x}."),
   t("unsupported: {what}."),

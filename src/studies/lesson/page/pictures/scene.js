@@ -185,7 +185,7 @@ function zoneOf(mesh, chosen) {
 }
 
 /** The height of a picture: figure, current line and question have room in one window. */
-const pictureHeight = () => Math.max(150, Math.min(340, 0.5 * page.width, 0.3 * window.innerHeight));
+const pictureHeight = () => Math.max(150, Math.min(340, 0.44 * page.width, 0.3 * window.innerHeight));
 
 /** Where an edge's name stands, between and below its ends. */
 const besideEdge = (a, b) => [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22];
