@@ -104,13 +104,13 @@ function show() {
   const { at, steps } = page.machine;
   // What it takes of the window the others have not.
   if (at === steps.length && at > 0) unfoldConclusion();
+  say("status", placeInWords());
   byId("columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   if (isIterating()) showIterations();
   else showSteps();
   if (chapter().repairs) showRepair(chapter().repairs);
   byId("slider").value = at;
-  say("status", placeInWords());
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
