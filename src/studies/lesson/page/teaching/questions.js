@@ -101,8 +101,9 @@ function numberToType({ number }, answered, verdict) {
   const typed = make("input", { type: "text", inputmode: "decimal", class: "answer", size: 10, "aria-label": t("your answer") });
   const judge = () => {
     const value = numberIn(typed.value);
-    if (value === null) verdict.textContent = t("“{text}” is not a number.", { text: typed.value });
-    else answered(Math.abs(value - number) <= 0.01 * Math.abs(number));
+    if (value !== null) return answered(Math.abs(value - number) <= 0.01 * Math.abs(number));
+    verdict.textContent = t("“{text}” is not a number.", { text: typed.value });
+    lightLine(page.machine);
   };
   typed.addEventListener("keydown", ({ key }) => key === "Enter" && judge());
   return [typed, button(t("check"), judge, { class: "answer" })];
