@@ -21,7 +21,7 @@ use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
 use report::json::document;
-use report::language::{Language, messages};
+use report::language::{Language, messages, of_interpreter};
 use report::page::{INTERPRETER, Page};
 use report::picture::deformation::boundary_edges;
 use report::tables::figure_numbers;
@@ -82,6 +82,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "known": { "functions": FUNCTIONS, "units": UNITS },
         "corrected": corrected,
         "language": language,
+        "interpreter": of_interpreter().collect::<Vec<_>>(),
         "messages": messages().map(|(english, russian)| (english, json!(russian))).collect::<Value>(),
     });
     let script = [

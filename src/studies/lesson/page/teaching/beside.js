@@ -25,7 +25,7 @@ function openBeside() {
     make("h2", {}, t("{listing}, {state}", { listing: page.which, state: t("corrected") })),
     make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("The corrected listing") }, make("ol", {}, ...page.beside.lines.map(({ number, level, text }) => make("li", {}, make("span", { class: "number" }, String(number)), make("code", { style: `--level: ${level}` }, text))))),
     make("p", { class: "answers" }, step(t("back"), ({ at }) => at - 1), step(t("step"), ({ at }) => at + 1), step(t("end of the turn"), endOfTurn), make("span", { id: "beside-said", role: "status" })),
-    make("div", { id: "both", class: "scroll" }),
+    make("div", { id: "both", class: "scroll", tabindex: 0, role: "region", "aria-label": t("The arrays") }),
   );
 }
 
