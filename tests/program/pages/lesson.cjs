@@ -406,7 +406,7 @@ async function deep(browser) {
   assert.equal(await nameOf(), "repaired-c_cnt.txt");
   await page.check("#beside-too");
   await page.selectOption("#run", { label: "as printed" });
-  assert.match(await page.textContent("#both caption"), /yt\* is a gap, positive apart/);
+  assert.match(await page.textContent("#both"), /yt\* is a gap, positive apart/);
   assert.equal(await nameOf(), "c_cnt.txt");
   assert.equal(await page.locator("#conclusion dt", { hasText: "Of what" }).count(), 0);
   await page.locator("#tolerance").fill("1");

@@ -66,5 +66,8 @@ function drawBeside() {
   const names = ["ct", "yt", "dy"];
   const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => [shown(machine, `${name}[${k + 1}]`), shown(beside, `${name}[${k + 1}]`)])));
   const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
-  byId("both").replaceChildren(make("table", {}, make("caption", {}, t("* of the corrected listing; yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign")), head, make("tbody", {}, ...rows)));
+  byId("both").replaceChildren(
+    make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),
+    make("p", { class: "muted" }, t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.")),
+  );
 }
