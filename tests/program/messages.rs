@@ -15,7 +15,7 @@ use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Repair, Verdict};
 use plane_contact::studies::audit::prices::table::ORDER;
-use plane_contact::studies::lesson::page::ITERATE;
+use plane_contact::studies::lesson::page::{ITERATE, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.
@@ -78,7 +78,9 @@ fn in_registers() -> BTreeSet<String> {
     let verdicts = Verdict::ALL.iter().map(|verdict| verdict.name().to_string());
     let titles = scenes.iter().map(|scene| scene.title.clone()).chain([ORDER.into()]);
     let findings = FINDINGS.iter().flat_map(of_finding);
-    switches.chain(faults).chain(verdicts).chain(titles).chain(findings).collect()
+    let meanings = meanings().map(|[.., meaning]| meaning.to_string());
+    let named = titles.chain(meanings);
+    switches.chain(faults).chain(verdicts).chain(named).chain(findings).collect()
 }
 
 /// What a switch says but names, such as `R1 = inside` and `c_cnt 14`.

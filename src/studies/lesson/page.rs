@@ -68,6 +68,13 @@ impl Measured {
 pub const ITERATE: [&str; 2] =
     [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
 
+/// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those that border
+/// MJS), the name, and what it is; a later row comes before an earlier one.
+pub fn meanings() -> impl Iterator<Item = [&'static str; 3]> {
+    let rows = include_str!("page/teaching/meanings.tsv").lines().skip(1);
+    rows.filter_map(|row| row.split('\t').collect::<Vec<_>>().try_into().ok())
+}
+
 /// Returns the page of a lesson; its first chapter is what it opens with.
 pub fn html(chapters: &[Chapter], language: Language) -> String {
     let scene = &chapters[0].scene;
@@ -83,6 +90,7 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "corrected": corrected,
         "language": language,
         "interpreter": of_interpreter().collect::<Vec<_>>(),
+        "meanings": meanings().collect::<Vec<_>>(),
         "messages": messages().map(|(english, russian)| (english, json!(russian))).collect::<Value>(),
     });
     let script = [
