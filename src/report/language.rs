@@ -17,7 +17,16 @@ base::choices! {
 
 /// The table of messages: of each its English and its Russian.
 pub fn messages() -> impl Iterator<Item = (&'static str, &'static str)> {
-    include_str!("messages.tsv").lines().skip(1).filter_map(|row| row.split_once('\t'))
+    rows(include_str!("messages.tsv"))
+}
+
+/// What the interpreter of the listings says, the more special before the general: sentences and their parts.
+pub fn of_interpreter() -> impl Iterator<Item = (&'static str, &'static str)> {
+    rows(include_str!("interpreter.tsv"))
+}
+
+fn rows(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    table.lines().skip(1).filter_map(|row| row.split_once('\t'))
 }
 
 /// Returns a message with values, each of which stands in it as `{name}`, for the page to say.

@@ -10,10 +10,12 @@ use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
-use plane_contact::report::language::messages;
+use plane_contact::report::language::{messages, of_interpreter};
+use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Repair, Verdict};
 use plane_contact::studies::audit::prices::table::ORDER;
+use plane_contact::studies::lesson::page::{ITERATE, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.
@@ -76,7 +78,9 @@ fn in_registers() -> BTreeSet<String> {
     let verdicts = Verdict::ALL.iter().map(|verdict| verdict.name().to_string());
     let titles = scenes.iter().map(|scene| scene.title.clone()).chain([ORDER.into()]);
     let findings = FINDINGS.iter().flat_map(of_finding);
-    switches.chain(faults).chain(verdicts).chain(titles).chain(findings).collect()
+    let meanings = meanings().map(|[.., meaning]| meaning.to_string());
+    let named = titles.chain(meanings);
+    switches.chain(faults).chain(verdicts).chain(named).chain(findings).collect()
 }
 
 /// What a switch says but names, such as `R1 = inside` and `c_cnt 14`.
@@ -116,7 +120,7 @@ fn the_table_has_what_the_lesson_says_and_nothing_else() {
 #[test]
 fn a_message_stands_once_and_has_the_values_of_its_english() {
     let mut seen = BTreeSet::new();
-    for (english, russian) in messages() {
+    for (english, russian) in messages().chain(of_interpreter()) {
         assert!(seen.insert(english), "twice: {english}");
         assert!(!russian.trim().is_empty(), "without Russian: {english}");
         let values = |text: &'static str| -> BTreeSet<&str> {
@@ -124,5 +128,22 @@ fn a_message_stands_once_and_has_the_values_of_its_english() {
             names.map(|(name, _)| name).collect()
         };
         assert_eq!(values(english), values(russian), "{english}");
+    }
+}
+
+/// Every text between the values of the interpreter's sentences stands in its scripts, or in the mirror's failures.
+#[test]
+fn the_interpreter_says_the_sentences_of_its_table() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let failures =
+        std::fs::read_to_string(root.join("src/paper/mirror/failure.rs")).expect("UTF-8");
+    let scripts = [INTERPRETER.concat(), ITERATE.concat(), failures].concat().replace('\\', "");
+    for (english, _) in of_interpreter() {
+        let texts =
+            english.split('{').map(|part| part.split_once('}').map_or(part, |(_, text)| text));
+        let words = texts.map(|text| text.trim_matches(|c: char| !c.is_alphanumeric()));
+        for text in words.filter(|text| text.len() > 3) {
+            assert!(scripts.contains(text), "`{text}` of: {english}");
+        }
     }
 }

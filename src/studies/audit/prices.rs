@@ -18,7 +18,7 @@ use base::choices;
 use engine::contact::{Sense, Status};
 use engine::error::Error;
 use engine::estimates::{RUNS, equivalent, moves};
-use engine::{Solution, Stiffness, over, solve};
+use engine::{Request, Solution, Stiffness, over, solve};
 use paper::corrected::{self, Bound, Ending, FAULTS, Fault, STEPS, Worksheet};
 use problem::model::{Dof, Model, NodeId, TriangleId};
 use problem::modelling::{ContactModel, Coupling, Friction, Variant};
@@ -195,6 +195,14 @@ impl Measured for Outcome {
     }
 }
 
+/// Returns the request for the solution that the corrected algorithm has: without friction, node to segment, in the
+/// initial geometry.
+pub fn reference(request: &Request) -> Request {
+    let reference = request.reference();
+    let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
+    reference.contact(contact)
+}
+
 /// A scene, and the solutions with which the runs are compared.
 pub struct Compared {
     /// The solution without friction, node to segment, in the initial geometry.
@@ -215,9 +223,7 @@ impl Compared {
     pub fn new(case: &Case) -> Result<Self, Error> {
         let request = case.request(Variant::Unilateral);
         corrected::check(&request.scene.model)?;
-        let reference = request.reference();
-        let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
-        let exact = solve(&reference.contact(contact), &mut |_| ())?;
+        let exact = solve(&reference(&request), &mut |_| ())?;
         let stiffness = Stiffness::new(&exact.model, |x| x);
         // Where nothing moves there is no figure that rounding could change.
         let others = equivalent(&exact.request).filter(|_| exact.u.amax() > 0.0);

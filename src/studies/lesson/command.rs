@@ -43,7 +43,7 @@ pub struct Args {
     /// An edited listing, offered beside the printed one.
     #[arg(long, value_name = "FILE")]
     listing: Option<PathBuf>,
-    /// The language with which the page opens: en, ru; messages of the interpreter stay English.
+    /// The language with which the page opens: en, ru.
     #[arg(long, default_value_t, value_parser = offered::<Language>(Language::ALL))]
     lang: Language,
     /// The file of the page [default: out/lesson.html].

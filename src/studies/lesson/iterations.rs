@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
+use crate::audit::prices::reference;
 use engine::{Request, Solution, Stiffness, over, solve};
 use paper::corrected::STEPS;
 use problem::model::{Model, NodeId};
@@ -16,7 +17,8 @@ pub(super) const MOST_SOLVED: usize = 100;
 
 /// What a page needs to show the iterations of a scene.
 pub struct Iterations {
-    /// The displacements of the reference solution, by degree of freedom, length; None where there is none.
+    /// The displacements of the reference solution, without friction, node to segment, in the initial geometry, by degree
+    /// of freedom, length; None where there is none.
     pub reference: Option<DVector<f64>>,
     /// The iterations of each variant of the paper; None where the page makes them.
     pub recorded: Option<Vec<Recorded>>,
@@ -47,7 +49,7 @@ impl Iterations {
     pub fn new(scene: &Scene, model: &Arc<Model>) -> Self {
         let mut scene = scene.clone();
         scene.model = Arc::clone(model);
-        let reference = scene.model.has_contact().then(|| Request::new(&scene).reference());
+        let reference = scene.model.has_contact().then(|| reference(&Request::new(&scene)));
         // Where there is none the page says what it takes: contact that holds the scene, and a load.
         let reference = reference.and_then(|request| solve(&request, &mut |_| ()).ok());
         let reference = reference.map(|solution| solution.u);

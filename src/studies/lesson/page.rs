@@ -21,7 +21,7 @@ use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
 use report::json::document;
-use report::language::{Language, messages};
+use report::language::{Language, messages, of_interpreter};
 use report::page::{INTERPRETER, Page};
 use report::picture::deformation::boundary_edges;
 use report::tables::figure_numbers;
@@ -68,6 +68,13 @@ impl Measured {
 pub const ITERATE: [&str; 2] =
     [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
 
+/// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those that border
+/// MJS), the name, and what it is; a later row comes before an earlier one.
+pub fn meanings() -> impl Iterator<Item = [&'static str; 3]> {
+    let rows = include_str!("page/teaching/meanings.tsv").lines().skip(1);
+    rows.filter_map(|row| row.split('\t').collect::<Vec<_>>().try_into().ok())
+}
+
 /// Returns the page of a lesson; its first chapter is what it opens with.
 pub fn html(chapters: &[Chapter], language: Language) -> String {
     let scene = &chapters[0].scene;
@@ -82,9 +89,12 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         "known": { "functions": FUNCTIONS, "units": UNITS },
         "corrected": corrected,
         "language": language,
+        "interpreter": of_interpreter().collect::<Vec<_>>(),
+        "meanings": meanings().collect::<Vec<_>>(),
         "messages": messages().map(|(english, russian)| (english, json!(russian))).collect::<Value>(),
     });
     let script = [
+        include_str!("page/frame/interpreter.js"),
         include_str!("page/steps/machine.js"),
         include_str!("page/editor/checks.js"),
         include_str!("page/editor/kept.js"),

@@ -10,7 +10,7 @@ const OWN = "#listing, #beside ol, #step, #editor, #language, #question code, sc
 
 /** Latin words that Russian has too: names of the program, the listings, the keys and the scenes, and what the
  * interpreter says. */
-const KEPT = /^(plane|contact|rows|node|elem|trg|cnt|printed|tied|stepped|unilateral|mortar|per|nested|eager|inside|left|right|total|stress|strain|left-to-right|corrected|ntx|nty|far|near|for|min|max|cos|Shift|Home|End|This|array|index|invalid|this|line|solve|findings|reading|variant|last)$/;
+const KEPT = /^(plane|contact|rows|node|elem|trg|cnt|printed|tied|stepped|unilateral|mortar|per|nested|eager|inside|left|right|total|stress|strain|left-to-right|corrected|ntx|nty|far|near|for|min|max|cos|Shift|Home|End|solve|findings|reading|variant|last)$/;
 
 /** The English words that a page shows or says. */
 const english = async (page) => {

@@ -135,7 +135,10 @@ pub const FINDINGS: &[Finding] = &[
               lost; over a horizontal edge the rule can fire at |yt| = c_tll at most",
         repair: "search along the normal, without a box",
         edit: edit!("repairs/C9.edit"),
-        before: Preparation::AsPrinted,
+        before: Preparation::Model(
+            "turned upside down, so that the sign rule takes the node that is inside (C4)",
+            turn_scene,
+        ),
         number: "contact nodes inside the target, deeper than c_tll, without a target edge",
         measure: search::lost_inside,
     },
@@ -228,7 +231,10 @@ pub const FINDINGS: &[Finding] = &[
         why: "nothing couples the two bodies: no load reaches the target",
         repair: "Tᵀ·K·T with eq. (1) in T (variants tied and stepped)",
         edit: edit!("repairs/K1.edit"),
-        before: Preparation::AsPrinted,
+        before: Preparation::Model(
+            "the contact node held along x, the last node of the stamp free along y",
+            let_stamp_sink,
+        ),
         number: "entries of MJS that join two bodies",
         measure: stiffness::nothing_joins,
     },
@@ -351,6 +357,21 @@ pub const FINDINGS: &[Finding] = &[
 
 fn turn_target(model: &mut Model) {
     *model = turned(model);
+}
+
+/// Turns the scene about the middle between x = 0 and x = 1, so that the target lies above the stamp.
+fn turn_scene(model: &mut Model) {
+    model.nodes.iter_mut().for_each(|[x, y]| [*x, *y] = [1.0 - *x, -*y]);
+}
+
+/// Gives the stamp an equation of its own beside those of its contact node, which then only moves up and down: `MJS`
+/// has a place at which the two bodies can be joined.
+fn let_stamp_sink(model: &mut Model) {
+    let contact = model.contact.nodes[0];
+    let stamp = model.body_of(contact).expect("a contact node is of a body");
+    let last = *stamp.nodes.last().expect("a body has nodes");
+    model.restrain(contact.x(), Restraint::Fixed);
+    model.restrain(last.y(), Restraint::Free);
 }
 
 /// Takes every restraint from the stamp, and all but its first contact node.

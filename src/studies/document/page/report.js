@@ -3,13 +3,13 @@
 /** The columns of the quantities that live on a place, of those that any row has. */
 function columnsOf(place, rows) {
   const known = data.quantities[place].filter(({ name }) => rows.some((row) => row[name] !== undefined && row[name] !== null));
-  const valueOf = ({ name }) => (row) => (name === "cycle" ? periodOf(row.cycle) : Array.isArray(row[name]) ? row[name].join(", ") : row[name]);
+  const valueOf = ({ name }) => (row) => (name === "cycle" ? cycleInWords(row.cycle) : Array.isArray(row[name]) ? row[name].join(", ") : row[name]);
   const kindOf = (quantity) => (rows.some((row) => typeof valueOf(quantity)(row) === "string") ? "text" : undefined);
   const headOf = ({ title, unit }) => [title, data.units[unit]].filter(Boolean).join(", ");
   return known.map((quantity) => [headOf(quantity), valueOf(quantity), kindOf(quantity)]);
 }
 
-const periodOf = (cycle) => (!cycle ? t("new") : cycle.length === 1 ? t("unchanged") : t("as in {first} (period of {length})", { first: cycle.members[0], length: cycle.length }));
+const cycleInWords = (cycle) => (!cycle ? t("new") : cycle.length === 1 ? t("unchanged") : t("as in {first} (period of {length})", { first: cycle.members[0], length: cycle.length }));
 
 /** The iterations of a run, its bodies and its contact nodes at the end. */
 function showIterations({ name, result }) {
@@ -28,7 +28,7 @@ function unfold() {
 byId("fields").hidden = byId("to-fields").hidden = false;
 byId("menu").addEventListener("click", ({ target }) => target.closest("a") && (byId("menu").open = false));
 byId("menu").after(button(t("print"), () => window.print()));
-document.addEventListener("click", ({ target }) => target.closest?.("a")?.hash === location.hash && unfold());
+document.addEventListener("click", (/** @type {any} */ { target }) => target.closest?.("a")?.hash === location.hash && unfold());
 window.addEventListener("hashchange", unfold);
 document.querySelectorAll("article table").forEach(addCopying);
 startViewer();

@@ -5,10 +5,11 @@ const view = { cx: 0, cy: 0, scale: 1, field: FIELDS[OWN_FIELD], factor: 0, pane
 const SHADES = data.colours.map(([r, g, b]) => `rgb(${r},${g},${b})`);
 const REST = 120;
 
-/** The extent of places: left, right, low, high. */
+/** The extent of places: left, right, low, high. @returns {[any, any, any, any]} */
 function extent(places, nodes) {
   const of = (j) => range(nodes ? nodes.map((n) => places[2 * n + j]) : places.filter((_, k) => k % 2 === j));
-  return [...of(0), ...of(1)];
+  const [[left, right], [low, high]] = [of(0), of(1)];
+  return [left, right, low, high];
 }
 
 /** Looks at an extent in whole. */
@@ -29,7 +30,7 @@ function compute() {
   }
   const ranges = view.panels.map(rangeOf).filter((known) => known);
   view.range = ranges.length ? [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))] : [0, 1];
-  const plain = packed([1, 3, 5].map((at) => parseInt(colour("rule").slice(at, at + 2), 16)));
+  const plain = packed(/** @type {[any, any, any]} */ ([1, 3, 5].map((at) => parseInt(colour("rule").slice(at, at + 2), 16))));
   const shades = data.colours.map(packed);
   for (const { colours, values } of view.panels) {
     if (values) for (let t = 0; t < mesh.count; t += 1) colours[t] = shades[shadeOf(values[t])];
@@ -167,7 +168,7 @@ function showFields() {
   showIterations(view.panels[0].run);
 }
 
-/** The point of the scene under a place of a canvas. */
+/** The point of the scene under a place of a canvas. @returns {[any, any]} */
 function pointAt(panel, offsetX, offsetY) {
   const { canvas } = panel;
   return [view.cx + (offsetX - canvas.clientWidth / 2) / view.scale, view.cy - (offsetY - height(canvas) / 2) / view.scale];

@@ -12,55 +12,6 @@ function errorIn(name, text) {
   }
 }
 
-/** What parts of a message are called. */
-const partsInWords = () => ({
-  "an operand": t("an operand"),
-  "an operator": t("an operator"),
-  "a comparison": t("a comparison"),
-  "a name": t("a name"),
-  "a function": t("a function"),
-  "the end of the line": t("the end of the line"),
-  "the space between two elements": t("the space between two elements"),
-});
-
-/** What the parser complains of, as keys: the more special before the general. */
-const COMPLAINTS = ((t) => [
-  t("found `<` and `-` without brackets, which may mean two things: write `x <- 1` to assign 1, or `x < (-1)` to compare with -1"),
-  t("found {what}, which is no part of the notation"),
-  t("found brackets more than {most} deep"),
-  t("found blocks more than {most} deep"),
-  t("found operators and brackets more than {most} deep"),
-  t("found a string without its second quotation mark"),
-  t("found a number too large"),
-  t("found `if` and `otherwise` on one line"),
-  t("found `if` without three arguments"),
-  t("found a range within a list"),
-  t("found rows of different lengths"),
-  t("found a line beside the header, expected it indented"),
-  t("found a line below a function whose body stands behind `:=`"),
-  t("found a block behind `:=`, expected it indented below"),
-  t("found {count} lines, expected at most {most}"),
-  t("found {count} characters, expected at most {most}"),
-  t("found {count} spaces of indentation, expected {wanted}"),
-  t("found an odd space, expected two for each level"),
-  t("expected an indented line below"),
-  t("expected a line `on error` below, beside its `try`"),
-  t("found {found}, expected {expected}"),
-])((key) => key);
-
-/** The message of an error in the page's language. */
-function complaintInWords(message) {
-  const parts = partsInWords();
-  const said = (part) => part.split(" or ").map((part) => parts[part] ?? part).join(` ${t("or")} `);
-  for (const key of COMPLAINTS) {
-    const names = [...key.matchAll(/\{(\w+)\}/g)].map(([, name]) => name);
-    const pattern = key.split(/\{\w+\}/).map((text) => text.replace(/[.*+?^$()|[\]\\]/g, "\\$&")).join("(.+)");
-    const found = new RegExp(`^${pattern}$`).exec(message);
-    if (found) return t(key, Object.fromEntries(names.map((name, k) => [name, said(found[k + 1])])));
-  }
-  return message;
-}
-
 /** The one or two likely causes of an error. */
 function likelyCauses({ message, fileLine, column }, text) {
   const line = text.split("\n")[fileLine - 1] ?? "";

@@ -45,14 +45,17 @@ function showRemarks(text) {
   const error = errorIn(page.which, text);
   const lines = linesOf(text);
   const remarks = error ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, (name) => new Run({}, page.programs.worksheet, {}).has(name) || programsOfSheet().has(name));
-  const wrong = error ? [{ ...error, length: 1, words: complaintInWords(error.message) + "." }] : remarks;
+  const wrong = error ? [{ ...error, length: 1, words: interpreted(error.message) + "." }] : remarks;
   const items = wrong.map((at) => {
     const causes = error ? likelyCauses(error, text) : [];
     const words = t("Line {fileLine}, column {column}: {words}", at) + (causes.length ? ` ${t("Likely: {causes}.", { causes: causes.join(` ${t("or")} `) })}` : "");
     return make("li", {}, button(words, () => putCaret(at)));
   });
   byId("text-error").replaceChildren(...items);
+  if (error) byId("text-error").append(make("li", {}, t("Until it is mended, the rest of the page stays with the last text that could be read, and “done” leads back to the error; “as printed” takes the text back.")));
   byId("text").setAttribute("aria-invalid", String(error !== null));
+  page.isStale = error !== null;
+  byId("columns").classList.toggle("stale", page.isStale);
   showMarks(text, wrong);
   return error;
 }
@@ -123,8 +126,9 @@ function readText() {
   if (text === textOf(place)) page.typed.delete(place);
   page.isMine = page.typed.size > 0;
   keepTyped();
-  if (!error) choose({ edits: true });
-  else showButtons();
+  if (!error) return choose({ edits: true });
+  showButtons();
+  say("status", placeInWords());
 }
 
 /** Shows the text to type in, from its top, or the listing. */
@@ -155,9 +159,14 @@ function watchEditor() {
     const isOpen = !byId("editor").hidden;
     clearTimeout(timer);
     if (isOpen) readText();
-    showEditor(!isOpen || text.getAttribute("aria-invalid") === "true");
+    if (isOpen && page.isStale) return byId("text-error").querySelector("button").click();
+    showEditor(!isOpen);
   });
-  byId("printed").addEventListener("click", () => choose({ run: 0, isMine: false }));
-  byId("mine").addEventListener("click", () => choose({ isMine: true, edits: true }));
+  const chosen = (change) => {
+    choose(change);
+    keepTyped();
+  };
+  byId("printed").addEventListener("click", () => chosen({ run: 0, isMine: false }));
+  byId("mine").addEventListener("click", () => chosen({ isMine: true, edits: true }));
   byId("download").addEventListener("click", download);
 }

@@ -9,20 +9,22 @@ const ownerOf = (place) => chapter().runs.flatMap((run) => LISTINGS.map((name) =
 /** Does what needs the storage, which a browser may refuse. */
 function stored(act) { try { return act(); } catch { return null; } }
 
-/** What was typed in the chapter before. */
+/** What was typed in the chapter before, and whether it was in force. */
 function typedBefore() {
-  const found = stored(() => JSON.parse(localStorage.getItem(keyOf(chapter())))) ?? [];
-  const placed = found.map(([name, which, text, last]) => [chapter().runs.find((run) => run.name === name)?.[which], { text, last: last ?? undefined }]);
-  return new Map(placed.filter(([place]) => place !== undefined));
+  const { texts = [], isMine = false } = stored(() => JSON.parse(localStorage.getItem(keyOf(chapter())))) ?? {};
+  const placeOf = (name, which) => chapter().runs.find((run) => run.name === name)?.[which];
+  const placed = texts.map(([name, which, text, last]) => [placeOf(name, which), { text, last: last ?? undefined }]);
+  return { typed: new Map(placed.filter(([place]) => place !== undefined)), isMine };
 }
 
 /** Keeps what is typed now. */
 function keepTyped() {
-  const found = [...page.typed].map(([place, { text, last }]) => {
+  const texts = [...page.typed].map(([place, { text, last }]) => {
     const [run, which] = ownerOf(place);
     return [run.name, which, text, last];
   });
-  stored(() => (found.length ? localStorage.setItem(keyOf(chapter()), JSON.stringify(found)) : localStorage.removeItem(keyOf(chapter()))));
+  const [key, kept] = [keyOf(chapter()), JSON.stringify({ texts, isMine: page.isMine })];
+  stored(() => (texts.length ? localStorage.setItem(key, kept) : localStorage.removeItem(key)));
 }
 
 /** The texts that run: of what is typed where it is in force. */
@@ -31,9 +33,13 @@ const editsInForce = () => new Map(page.isMine ? [...page.typed].flatMap(([place
 /** The text that the editor shows of a listing. */
 const shownText = (place) => (page.isMine && page.typed.get(place)?.text) || textOf(place);
 
-/** Saves the text of the listing as a file that `plane-contact listing run --listing` takes. */
+/** Saves the text of the listing as a file that `plane-contact listing run --listing` takes; its name says what it is. */
 function download() {
-  const link = make("a", { href: URL.createObjectURL(new Blob([shownText(run()[page.which]) + "\n"], { type: "text/plain" })), download: `my-${page.which}.txt` });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  const { which } = page;
+  const place = run()[which];
+  const isTyped = page.isMine && page.typed.has(place);
+  const of = isTyped ? "my-" : place === chapter().runs[0][which] ? "" : run().name.replace(/\W+/g, "-") + "-";
+  const href = URL.createObjectURL(new Blob([shownText(place) + "\n"], { type: "text/plain" }));
+  make("a", { href, download: `${of}${which}.txt` }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 1000);
 }

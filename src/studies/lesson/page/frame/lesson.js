@@ -1,6 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isBeside: false, edits: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map() };
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
@@ -33,7 +33,7 @@ function choose(change) {
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
   page.edits = editsInForce();
-  if ("run" in change) fillVariants();
+  if ("run" in change || "edits" in change) fillVariants();
   page.mesh = meshOf(run(), page.moved, page.turned);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
@@ -95,7 +95,8 @@ function placeInWords() {
   if (isIterating()) return t("iteration {at} of {count}", { at, count: steps.length });
   const place = [t("step {at} of {count}", { at, count: steps.length }), ...(last ? [t("line {line}", { line: lines[last.line].number })] : [])];
   const decision = next && next.held !== null ? [t("before the decision of line {line}", { line: lines[next.line].number })] : [];
-  return [...place, stateOf(page.which), ...decision].join(", ");
+  const stale = page.isStale ? [t("of the last text without an error")] : [];
+  return [...place, stateOf(page.which), ...stale, ...decision].join(", ");
 }
 
 /** Shows the state after the steps or the iterations that were made. */
@@ -103,13 +104,13 @@ function show() {
   const { at, steps } = page.machine;
   // What it takes of the window the others have not.
   if (at === steps.length && at > 0) unfoldConclusion();
+  say("status", placeInWords());
   byId("columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   if (isIterating()) showIterations();
   else showSteps();
   if (chapter().repairs) showRepair(chapter().repairs);
   byId("slider").value = at;
-  say("status", placeInWords());
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
@@ -132,7 +133,7 @@ function showSteps() {
   }
   const linked = inKm ? page.map.vector("W").map((e) => Math.ceil(e / 2)) : [];
   drawWhole(mesh, pairs, inKm ? turn : null, linked);
-  byId("matrix").hidden = !inKm;
+  byId("matrix").hidden = byId("block").hidden = !inKm;
   byId("pictures").classList.toggle("stiffness", inKm);
   if (inKm) page.map.draw();
   showStep(machine);
@@ -204,16 +205,25 @@ function watch() {
 
 /** Lists the chapters. */
 function fillChapters() {
-  const name = ({ name, title, finding, repairs }) => (finding ? `${finding.id}: ${t(finding.title)}`.slice(0, 70) : repairs ? tell(title) : t("scene {name}", { name }));
+  const name = ({ name, title, finding, repairs }) => {
+    if (finding) return `${finding.id}: ${placeOf(finding)}`;
+    return repairs ? tell(title) : t("scene {name}", { name });
+  };
   byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, name(scene))));
 }
 
 /** Says what a chapter has: its title, its readings, and what it is there to show. */
 function fillChapter() {
-  const { finding, repairs, title, runs } = chapter();
-  byId("run").replaceChildren(...runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
-  document.title = byId("title").textContent = finding ? `${finding.id}: ${t(title)}` : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
+  byId("run").replaceChildren(...chapter().runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
+  showTitle();
   showFinding(chapter());
+}
+
+/** Shows the chapter's title; that of a finding gives the answer away, and waits for the conclusion. */
+function showTitle() {
+  const { finding, repairs, title } = chapter();
+  const words = finding ? `${finding.id}: ${page.isConcluded ? t(title) : placeOf(finding)}` : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
+  document.title = byId("title").textContent = words;
 }
 
 /** Opens a chapter, with what was typed in it. */
@@ -221,15 +231,15 @@ function openChapter(k) {
   page.chapter = k;
   page.run = 0;
   page.asked = 0;
-  fillChapter();
   page.isConcluded = byId("conclusion").open = false;
+  fillChapter();
   byId("finding").open = isWide();
   const { contact } = data.meshes[run().mesh];
   byId("pictures").classList.toggle("alone", contact.length === 0);
   const inKm = contact.length === 0 || chapter().finding?.listing === "Km";
   for (const radio of radios()) radio.disabled = contact.length === 0 && radio.value !== "Km";
-  page.typed = typedBefore();
-  choose({ run: 0, which: inKm ? "Km" : "c_cnt", variant: chapter().variant, at: 0, factor: 1, moved: new Map(), turned: new Set(), isMine: page.typed.size > 0 });
+  const which = inKm ? "Km" : "c_cnt";
+  choose({ run: 0, which, variant: chapter().variant, at: 0, factor: 1, moved: new Map(), turned: new Set(), ...typedBefore() });
 }
 
 byId("choices").open = window.innerWidth >= 700;

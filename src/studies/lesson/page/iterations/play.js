@@ -3,9 +3,10 @@
 /** The iterations of a variant, gone through by the bar as the steps of a program are. */
 class Played {
   steps; failure; lines; turns; at;
-  constructor({ states, failure }, error) {
-    Object.assign(this, { steps: states, failure, lines: [], turns: [], at: 0 });
-    this.errors = states.map((state) => state.error ?? error?.(state.u));
+  constructor({ states, failure }, measure) {
+    Object.assign(this, { steps: states, failure: failure && interpreted(failure), lines: [], turns: [], at: 0 });
+    this.measures = states.map((state) => measure?.(state.u) ?? { error: state.error });
+    this.errors = this.measures.map(({ error }) => error);
     this.over = this.nextDecision = this.nextTurn = () => this.at + 1;
   }
 
@@ -21,7 +22,7 @@ function played() {
   }
   const made = iterated(equationsOf(run(), page.edits), page.variant, correctedOf(run()));
   // The energy is that of the stiffness as printed, whatever is edited.
-  return new Played(made, hasReference() ? errorsFrom(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
+  return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
 }
 
 /** The equations of the scene as it is now, under the listings of a run. */
@@ -50,13 +51,29 @@ function unpacked({ nodes, shapes, unit }, { shape }) {
 /** Errors that are the equations' rounding. */
 const ROUNDING = 1e-10;
 
-/** How far displacements are from a reference solution's, in the energy norm. */
-function errorsFrom(K, reference) {
+/** How far displacements are from a reference solution's, in the energy norm, and what part of the load they bring to
+ * the target. */
+function measuredBy(K, reference) {
   const whole = energyNorm(K, reference);
   return (u) => {
     const error = energyNorm(K, u.map((x, e) => x - reference[e]));
-    return error <= ROUNDING * whole ? 0 : error / whole;
+    return { error: error <= ROUNDING * whole ? 0 : error / whole, share: transmitted(K, u) };
   };
+}
+
+/** The component along the load of the forces of contact on the target, over the load, as src/studies/audit/prices.rs
+ * has it; nothing without a load. */
+function transmitted(K, u) {
+  const { own, contact, edges } = page.mesh;
+  const force = (e) => u.reduce((sum, x, j) => sum + K.entries[e * u.length + j] * x, -own.load[e]);
+  const isHeld = (n, d) => own.restrained[n - 1][d];
+  const sum = (nodes, d) => nodes.reduce((sum, n) => sum + (isHeld(n, d) ? 0 : force(2 * n - 2 + d)), 0);
+  const target = [...new Set(edges.flatMap(([, ends]) => ends))];
+  const load = [0, 1].map((d) => own.load.reduce((sum, f, e) => sum + (e % 2 === d ? f : 0), 0));
+  const along = load.map((f, d) => f * (target.some((n) => isHeld(n, d)) ? -sum(contact, d) : sum(target, d)));
+  const share = (along[0] + along[1]) / (load[0] ** 2 + load[1] ** 2);
+  if (Number.isNaN(share)) return undefined;
+  return Math.abs(share) <= ROUNDING ? 0 : share;
 }
 
 const percent = (error) => `${inProse(Number((100 * error).toPrecision(3)))} %`;
@@ -64,16 +81,18 @@ const listed = (nodes) => nodes.map((n) => page.mesh.name(n)).join(", ");
 const contactInWords = (nodes) => (nodes.length ? t("in contact: {nodes}", { nodes: listed(nodes) }) : t("no node in contact"));
 
 /** The iteration that is shown, in words. */
-function stateInWords({ at, steps, errors }) {
+function stateInWords({ at, steps, measures }) {
   if (at === 0) return t("The initial shape, before the first iteration.");
   const [now, before] = [steps[at - 1].inContact, steps[at - 2]?.inContact];
+  const { error, share } = measures[at - 1];
   const others = (some, all) => some.filter((n) => !all.includes(n));
   const [joined, left] = before ? [others(now, before), others(before, now)] : [[], []];
   return [
     t("Iteration {at} of {count}, {state}.", { at, count: steps.length, state: contactInWords(now) }),
     ...(joined.length ? [t("New in contact: {nodes}.", { nodes: listed(joined) })] : []),
     ...(left.length ? [t("No longer in contact: {nodes}.", { nodes: listed(left) })] : []),
-    ...(errors[at - 1] === undefined ? [] : [t("Error {error}.", { error: percent(errors[at - 1]) })]),
+    ...(share === undefined ? [] : [t("The target bears {share} of the load.", { share: percent(share) })]),
+    ...(error === undefined ? [] : [t("Error {error}.", { error: percent(error) })]),
   ].join(" ");
 }
 
@@ -104,7 +123,7 @@ function drawShape(mesh, { steps, at }) {
   const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
   const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
   const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
-  const { to } = view([...points, ...corners], width, height, 26, false);
+  const { to } = viewOf([...points, ...corners], width, height, 26, false);
   const drawn = (at, isInitial) => {
     const colours = (nodes, body) => (isInitial ? { stroke: colour("rule") } : { stroke: colour(body === mesh.target ? "target-ink" : "stamp-ink"), fill: nodes.length > 2 && colour(body === mesh.target ? "target" : "stamp") });
     const parts = chapter().recorded?.rim.map((nodes) => [nodes]) ?? mesh.triangles;
@@ -118,7 +137,7 @@ function drawShape(mesh, { steps, at }) {
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
   }
   byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times });
-  canvas.setAttribute("aria-label", stateInWords({ steps, at, errors: [] }));
+  canvas.setAttribute("aria-label", byId("state").textContent);
 }
 
 /** Which contact nodes are in contact, by iteration, and the errors. */
@@ -137,9 +156,8 @@ function statesTable(mesh, { steps, errors, at }) {
 function drawErrors({ errors, at }) {
   const last = errors.length - 1;
   const isDrawn = drawCurve(byId("errors"), errors, at - 1, errors.map((_, k) => (k === 0 || k === last ? String(k + 1) : "")));
-  const solution = chapter().repairs ? t("node to segment, initial geometry, without friction") : t("unilateral with mortar, without friction");
   byId("errors-caption").textContent = isDrawn
-    ? t("Energy norm of the difference from the reference solution ({solution}) over that of the reference solution, by iteration; the axis has powers of ten.", { solution }) +
+    ? t("Energy norm of the difference from the reference solution (node to segment, initial geometry, without friction) over that of the reference solution, by iteration; the axis has powers of ten.") +
       (page.variant === "stepped" ? ` ${t("Before the last iteration of stepped a part of the load is missing.")}` : "")
     : t("No error can be drawn: the reference solution is of the scene as it was given, under contact that holds it and a load.");
   if (isDrawn) byId("errors").setAttribute("aria-label", t("Error after the last iteration: {error}", { error: percent(errors.at(-1)) }));
@@ -148,13 +166,13 @@ function drawErrors({ errors, at }) {
 /** Draws errors side by side by powers of ten, each over its name, that at `at` marked; returns whether there are any. */
 function drawCurve(canvas, errors, at, names) {
   const known = errors.filter((error) => error > 0 && Number.isFinite(error)).map(Math.log10);
-  canvas.hidden = known.length === 0;
+  canvas.hidden = known.length === 0 && !errors.includes(0);
   if (canvas.hidden) return false;
   const { context, width, height } = prepared(canvas, 150);
   // No error stands at the foot of the axis, as far below the least as a power of ten.
-  const least = Math.floor(Math.min(...known));
+  const least = Math.floor(Math.min(...known, 0));
   const low = errors.includes(0) ? least - 1 : least;
-  const high = Math.max(Math.ceil(Math.max(...known)), low + 1);
+  const high = Math.max(Math.ceil(Math.max(...known, least)), low + 1);
   const to = (k, power) => [64 + (k / Math.max(1, errors.length - 1)) * (width - 84), 14 + ((high - power) / (high - low)) * (height - 42)];
   for (let power = low; power <= high; power += Math.ceil((high - low) / 4)) {
     path(context, [to(0, power), to(errors.length - 1, power)], { stroke: colour("rule") });
@@ -173,7 +191,11 @@ function showIterations() {
   const { machine, mesh } = page;
   byId("state").textContent = stateInWords(machine);
   const isRecorded = chapter().recorded && (isChanged() || page.run > 0);
-  byId("course").textContent = courseInWords(machine, page.variant) + (isRecorded ? ` ${t("Recorded: the listings as printed, on the scene as given.")}` : "");
+  byId("course").textContent = [
+    courseInWords(machine, page.variant),
+    ...(isRecorded ? [t("Recorded: the listings as printed, on the scene as given.")] : []),
+    ...(isJoined(linesAt(run().Km, page.edits)) ? [t("MJS has eq. (1) in it, so load and displacements have it too, as in tied; the variant printed has no place for it.")] : []),
+  ].join(" ");
   drawShape(mesh, machine);
   byId("states").replaceChildren(statesTable(mesh, machine));
   roving(byId("states"), "td", () => machine.steps.length);
@@ -187,13 +209,14 @@ function showIterations() {
 /** Lists the variants that a run can play; the one that was chosen stays where it is one of them. */
 function fillVariants() {
   const words = {
-    printed: t("Km as printed"),
+    printed: t("MJS as Km gives it"),
     tied: t("eq. (1) on total displacements"),
     stepped: t("eq. (1) on increments, the load in equal steps"),
     corrected: run().programs ? tell(run().label) : t("both listings with what the findings ask for"),
   };
   const { recorded } = chapter();
-  const names = VARIANTS.filter((name) => (run().programs ? name === "corrected" : !recorded || recorded.variants[name]));
+  const isThere = (name) => (recorded ? recorded.variants[name] : name !== "printed" || !isJoined(linesAt(run().Km, page.edits)));
+  const names = VARIANTS.filter((name) => (run().programs ? name === "corrected" : isThere(name)));
   byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, `${name}: ${words[name]}`)));
   page.variant = byId("variant").value = [page.variant, "tied"].find((name) => names.includes(name)) ?? names[0];
 }

@@ -13,7 +13,7 @@ function withReversed(own, turned) {
 
 /** What is drawn of a scene; nodes by their number. */
 class Mesh {
-  own; triangles; contact; edges; target; restrained; bodies;
+  own; triangles; contact; edges; target; restrained; bodies; side;
   constructor(given, units, moved = new Map(), turned = new Set()) {
     const own = withReversed(given, turned);
     const { nodes, triangles, contact, edges, figure, target, restrained, dropped, bodies } = own;
@@ -25,6 +25,10 @@ class Mesh {
     this.figure = new Map(figure);
     this.edge = new Map(edges);
     this.length = units.length;
+    const heightOf = (nodes) => nodes.reduce((sum, n) => sum + this.at(n)[1], 0) / nodes.length;
+    const ofTarget = triangles.filter(([, body]) => body === target).flatMap(([nodes]) => nodes);
+    // Which way the stamp lies from the target: 1 above it, -1 below.
+    this.side = edges.length && heightOf(ofTarget) > heightOf(edges.flatMap(([, ends]) => ends)) ? -1 : 1;
   }
 
   /** A node's name in the manner of the paper's fig. 1, and its number. */
@@ -53,13 +57,13 @@ function contactNodes(mesh, pairs) {
     const yt = of("yt");
     // The corrected yt is positive apart, and along the normal n.
     const normal = [1, 2].map((j) => number(pairs.get(`n[${k + 1},${j}]`)));
-    const [height, toTarget] = normal.includes(undefined) ? [-yt, [0, yt]] : [yt, normal.map((x) => -x * yt)];
+    const [height, toTarget] = normal.includes(undefined) ? [-yt, [0, yt]] : [mesh.side * yt, normal.map((x) => -x * yt)];
     return { node, place: k + 1, ct: of("ct"), yt, dy: of("dy"), row, height, toTarget };
   });
 }
 
 /** A view: where a point of the scene is drawn, in pixels. */
-function view(points, width, height, margin, magnify) {
+function viewOf(points, width, height, margin, magnify) {
   const [xs, ys] = [0, 1].map((j) => points.map((p) => p[j]));
   const range = (values) => [Math.min(...values), Math.max(...values)];
   const [[left, right], [low, high]] = [range(xs), range(ys)];
@@ -181,7 +185,7 @@ function zoneOf(mesh, chosen) {
 }
 
 /** The height of a picture: figure, current line and question have room in one window. */
-const pictureHeight = () => Math.max(150, Math.min(340, 0.5 * page.width, 0.3 * window.innerHeight));
+const pictureHeight = () => Math.max(150, Math.min(340, 0.44 * page.width, 0.3 * window.innerHeight));
 
 /** Where an edge's name stands, between and below its ends. */
 const besideEdge = (a, b) => [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22];
@@ -193,7 +197,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const ends = zone.edges.flatMap(([, ends]) => ends).map(mesh.at);
   const points = [...zone.nodes.map(mesh.at), ...ends.flatMap(([x, y]) => [[x, y - tolerance], [x, y + tolerance]])];
   // While a node is dragged the view stays.
-  page.view = page.dragged ? page.view : view(points, width, height, 42, true);
+  page.view = page.dragged ? page.view : viewOf(points, width, height, 42, true);
   const { to, factor, sy } = page.view;
   drawBodies(context, mesh, to);
   const placed = [];
@@ -282,7 +286,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];
   const band = Math.max(tolerance * sx * factor, 1);
   context.fillStyle = colour("target");
-  context.fillRect(0, height / 2, width, height / 2);
+  context.fillRect(0, mesh.side > 0 ? height / 2 : 0, width, height / 2);
   context.globalAlpha = 0.28;
   context.fillStyle = colour("band");
   context.fillRect(0, height / 2 - band, width, 2 * band);
@@ -298,7 +302,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
   say("gaps-caption", known.length
-    ? [...scale, run().programs ? t("Above the line, apart: yt > 0; below it, inside the target: yt < 0.") : t("Above the line: yt < 0; below it, inside the target where that lies below: yt > 0.")].join(" ")
+    ? [...scale, t("The target's side is tinted."), run().programs ? t("Apart: yt > 0; inside the target: yt < 0.") : t("Above the line: yt < 0; below it: yt > 0.")].join(" ")
     : t("No gap is known yet."));
   canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }
@@ -308,7 +312,7 @@ function drawWhole(mesh, pairs, element, linked) {
   const canvas = byId("whole");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
   const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
-  const { to } = view(points, width, height, 26, false);
+  const { to } = viewOf(points, width, height, 26, false);
   drawBodies(context, mesh, to, element);
   const numbered = mesh.count <= 60;
   mesh.triangles.forEach(([nodes], k) => {

@@ -3,7 +3,7 @@
 /** What is shown of a value: of a large array, and of one of arrays, only what it is. */
 function shown(value) {
   if (isNumber(value)) return value;
-  if (!isArrayOfNumbers(value) || value.entries.length > 36) return kindOf(value);
+  if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value));
   const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols);
   return value.cols === 1 ? value.entries : Array.from({ length: value.rows }, (_, i) => row(i));
 }
@@ -31,7 +31,7 @@ class Machine {
     this.lines = lines;
     this.steps = steps.map((step) => new Step(step));
     this.turns = this.steps.flatMap(({ turn }, from) => (from === 0 || turn !== this.steps[from - 1].turn ? [{ from, turn }] : []));
-    this.failure = failure && String(failure);
+    this.failure = failure && interpreted(String(failure));
     this.at = 0;
     this.values = new Map();
     this.replaced = [];

@@ -3,6 +3,9 @@
 /** Whether a listing borders the matrix by equations of contact, as the corrected one does. */
 const isBordered = (lines) => lines.some(({ text }) => text.startsWith("MJS[q,v]"));
 
+/** Whether a listing puts a contact node's stiffness at the equations of its target nodes, as the repair of K1 does. */
+const isJoined = (lines) => lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
+
 /** The nodes whose equations the map shows: all of a small scene, else those that the steps write. */
 function mappedNodes(mesh, machine) {
   const border = isBordered(machine.lines) ? mesh.contact.length : 0;
@@ -27,7 +30,7 @@ class MatrixMap {
     Object.assign(this, { mesh, machine, border: isBordered(machine.lines) });
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
     this.cursor = [0, 0];
-    this.joins = this.border || machine.lines.some(({ text }) => text.startsWith("MJS[V[i],W[j]]"));
+    this.joins = this.border || isJoined(machine.lines);
     this.places = new Map(this.equations.map((e, k) => [e, k]));
     this.brought = [];
     const bodies = new Map(mesh.triangles.flatMap(([nodes, body]) => nodes.map((n) => [n, body])));
@@ -59,9 +62,9 @@ class MatrixMap {
   draw() {
     const canvas = byId("mjs");
     const count = this.equations.length;
-    const size = Math.min(canvas.parentElement.clientWidth, 460);
+    const size = Math.min(canvas.parentElement.clientWidth, 460, Math.max(240, 0.32 * window.innerHeight));
     canvas.style.maxWidth = size + "px";
-    const { context } = prepared(canvas, size);
+    const { context } = prepared(canvas, size, size);
     this.cell = (size - 22) / count;
     context.fillStyle = colour("paper");
     context.fillRect(22, 22, this.cell * count, this.cell * count);
@@ -88,6 +91,7 @@ class MatrixMap {
         context.fillRect(22 + column * this.cell + 0.5, 22 + row * this.cell + 0.5, this.cell - 1, this.cell - 1);
         context.globalAlpha = 1;
         if (now) this.frame(context, row, column, "ink", 3);
+        else if (value && this.isJoint(row, column)) this.frame(context, row, column, "ink", 1);
       }),
     );
     if (!this.joins) this.neverAdded(context);
@@ -95,8 +99,8 @@ class MatrixMap {
     if (document.activeElement === canvas) this.frame(context, ...this.cursor, "accent", 2);
     byId("matrix-caption").textContent = [
       t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
-      this.border ? t("The rows and columns p1, p2, ... join the two bodies: the equations of contact.") : this.joins ? t("The block (V, W) joins the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
-      joints.all && (!this.joins || joints.filled) ? t("Grey: the entries between the two bodies, {filled} of {all} filled.", joints) : "",
+      this.border ? t("The rows and columns p1, p2, ... join the two bodies: the equations of contact.") : this.joins ? t("V and W have the equations of the target's nodes in place of the contact node's, as eq. (1) says: their blocks join the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
+      joints.all ? t("Grey: the entries between the two bodies, {filled} of {all} filled; these are framed.", joints) : "",
     ].join(" ");
     canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
     this.say();

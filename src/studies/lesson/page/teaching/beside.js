@@ -25,7 +25,7 @@ function openBeside() {
     make("h2", {}, t("{listing}, {state}", { listing: page.which, state: t("corrected") })),
     make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("The corrected listing") }, make("ol", {}, ...page.beside.lines.map(({ number, level, text }) => make("li", {}, make("span", { class: "number" }, String(number)), make("code", { style: `--level: ${level}` }, text))))),
     make("p", { class: "answers" }, step(t("back"), ({ at }) => at - 1), step(t("step"), ({ at }) => at + 1), step(t("end of the turn"), endOfTurn), make("span", { id: "beside-said", role: "status" })),
-    make("div", { id: "both", class: "scroll" }),
+    make("div", { id: "both", class: "scroll", tabindex: 0, role: "region", "aria-label": t("The arrays") }),
   );
 }
 
@@ -66,5 +66,8 @@ function drawBeside() {
   const names = ["ct", "yt", "dy"];
   const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => [shown(machine, `${name}[${k + 1}]`), shown(beside, `${name}[${k + 1}]`)])));
   const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
-  byId("both").replaceChildren(make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)));
+  byId("both").replaceChildren(
+    make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),
+    make("p", { class: "muted" }, t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.")),
+  );
 }

@@ -59,6 +59,9 @@ function showChanges(run, programs) {
   roving(place, "td", () => 2);
 }
 
+/** Where a finding stands in the listings. */
+const placeOf = ({ listing, lines }) => (lines.length ? `${listing} ${lines.join(", ")}` : t("around the listings"));
+
 /** What to try in a chapter, each a button. */
 function trials({ lines, listing, edit }, { contact, load }) {
   const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
@@ -67,14 +70,18 @@ function trials({ lines, listing, edit }, { contact, load }) {
     choose({ run: 0, which: listing });
     go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)), true);
   };
-  const playIterations = () => {
-    choose({ run: 0, which: "iterations" });
+  const playIterations = (run) => () => {
+    choose({ run, which: "iterations" });
     play(true);
   };
+  const isStill = load.every((f) => f === 0);
+  const isPlayed = contact.length > 0 && !isStill;
   return [
     ...trial(lines.length, t("run to line {line}", { line }), runToLine),
     ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
-    ...trial(contact.length && load.some((f) => f !== 0), t("play the iterations"), playIterations),
+    ...trial(isPlayed, t("play the iterations"), playIterations(0)),
+    ...trial(isPlayed && !edit.none, t("play them repaired"), playIterations(1)),
+    ...(contact.length && isStill ? [t("No load acts on this scene: nothing moves in its iterations.")] : []),
   ];
 }
 
@@ -87,11 +94,12 @@ function showFinding({ finding: row, repairs, runs }) {
   place.classList.toggle("repairs", Boolean(repairs));
   if (repairs) place.replaceChildren(...repairsOf(repairs));
   if (!row) return;
-  const lines = row.lines.length ? `${row.listing} ${row.lines.join(", ")}` : t("around the listings");
+  const lines = placeOf(row);
+  const goal = row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.");
   place.replaceChildren(
-    make("summary", {}, make("h2", {}, `${row.id} (${lines}): ${t(row.title)}`)),
+    make("summary", {}, make("h2", {}, `${row.id} (${lines})`)),
     described([
-      [t("Goal"), row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.")],
+      [t("Goal"), goal],
       [t("Try it"), ...trials(row, data.meshes[runs[0].mesh])],
     ]),
   );
@@ -101,6 +109,7 @@ function showFinding({ finding: row, repairs, runs }) {
 function showConclusion() {
   const { finding, repairs } = chapter();
   const parts = finding ? ofFinding(finding) : repairs ? ofRepairs(repairs) : ofScene();
+  if (parts && isChanged()) parts.push([t("Of what"), finding || repairs ? t("This is of the chapter's scene and listings as given, not of your changes.") : t("What the listing did and what is wrong is of the scene as you changed it; what it costs is of the scene as given.")]);
   page.concluded = parts;
   byId("conclusion").hidden = !parts || !page.isConcluded;
   if (parts) byId("conclusion").replaceChildren(make("summary", {}, make("h2", {}, t("Conclusion"))), described(parts));
@@ -111,6 +120,7 @@ function unfoldConclusion() {
   if (page.isConcluded || !page.concluded) return;
   page.isConcluded = true;
   byId("conclusion").hidden = false;
+  showTitle();
   if (!isWide() || chapter().repairs) return;
   byId("finding").open = false;
   byId("conclusion").open = true;
@@ -134,7 +144,7 @@ function ofFinding(row) {
   const prices = row.prices.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: row.prices.map(priceInWords).join("; ") })}` : "";
   const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
-    [t("What the listing did"), row.verdict === "present" ? t(row.detail) : `${t(row.verdict)}: ${t(row.detail)}`],
+    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), interpreted(t(row.detail))].join(": ") })],
     [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],
     [t("What it costs"), figure + prices],
     [t("What repairs it"), `${t(row.repair)}; ${repaired}`],

@@ -101,8 +101,9 @@ function numberToType({ number }, answered, verdict) {
   const typed = make("input", { type: "text", inputmode: "decimal", class: "answer", size: 10, "aria-label": t("your answer") });
   const judge = () => {
     const value = numberIn(typed.value);
-    if (value === null) verdict.textContent = t("“{text}” is not a number.", { text: typed.value });
-    else answered(Math.abs(value - number) <= 0.01 * Math.abs(number));
+    if (value !== null) return answered(Math.abs(value - number) <= 0.01 * Math.abs(number));
+    verdict.textContent = t("“{text}” is not a number.", { text: typed.value });
+    lightLine(page.machine);
   };
   typed.addEventListener("keydown", ({ key }) => key === "Enter" && judge());
   return [typed, button(t("check"), judge, { class: "answer" })];
@@ -118,7 +119,7 @@ function nodeQuestion(mesh, k) {
   return {
     title: t("Which nodes touch? Node {k} of {count}", { k: k + 1, count: mesh.contact.length }),
     words: t("Look at the contact zone. Will c_cnt find node {name} in contact?", { name }),
-    hint: () => [(where.isInside ? t("It is {distance} inside the target.", { distance }) : t("It is {distance} away from the target.", { distance })) + " " + t("A node is in contact within c_tll = {c_tll}, or beside a place where the surfaces cross.", { c_tll: page.programs.c_tll })],
+    hint: () => [(where.isInside ? t("It is {distance} inside the target.", { distance }) : t("It is {distance} away from the target.", { distance })) + " " + t("Ask the listing in turn: does a box of lines 5 and 6 hold the node? Is |yt| below c_tll = {c_tll} (line 16)? Else, does yt change its sign towards a neighbour, as lines 17 and 18 want?", { c_tll: page.programs.c_tll })],
     answers: [t("yes"), t("no")],
     right: node.dy === 1 ? t("yes") : t("no"),
     reason: end.failure ? t("The listing stops: {failure}", end) : whyOf(mesh, end, node),

@@ -2,7 +2,7 @@
 
 /** The steps of the tour: what is looked at, and what is said of it. */
 const tourSteps = () => [
-  ["#pictures", t("The stamp stands above the target, heights magnified. The green band is c_tll wide. Which nodes touch?")],
+  ["#pictures", t("The stamp stands above the target, heights magnified. The green band reaches c_tll above and below each edge. Which nodes touch?")],
   ["#listing-box", t("c_cnt answers line by line, as the paper prints it. The key → makes a step, ← takes it back, N runs to the next node.")],
   ["#values", t("What the lines write stands here: ct, yt, dy, k_cnt. Pointer or focus on a value says what its array is.")],
   ["#tolerance", t("Change something: move c_tll, drag a node, choose a reading, edit the listing. Everything follows at once.")],
@@ -41,43 +41,12 @@ function putBeside(box, { left, right, top, bottom }) {
   Object.assign(box.style, { left: `${x}px`, top: `${y}px` });
 }
 
-/** What an array or a name of the listings is; nothing of a name that an edit brought in. */
+/** What an array or a name of the listings is (meanings.tsv); nothing of a name that an edit brought in. */
 function meaningOf(name) {
-  const turn = t("the turn of a loop");
-  const ofCorrected = run().programs && {
-    yt: t("the distance of each contact node from its target edge, along the normal"),
-    gt: t("that distance in the initial shape"),
-    kt: t("where on its edge the node has its nearest point: 0 at the first end, 1 at the second"),
-    k_cnt: t("of each node the two nodes of its target edge with their weights, the normal, and the gap"),
-    ntx: t("x of the edge's ends"),
-    nty: t("y of the edge's ends"),
-    ξ: t("where on the edge's line the node has its nearest point: 0 at the first end, 1 at the second"),
-    far: t("the distance of the node from the edge"),
-    near: t("the least distance from an edge so far"),
-    ...(isBordered(page.machine.lines) && { W: t("the contact node and the two nodes of its edge"), fl: t("the weights of these nodes in the equation of contact") }),
-  };
-  return {
-    ct: t("the number of each contact node's target edge, 0 for none"),
-    yt: t("the vertical distance of each contact node from its target line"),
-    dy: t("1 for a contact node in contact, else 0"),
-    k_cnt: t("of each node its master node, weight, master node, weight"),
-    ntx: t("the ends of the search box along x: the edge's nodes, with c_tll"),
-    nty: t("the ends of the search box along y: the edge's nodes, with c_tll"),
-    k1: t("the weight of the edge's first node"),
-    k2: t("the weight of the edge's second node"),
-    V: t("the equations of the element's nodes: 2n − 1 for x of node n, 2n for y"),
-    W: t("the equations of the nodes that are linked to the element's"),
-    cx: t("0 for an equation that is restrained, else 1"),
-    fl: t("the weight with which K is added for the linked node"),
-    K: t("the stiffness matrix of the element, force over length"),
-    MJS: t("the stiffness matrix of the whole, force over length"),
-    n: t("the number of the element"),
-    i1: turn,
-    i2: turn,
-    i: turn,
-    j: turn,
-    ...ofCorrected,
-  }[name];
+  const { programs } = run();
+  const kinds = ["print", programs && "corrected", programs && isBordered(page.machine.lines) && "bordered"];
+  const found = data.meanings.findLast(([of, own]) => own === name && kinds.includes(of));
+  return found && t(found[2]);
 }
 
 /** Says in a line what the array is that has the pointer or the focus. */
