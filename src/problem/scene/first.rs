@@ -137,7 +137,10 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     }
     if !mesh.orphans().is_empty() {
         scene["drop_orphans"] = true.into();
-        notes.push("drop_orphans: some nodes belong to no triangle".into());
+        notes.push(format!(
+            "drop_orphans: in no triangle are the nodes {}",
+            mesh.named(&mesh.orphans())
+        ));
     }
     Ok(FirstScene { text: text_of(&scene), notes })
 }
