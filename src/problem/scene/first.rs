@@ -71,7 +71,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
                 false => String::new(),
             };
             notes.push(format!(
-                "contact: {of_cnt} on {of_trg}, the nearest that face each other of different bodies{apart}"
+                "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}"
             ));
             let tolerance: Value =
                 six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
@@ -137,10 +137,8 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     }
     if !mesh.orphans().is_empty() {
         scene["drop_orphans"] = true.into();
-        notes.push(format!(
-            "drop_orphans: in no triangle are the nodes {}",
-            mesh.named(&mesh.orphans())
-        ));
+        let named = mesh.named(&mesh.orphans());
+        notes.push(format!("drop_orphans: what is in no triangle is left out: node {named}"));
     }
     Ok(FirstScene { text: text_of(&scene), notes })
 }

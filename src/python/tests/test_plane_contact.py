@@ -182,7 +182,7 @@ def test_snapshots_are_verified_from_lists_too(tmp_path):
     for path in paths:
         plane_contact.record("fig1", path, variant="tied")
     for files in [paths], [map(str, paths)], [paths[0], [paths[1]]]:
-        assert len(plane_contact.verify(*files)["files"]) == 2
+        assert len(plane_contact.verify(*files)["files"]["file"]) == 2
 
 
 def test_masked_values_are_refused():
@@ -219,6 +219,21 @@ def test_rows_are_nodes_in_the_order_of_the_mesh(tmp_path):
     turned = meshio.Mesh(mesh.points[order], cells, cell_data=mesh.cell_data, field_data=mesh.field_data)
     u = plane_contact.reference({**described, "mesh": turned})["u"]
     np.testing.assert_allclose(u[order], own, atol=1e-10 * abs(own).max())
+
+
+def test_the_lines_that_a_mesh_without_tags_is_refused_with_help(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    whole = meshio.read(ROOT / "golden/strand/strand.msh")
+    mesh = meshio.Mesh(whole.points, whole.cells)
+    mesh.write("part.msh", file_format="gmsh22")
+    new = [plane_contact.program(), "scene", "new", "part.msh"]
+    refused = subprocess.run(new, capture_output=True, encoding="utf-8")
+    lines = [line.strip() for line in refused.stderr.splitlines() if line.startswith("  mesh.")]
+    assert refused.returncode == 2 and len(lines) == 3
+    exec("\n".join(lines), {"mesh": mesh, "np": np})
+    assert subprocess.run(new).returncode == 0
+    scene = json.loads(Path("part.json").read_text(encoding="utf-8"))
+    assert list(scene["materials"]) == ["body"] and scene["restraints"][0]["on"] == "bottom"
 
 
 def test_the_example_of_the_front_page_runs(capsys):

@@ -4,12 +4,14 @@ use super::{HOW, Kind, Row, Rows, is_number, plain};
 use base::error::{InputError, Result};
 use base::files;
 
-/// The names of the columns, as [`plain`] leaves them: x, y, and the displacements along them.
-const COLUMNS: [&[&str]; 4] = [
+/// The names of the columns, as [`plain`] leaves them: x, y, and the displacements along x, y and, where
+/// there are any, z.
+const COLUMNS: [&[&str]; 5] = [
     &["x", "coordx", "points0"],
     &["y", "coordy", "points1"],
     &["ux", "u1", "dx", "dispx", "displacementx", "displacementux", "displacement0"],
     &["uy", "u2", "dy", "dispy", "displacementy", "displacementuy", "displacement1"],
+    &["uz", "u3", "dz", "dispz", "displacementz", "displacementuz", "displacement2"],
 ];
 
 /// Reads a table: its first line names the columns, which commas, semicolons or tabs separate.
@@ -36,11 +38,11 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
         }
     };
     let number = column(&is_number)?;
-    let mut columns = [None; 4];
+    let mut columns = [None; 5];
     for (place, names) in columns.iter_mut().zip(COLUMNS) {
         *place = column(&|name| names.contains(&&*plain(name)))?;
     }
-    let ([x, y, Some(ux), Some(uy)], true) =
+    let ([x, y, Some(ux), Some(uy), uz], true) =
         (columns, number.is_some() || columns[0].is_some() && columns[1].is_some())
     else {
         let named = headings.join(" | ");
@@ -55,7 +57,7 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
             let what = format!("line {line} has {found} cells, the first line {expected}");
             let is_split = separator == ',' && found > expected;
             let why =
-                if is_split { ": a decimal comma separates cells, write a point" } else { "" };
+                if is_split { "; a decimal comma would separate cells: write a point" } else { "" };
             return Err(wrong(what + why));
         }
         let float = |column: usize| {
@@ -81,7 +83,8 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
             (Some(x), Some(y)) => Some([float(x)?, float(y)?]),
             (Some(_) | None, None) | (None, Some(_)) => None,
         };
-        Ok(Row { line, number: number.transpose()?, at, u: [float(ux)?, float(uy)?] })
+        let u = [float(ux)?, float(uy)?, uz.map_or(Ok(0.0), float)?];
+        Ok(Row { line, number: number.transpose()?, at, u })
     };
     let rows = lines.filter(|(_, text)| !text.trim().is_empty()).map(row).collect::<Result<_>>()?;
     let named = |places: &[Option<usize>]| -> Vec<String> {

@@ -62,8 +62,8 @@ struct Row {
     number: Option<usize>,
     /// Its place in the undeformed shape, length.
     at: Option<[f64; 2]>,
-    /// The displacement, length.
-    u: [f64; 2],
+    /// The displacement along x, y and z, length; 0 along z where the file has none.
+    u: [f64; 3],
 }
 
 impl Rows {
@@ -91,6 +91,8 @@ impl Rows {
     pub fn on_mesh(&self, scene: &Scene, model: &Model) -> Result<(DVector<f64>, &'static str)> {
         self.check_units(&scene.units)?;
         let (nodes, how) = self.nodes(scene, model)?;
+        let size =
+            self.rows.iter().flat_map(|row| row.u).fold(0.0, |size: f64, u| size.max(u.abs()));
         let mut found: Vec<Option<&Row>> = vec![None; model.nodes.len()];
         for (node, row) in nodes.into_iter().zip(&self.rows) {
             if model.is_dropped(node) {
@@ -110,6 +112,15 @@ impl Rows {
                     format!("{} {} (node {node}) has no finite displacement", self.kind, row.line);
                 return Err(self.wrong(what, "give a number for each node of the mesh"));
             }
+            if row.u[2].abs() > NEAR * size {
+                let what = format!(
+                    "{} {} (node {node}) moves along z by {}, and the scene is plane",
+                    self.kind,
+                    row.line,
+                    six_digits(row.u[2])
+                );
+                return Err(self.wrong(what, "give the field of a plane problem"));
+            }
         }
         let is_missing = |node: &NodeId| found[node.index()].is_none() && !model.is_dropped(*node);
         let missing: Vec<NodeId> = model.node_ids().filter(is_missing).collect();
@@ -124,7 +135,7 @@ impl Rows {
                 self.wrong(what, "give the field of the scene's own mesh, at all of its nodes")
             );
         }
-        let u = |node: NodeId| found[node.index()].map_or([0.0; 2], |row| row.u);
+        let u = |node: NodeId| found[node.index()].map_or([0.0; 2], |row| [row.u[0], row.u[1]]);
         let u: Vec<[f64; 2]> = model.node_ids().map(u).collect();
         Ok((DVector::from_column_slice(u.as_flattened()), how))
     }
@@ -229,7 +240,8 @@ impl Rows {
                 [node] => Ok(node),
                 [a, b, ..] => {
                     let what = format!("{place} is that of node {a} and of node {b}");
-                    let fix = "add a column node with their numbers to a CSV, or list all nodes in the mesh's order";
+                    let fix = "add a column node with their numbers to a CSV, or an array node to a VTU; or list all nodes in the \
+                               mesh's order";
                     Err(self.wrong(what, fix))
                 }
                 [] => {

@@ -111,7 +111,10 @@ impl<'a> File<'a> {
             let id = ids.get(point).copied().filter(|id| id.fract() == 0.0 && *id >= 1.0);
             id.map(|id| id as usize)
         };
-        let row = |(line, (at, u))| Row { line, number: number(line), at: Some(at), u };
+        let row = |(line, ([x, y, _], u)): (usize, ([f64; 3], [f64; 3]))| {
+            let at = Some([x, y]);
+            Row { line, number: number(line), at, u }
+        };
         let rows = (0..).zip(points.into_iter().zip(u)).map(row).collect();
         Ok((rows, called(&array).into()))
     }
@@ -129,8 +132,8 @@ impl<'a> File<'a> {
         })
     }
 
-    /// Returns x and y of `count` vectors of two or three components.
-    fn vectors(&self, array: Node, count: usize) -> Result<Vec<[f64; 2]>, Why> {
+    /// Returns `count` vectors of two or three components; of two the third is 0.
+    fn vectors(&self, array: Node, count: usize) -> Result<Vec<[f64; 3]>, Why> {
         let name = array.attribute("Name").unwrap_or("Points").to_string();
         let components = match array.attribute("NumberOfComponents") {
             Some("2") => 2,
@@ -143,7 +146,8 @@ impl<'a> File<'a> {
                 "array {name:?} has {found} numbers, expected {components} for each of {count} points"
             ));
         }
-        Ok(numbers.chunks_exact(components).map(|vector| [vector[0], vector[1]]).collect())
+        let vector = |v: &[f64]| [v[0], v[1], v.get(2).copied().unwrap_or(0.0)];
+        Ok(numbers.chunks_exact(components).map(vector).collect())
     }
 
     fn numbers(&self, array: Node) -> Result<Vec<f64>, Why> {
