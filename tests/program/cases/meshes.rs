@@ -216,6 +216,6 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
     mesh_edited!(
         "/Nodes/,/EndNodes/s/^4$/5/; s/^4 0 1 0/&\\n99 5 5 0/",
         2,
-        &["nodes 99 (5 here) belong to no triangle"]
+        &["node 99 (5 here) belongs to no triangle"]
     ),
 ];
