@@ -320,7 +320,7 @@ fn ungrouped(name: &str, mesh: &Mesh) -> InputError {
             format!("{what}; nor has it surfaces of Gmsh, as where meshio saved it without tags");
         let fix = format!(
             "in Python give each triangle and line the tag of its group, and each tag its name and dimension:\n\
-             \x20 mesh.cell_data[\"gmsh:physical\"] = [np.full(len(block.data), 1) for block in mesh.cells]\n\
+             \x20 mesh.cell_data[\"gmsh:physical\"] = [np.full(len(b), 1) for b in mesh.cells]\n\
              \x20 mesh.field_data = {{\"body\": np.array([1, 2]), \"bottom\": np.array([1, 1])}}\n\
              \x20 mesh.write({name:?}, file_format=\"gmsh22\")\n\
              (a .msh file has no cell_sets; the Python package plane_contact takes a mesh with them)"

@@ -92,6 +92,8 @@ def compare(scene: Scene, u: Any, **options: Any) -> Result:
     difference of a node and the distance in the energy norm, ``contact`` what the displacements imply of
     contact. With ``friction=0, geometry="initial"`` it is the distance from the reference solution.
     """
+    if np.iscomplexobj(u):
+        raise ValueError("u is complex, expected real displacements")
     u = np.asarray(whole(u, "u"), dtype=float)
     if u.ndim != 2 or u.shape[1] not in (2, 3):
         raise ValueError(f"u has the shape {u.shape}, expected a row of two or three for each node")
@@ -186,7 +188,12 @@ def _run(
 
 
 def _plain(value: Any) -> Any:
-    return os.fspath(value) if isinstance(value, os.PathLike) else np.asarray(whole(value, "the scene")).tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    array = np.asarray(whole(value, "the scene"))
+    if array.dtype.kind not in "biufUO" or array.shape == () and array.dtype == object:
+        raise TypeError(f"{value!r} is no number, text, list or dict, of which a scene is made")
+    return array.tolist()
 
 
 def _word(value: Any) -> str:

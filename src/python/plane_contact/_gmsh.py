@@ -21,8 +21,8 @@ def write(path: str, mesh: Any) -> None:
     for block in mesh.cells:
         whole(block.data, f"mesh.cells of kind {block.type!r}")
     for name, blocks in mesh.cell_data.items():
-        for tags in blocks:
-            whole(tags, f"mesh.cell_data[{name!r}]")
+        for values in blocks:
+            whole(values, f"mesh.cell_data[{name!r}]")
     points = np.zeros((len(mesh.points), 3))
     points[:, : np.shape(mesh.points)[1]] = mesh.points
     tags: dict[tuple[int, str], int] = {}

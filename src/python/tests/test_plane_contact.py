@@ -187,9 +187,13 @@ def test_snapshots_are_verified_from_lists_too(tmp_path):
 
 def test_masked_values_are_refused():
     solved = plane_contact.solve("fig1")["u"]
-    masked = np.ma.masked_array(solved, mask=abs(solved) > 1e-3)
+    masked = np.ma.masked_array(solved, mask=True)
     with pytest.raises(ValueError, match="u has masked values"):
         plane_contact.compare("fig1", masked)
+    with pytest.raises(ValueError, match="complex"):
+        plane_contact.compare("fig1", solved + 1j)
+    with pytest.raises(TypeError, match="no number, text, list or dict"):
+        plane_contact.solve({"title": object()})
     unmasked = np.ma.masked_array(solved)
     assert plane_contact.compare("fig1", unmasked, variant="stepped") is not None
     folder = ROOT / "golden/strand"
@@ -227,7 +231,7 @@ def test_the_lines_that_a_mesh_without_tags_is_refused_with_help(tmp_path, monke
     mesh = meshio.Mesh(whole.points, whole.cells)
     mesh.write("part.msh", file_format="gmsh22")
     new = [plane_contact.program(), "scene", "new", "part.msh"]
-    refused = subprocess.run(new, capture_output=True, encoding="utf-8")
+    refused = subprocess.run(new, capture_output=True, encoding="utf-8", env={**os.environ, "COLUMNS": "80"})
     lines = [line.strip() for line in refused.stderr.splitlines() if line.startswith("  mesh.")]
     assert refused.returncode == 2 and len(lines) == 3
     exec("\n".join(lines), {"mesh": mesh, "np": np})
