@@ -138,7 +138,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     if !mesh.orphans().is_empty() {
         scene["drop_orphans"] = true.into();
         let named = mesh.named(&mesh.orphans());
-        notes.push(format!("drop_orphans: what is in no triangle is left out: node {named}"));
+        notes.push(format!("drop_orphans: nodes in no triangle are left out: {named}"));
     }
     Ok(FirstScene { text: text_of(&scene), notes })
 }
