@@ -14,7 +14,7 @@ use base::plain::shown;
 use engine::error::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::model::Report;
-use report::text::fitted;
+use report::text::{COLUMNS, fitted};
 
 /// What is said on standard error beside errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,11 +180,12 @@ pub fn print_either(
     if json { print(&document()) } else { print_report(report()) }
 }
 
-/// Returns the characters of a line: those of the terminal; where there is none, of the variable
+/// Returns the characters of a line: those of the terminal, at most those of a table; where there is none, of the variable
 /// COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
 pub fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
     let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());
+    let terminal = terminal.map(|width: usize| width.min(COLUMNS));
     terminal.or_else(columns).map_or(usize::MAX, |width: usize| width.max(40))
 }
 
