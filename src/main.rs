@@ -11,6 +11,7 @@ use std::thread::{Builder, available_parallelism};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
 use clap_complete::Shell;
+use plane_contact::commands::Verbosity;
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
 use plane_contact::files;
@@ -24,7 +25,7 @@ use plane_contact::{Error, commands};
 #[command(
     version,
     arg_required_else_help = true,
-    args_conflicts_with_subcommands = true,
+    override_usage = "plane-contact [OPTIONS]\n       plane-contact [-q | -v] <COMMAND>",
     // Help names them in the words of the program; completions have them.
     hide_possible_values = true,
     subcommand_value_name = "COMMAND",
@@ -54,6 +55,12 @@ struct Cli {
     /// Write the man pages of all commands to a folder.
     #[arg(long, value_name = "DIR", conflicts_with = "completions")]
     man: Option<PathBuf>,
+    /// Print errors alone to standard error: no progress, no notes.
+    #[arg(short, long, global = true, hide = true)]
+    quiet: bool,
+    /// Print each stage of the work to standard error, with its time.
+    #[arg(short, long, global = true, hide = true, conflicts_with = "quiet")]
+    verbose: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -68,7 +75,7 @@ fn main() -> ExitCode {
     // Every command that prints JSON has this option.
     let json = std::env::args_os().any(|arg| arg == "--json");
     let groups = command::grouped(&Cli::command());
-    let mut grammar = Cli::command().before_help(groups);
+    let mut grammar = grammar().before_help(groups);
     let parsed = grammar.try_get_matches_from_mut(std::env::args_os());
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
@@ -88,10 +95,45 @@ fn main() -> ExitCode {
         // What was asked for is help, or the version.
         Err(why) => return exit_code(commands::help(&why).map(|()| ExitStatus::Done), json),
     };
-    let Some(command) = cli.command else {
-        return exit_code(shell_files(&cli, grammar).map(|()| ExitStatus::Done), json);
+    match (cli.quiet, cli.verbose) {
+        (true, _) => Verbosity::Quiet.choose(),
+        (false, true) => Verbosity::Verbose.choose(),
+        (false, false) => Verbosity::Usual.choose(),
+    }
+    let result = match cli.command {
+        Some(_) if cli.completions.is_some() || cli.man.is_some() => {
+            let what = "--completions and --man stand in place of a command";
+            Err(InputError::new("the command line", what, "leave one out").into())
+        }
+        Some(command) => command.run().map_err(named_by_option),
+        None => shell_files(&cli).map(|()| ExitStatus::Done),
     };
-    exit_code(command.run().map_err(named_by_option), json)
+    exit_code(result, json)
+}
+
+/// Returns the grammar of the command line, in which the first page of help alone names the options that every
+/// command has.
+fn grammar() -> clap::Command {
+    let mut grammar = Cli::command();
+    grammar.build();
+    grammar.mut_args(|arg| match arg.is_global_set() {
+        true => arg.hide(false),
+        false => arg,
+    })
+}
+
+/// Returns a command for completions, whose `help` has the names of the commands in it: that of clap offers none.
+fn with_help(command: clap::Command) -> clap::Command {
+    if !command.has_subcommands() {
+        return command;
+    }
+    let help = clap::Command::new("help")
+        .about("Print the help of a command")
+        .disable_help_flag(true)
+        .disable_help_subcommand(true)
+        .subcommands(command.get_subcommands().map(name_alone));
+    let command = command.disable_help_subcommand(true);
+    command.mut_subcommands(with_help).subcommand(help)
 }
 
 /// Starts the threads of the pool, one for each processor unless RAYON_NUM_THREADS says otherwise. Where the system
@@ -126,25 +168,72 @@ fn exit_statuses() -> String {
     ExitStatus::ALL.iter().map(line).collect()
 }
 
+/// Returns a command with nothing but its name and the commands in it.
+fn name_alone(command: &clap::Command) -> clap::Command {
+    clap::Command::new(command.get_name().to_string())
+        .disable_help_flag(true)
+        .disable_help_subcommand(true)
+        .subcommands(command.get_subcommands().map(name_alone))
+}
+
 /// Prints the completions of a shell, or writes the man pages: what is asked for in place of a command.
-fn shell_files(cli: &Cli, mut grammar: clap::Command) -> Result<(), Error> {
+fn shell_files(cli: &Cli) -> Result<(), Error> {
+    if cli.completions.is_none() && cli.man.is_none() {
+        let fix = "name a command: plane-contact --help lists them";
+        return Err(InputError::new("the command line", "there is no command", fix).into());
+    }
     if let Some(shell) = cli.completions {
+        let mut grammar = with_help(Cli::command());
         let mut text = Vec::new();
         clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text);
         let text = String::from_utf8(text).expect("help is UTF-8");
         commands::print(&match shell {
-            // A command with a hyphen has two names there (clap-rs/clap#6421).
-            Shell::Bash => text.replace("plane__subcmd__contact", "plane__contact"),
-            Shell::Fish => text + &fish_values(&grammar, ""),
+            Shell::Bash => bash(&text),
+            Shell::Fish => text + &fish_values(&grammar, "") + FISH_WITH,
+            Shell::Zsh => {
+                text.replace(":CODE|FIELD:_default", ":CODE|FIELD:{compadd calculix; _files}")
+            }
             _ => text,
         })?;
     }
     if let Some(folder) = &cli.man {
-        grammar.build();
-        files::write_all(folder, &man_pages(&grammar))?;
+        files::write_all(folder, &man_pages(&grammar()))?;
         commands::report_written(folder);
     }
     Ok(())
+}
+
+/// What `compare --with` takes beside a file.
+const FISH_WITH: &str = "complete -c plane-contact -n \"__fish_plane_contact_using_subcommand compare\" -l with -r -a calculix\n";
+
+/// Completes words with `=`, which bash takes apart: `--reading R5=no` ends with R5, = and no.
+const BASH_WORDS: &str = r#"
+_plane__contact_words() {
+    local cur="$2" prev="$3" at=${COMP_CWORD} left=""
+    if [[ "${COMP_WORDS[at]}" == "=" ]]; then cur=""; elif [[ "${prev}" == "=" ]]; then at=$((at - 1)); fi
+    if [[ "${COMP_WORDS[at]}" == "=" ]]; then
+        prev="${COMP_WORDS[at-1]}"
+        if [[ "${prev}" != --* ]]; then
+            left="${prev}="
+            prev="${COMP_WORDS[at-2]}"
+            if [[ "${prev}" == "=" ]]; then prev="${COMP_WORDS[at-3]}"; fi
+        fi
+    fi
+    _plane__contact "$1" "${left}${cur}" "${prev}"
+    COMPREPLY=("${COMPREPLY[@]#"${left}"}")
+}
+"#;
+
+/// Returns the script for bash without what is wrong in it.
+fn bash(script: &str) -> String {
+    // A command with a hyphen has two names there (clap-rs/clap#6421).
+    let script = script.replace("plane__subcmd__contact", "plane__contact");
+    let files = r#"COMPREPLY=($(compgen -f "${cur}"))"#;
+    let both = r#"COMPREPLY=($(compgen -f -W "calculix" -- "${cur}"))"#;
+    let with = format!("--with)\n                    {files}");
+    let script = script.replace(&with, &with.replace(files, both));
+    BASH_WORDS.trim_start().to_string()
+        + &script.replace("complete -F _plane__contact ", "complete -F _plane__contact_words ")
 }
 
 /// Returns what clap leaves out for fish: the values of the arguments that have no option, command by command; `seen`

@@ -1,10 +1,11 @@
 //! How a command prints, and shows that it is at work.
 
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
-use std::path::PathBuf;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::thread::Builder;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use base::error::InputError;
 use base::exit::ExitStatus;
@@ -13,7 +14,31 @@ use base::plain::shown;
 use engine::error::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::model::Report;
-use report::text::fitted;
+use report::text::{COLUMNS, fitted};
+
+/// What is said on standard error beside errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verbosity {
+    /// Nothing (-q).
+    Quiet,
+    /// Notes, and in a terminal progress.
+    Usual,
+    /// Each stage too, at its start and with its time at its end (-v).
+    Verbose,
+}
+
+static VERBOSITY: OnceLock<Verbosity> = OnceLock::new();
+
+impl Verbosity {
+    /// Has all that follows say so much.
+    pub fn choose(self) {
+        VERBOSITY.get_or_init(|| self);
+    }
+
+    fn chosen() -> Self {
+        VERBOSITY.get().copied().unwrap_or(Verbosity::Usual)
+    }
+}
 
 /// Prints a document or a file to standard output, as it is; a reader that has gone away (`| head`)
 /// is no error. Text for people goes through [`print_fitted`].
@@ -47,7 +72,14 @@ pub fn within(error: Error, place: &str) -> Error {
 
 /// Prints to standard error that files were written to `folder`.
 pub fn report_written(folder: &Path) {
-    print_stderr(&format!("Written to {}\n", shown(folder)));
+    note(&format!("Written to {}\n", shown(folder)));
+}
+
+/// Prints to standard error what is no error, unless -q asks for none.
+pub fn note(text: &str) {
+    if Verbosity::chosen() != Verbosity::Quiet {
+        print_stderr(text);
+    }
 }
 
 /// Prints to standard error, for people; where that cannot be written, results and exit status are as
@@ -75,11 +107,49 @@ pub fn report_error(error: &Error) -> ExitStatus {
 /// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows
 /// only in a terminal.
 pub fn waiting<R>(what: &'static str, work: impl FnOnce() -> R) -> R {
-    let spinner = ProgressBar::new_spinner().with_message(what);
-    tick(&spinner);
+    let progress = Progress::start(what, ProgressBar::new_spinner().with_message(what));
     let result = work();
-    spinner.finish_and_clear();
+    progress.finish();
     result
+}
+
+/// A part of a command's work: -v names it at its start, and with its time at its end.
+pub struct Progress {
+    what: &'static str,
+    start: Instant,
+    bar: ProgressBar,
+}
+
+impl Progress {
+    fn start(what: &'static str, bar: ProgressBar) -> Self {
+        let bar = match Verbosity::chosen() {
+            Verbosity::Quiet => ProgressBar::hidden(),
+            Verbosity::Usual => bar,
+            Verbosity::Verbose => {
+                print_stderr(&format!("{what} ...\n"));
+                bar
+            }
+        };
+        tick(&bar);
+        Progress { what, start: Instant::now(), bar }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
+        if Verbosity::chosen() == Verbosity::Verbose {
+            let seconds = self.start.elapsed().as_secs_f64();
+            print_stderr(&format!("{}: {seconds:.2} s\n", self.what));
+        }
+    }
+}
+
+impl Deref for Progress {
+    type Target = ProgressBar;
+
+    fn deref(&self) -> &ProgressBar {
+        &self.bar
+    }
 }
 
 /// Prints a report, fitted to the terminal.
@@ -110,11 +180,12 @@ pub fn print_either(
     if json { print(&document()) } else { print_report(report()) }
 }
 
-/// Returns the characters of a line: those of the terminal; where there is none, of the variable
+/// Returns the characters of a line: those of the terminal, at most those of a table; where there is none, of the variable
 /// COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
 pub fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
     let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());
+    let terminal = terminal.map(|width: usize| width.min(COLUMNS));
     terminal.or_else(columns).map_or(usize::MAX, |width: usize| width.max(40))
 }
 
@@ -154,11 +225,9 @@ pub fn write_page(asked: &Option<PathBuf>, out: &Path, page: &str) -> Result<()>
 }
 
 /// A progress bar on standard error; it shows only in a terminal.
-pub fn progress(steps: usize, template: &str) -> ProgressBar {
+pub fn progress(what: &'static str, steps: usize, template: &str) -> Progress {
     let style = ProgressStyle::with_template(template).expect("the template is sound");
-    let bar = ProgressBar::new(steps as u64).with_style(style);
-    tick(&bar);
-    bar
+    Progress::start(what, ProgressBar::new(steps as u64).with_style(style))
 }
 
 /// Moves a bar by a thread of its own: none for one that nobody sees, nor where no thread can be started.

@@ -92,6 +92,8 @@ pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
     }
     let group = std::env::args_os()
         .skip(1)
+        // `help` is no group: the words behind it name one.
+        .filter(|word| word != "help")
         .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
     let names = group.get_subcommands().map(clap::Command::get_name);
     let names: Vec<&str> = names.filter(|name| *name != "help").collect();

@@ -153,7 +153,13 @@ fn options() -> String {
         values("--inputs", Inputs::ALL, Inputs::name, Inputs::explained),
         values("Ends of the program", ExitStatus::ALL, ExitStatus::name, ExitStatus::explained),
     ];
-    format!("# The values of options\n\n{}## --reading\n\n{}\n", text.concat(), Reading::help())
+    format!(
+        "# The values of options\n\n{}## --reading\n\n{}\n\n## Options of every command\n\n- `-q`, `--quiet`: no \
+         progress and no notes on standard error, errors alone\n- `-v`, `--verbose`: each stage on standard error, \
+         with its time\n",
+        text.concat(),
+        Reading::help()
+    )
 }
 
 fn values<T: Copy>(

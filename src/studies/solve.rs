@@ -92,7 +92,7 @@ pub struct Args {
 /// Solves a scene and writes its files; returns the exit status.
 pub fn run(args: &Args) -> Result<ExitStatus> {
     args.tables.check()?;
-    let request = request(args)?;
+    let request = waiting("reading", || request(args))?;
     let out = folder(&args.out, own_folder(args, &request));
     let wanted = FolderOptions { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.tables.json || args.out.is_some();
@@ -104,11 +104,10 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request));
     let ((solution, accuracy), plan) = (solved?, plan?);
     let assessment = waiting("assessing", || assess(args, &solution));
-    let result = if is_written {
-        report::folder::write(&out, &solution, &assessment, Some(&plan), wanted)?
-    } else {
-        report::folder::result(&solution, &assessment, Some(&plan), wanted)
-    };
+    let result = waiting("writing", || match is_written {
+        true => report::folder::write(&out, &solution, &assessment, Some(&plan), wanted),
+        false => Ok(report::folder::result(&solution, &assessment, Some(&plan), wanted)),
+    })?;
     if args.tables.json {
         print_stderr(&accuracy.text(usize::MAX));
         print(&result)?;
@@ -218,12 +217,12 @@ fn solve(args: &Args, request: &Request) -> Result<(Solution, Report)> {
     }
     let progress = match request.variant {
         // How many there will be is not known.
-        Variant::Unilateral => progress(0, "iteration {pos} {elapsed}"),
+        Variant::Unilateral => progress("solving", 0, "iteration {pos} {elapsed}"),
         Variant::Printed | Variant::Tied | Variant::Stepped => {
-            progress(request.iterations, "iteration {pos} of {len} {wide_bar} {eta}")
+            progress("solving", request.iterations, "iteration {pos} of {len} {wide_bar} {eta}")
         }
     };
     let solution = engine::solve(request, &mut |_: &Step| progress.inc(1))?;
-    progress.finish_and_clear();
+    progress.finish();
     Ok((solution, Report::default()))
 }

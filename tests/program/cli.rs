@@ -31,6 +31,44 @@ fn fails(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
     }
 }
 
+#[test]
+fn q_and_v_say_less_and_more_on_standard_error_alone() {
+    let folder = TempDir::new().expect("a folder");
+    let streams = |args: &[&str]| {
+        let output = run(folder.path(), args);
+        (output.status.code(), [output.stdout, output.stderr].map(|bytes| text(&bytes).to_string()))
+    };
+    let solve = ["solve", "fig1", "--no-pictures"];
+    let (status, [result, usual]) = streams(&solve);
+    assert_eq!((status, &*usual), (Some(0), ""));
+    for [more, less] in [["-v", "-q"], ["--verbose", "--quiet"]] {
+        let (status, [same, stages]) = streams(&[&[more], &solve[..]].concat());
+        assert_eq!((status, &same), (Some(0), &result));
+        for stage in ["reading", "solving", "assessing", "writing"] {
+            let (start, end) = (format!("{stage} ...\n"), format!("{stage}: "));
+            assert!(stages.contains(&start) && stages.contains(&end), "{stages}");
+        }
+        assert_eq!(
+            streams(&[&solve[..], &[less]].concat()),
+            (Some(0), [result.clone(), "".into()])
+        );
+        assert_eq!(streams(&["audit", "fig1", "--claim", "P12", less]).1[1], "");
+        let (status, [nothing, error]) = streams(&[less, "solve", "nowhere"]);
+        assert_eq!((status, &*nothing), (Some(2), ""));
+        assert!(error.starts_with("error: "), "{error}");
+    }
+    let pages = ["--man", "pages"];
+    assert!(streams(&pages).1[1].contains("Written to"));
+    assert_eq!(streams(&[&pages[..], &["-q"]].concat()).1[1], "");
+    fails(folder.path(), &["solve", "-q", "-v"], 2, &["cannot be used with"]);
+    fails(folder.path(), &["-q"], 2, &["there is no command"]);
+    fails(folder.path(), &["--man", "x", "scene", "list"], 2, &["in place of a command"]);
+    let first = succeeds(folder.path(), &["--help"]);
+    assert_eq!((first.matches("--quiet").count(), first.matches("--verbose").count()), (1, 1));
+    assert!(!succeeds(folder.path(), &["solve", "--help"]).contains("--quiet"));
+    assert!(succeeds(folder.path(), &["guide", "options"]).contains("`-q`, `--quiet`"));
+}
+
 /// A command or a path may have any bytes; a path stands on one line.
 #[cfg(target_os = "linux")]
 #[test]

@@ -471,7 +471,7 @@ fn orphans() {
         s["restraints"][1]["node"] = json!(14);
         s["restraints"][2]["node"] = json!(13);
     };
-    says(&refused(add), "nodes", &["nodes 5 belong to no triangle", "K4"]);
+    says(&refused(add), "nodes", &["node 5 belongs to no triangle", "K4"]);
     let mut scene = scene_json("fig1");
     add(&mut scene);
     scene["drop_orphans"] = json!(true);

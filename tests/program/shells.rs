@@ -11,8 +11,8 @@ use crate::texts::{commands, printed};
 /// Completes as readline does: it calls the registered function with the command, the word and the word before.
 const BASH: &str = r#"
     source ./script
-    COMP_WORDS=($1 '') COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
-    [[ $1 == *' ' ]] || { unset 'COMP_WORDS[-1]'; COMP_CWORD=$((COMP_CWORD - 1)); }
+    COMP_WORDS=(${1//=/ = } '') COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    [[ $1 == *[\ =] ]] || { unset 'COMP_WORDS[-1]'; COMP_CWORD=$((COMP_CWORD - 1)); }
     registered=$(complete -p plane-contact)
     [[ $registered =~ -F\ ([^\ ]+) ]]
     "${BASH_REMATCH[1]}" plane-contact "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD-1]}" 2>/dev/null
@@ -38,6 +38,7 @@ fn offered(shell: &str, line: &str) -> String {
     let folder = TempDir::new().expect("a folder");
     let script = printed(&["--completions", shell]);
     std::fs::write(folder.path().join("script"), script).expect("it is written");
+    std::fs::write(folder.path().join("calm.csv"), "").expect("it is written");
     let (program, more): (&str, &[&str]) = match shell {
         "bash" => (BASH, &["--norc", "-c"]),
         "fish" => (FISH, &["-c"]),
@@ -55,7 +56,7 @@ fn offered(shell: &str, line: &str) -> String {
 
 #[test]
 fn shells_complete_commands_options_and_values() {
-    let lines: [(&str, &[&str]); 9] = [
+    let lines: [(&str, &[&str]); 15] = [
         ("plane-contact so", &["solve"]),
         ("plane-contact snapshot re", &["record"]),
         ("plane-contact listing run ", &["c_cnt", "Km"]),
@@ -65,6 +66,12 @@ fn shells_complete_commands_options_and_values() {
         ("plane-contact solve --reading R5", &["R5=node_n"]),
         ("plane-contact guide sce", &["scenes"]),
         ("plane-contact scene copy C1", &["C10", "C15"]),
+        ("plane-contact help ", &["solve", "snapshot"]),
+        ("plane-contact help snapshot re", &["record"]),
+        ("plane-contact scene help m", &["mesh"]),
+        ("plane-contact compare fig1 --with cal", &["calculix", "calm.csv"]),
+        ("plane-contact solve --reading R5=", &["R5=node_n"]),
+        ("plane-contact solve --reading R5=n", &["R5=node_n"]),
     ];
     for shell in ["bash", "zsh", "fish"] {
         let mut version = Command::new(shell);

@@ -211,11 +211,14 @@ fn what_changed_is_said_and_accepted() {
     let mut snapshot = document(at);
     snapshot["runs"]["stepped"]["numbers"]["u"]["tolerance"] = json!({"relative": 0.5});
     std::fs::write(at.join("s.json"), snapshot.to_string()).expect("written");
-    assert_says(&ran(at, &[&["snapshot", "accept"], &asked[..]].concat()), 0, &words);
+    let accepted = ran(at, &[&["snapshot", "accept"], &asked[..]].concat());
+    assert_says(&accepted, 0, &[&words[..], &["Recorded again: s.json"]].concat());
     let tolerance = &document(at)["runs"]["stepped"]["numbers"]["u"]["tolerance"];
     assert_eq!(*tolerance, json!({"relative": 0.5}));
     assert_says(&ran(at, &["snapshot", "verify", "s.json"]), 0, &["same, 2 runs"]);
     assert_says(&ran(at, &["snapshot", "accept", "s.json"]), 0, &["same, 2 runs"]);
+    let words = ["same, 2 runs", "Nothing changed: s.json"];
+    assert_says(&ran(at, &["snapshot", "accept", "s.json"]), 0, &words);
 }
 
 /// What went in is said where nothing that came out differs: it is in the snapshot too.

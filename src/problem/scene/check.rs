@@ -44,7 +44,8 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
                 let [other, name] = [other, k].map(|k| file.materials.0[k as usize].0.text());
                 let number = mesh.elements[*member as usize].number;
                 let what = format!("triangle {number} has two materials, {other} and {name}");
-                return Err(InputError::new(place, what, "give each triangle one material"));
+                let fix = "give a material to one of the two groups";
+                return Err(InputError::new(place, what, fix));
             }
         }
     }
@@ -53,7 +54,9 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
         own.ok_or_else(|| {
             let (number, surface) = (triangle.number, mesh.whereabouts(triangle));
             let what = format!("triangle {number} has no material ({surface})");
-            InputError::new("materials", what, "give each physical group of triangles a material")
+            let how = groups.addition(2, &"body".into());
+            let fix = format!("give each physical group of triangles a material{how}");
+            InputError::new("materials", what, fix)
         })
     });
     found.collect()

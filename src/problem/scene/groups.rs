@@ -168,22 +168,31 @@ impl<'m> Groups<'m> {
     }
 
     /// Says how Gmsh adds a group of the entities whose elements are in none; nothing where all are.
-    fn addition(&self, dim: usize, group: &GroupRef) -> String {
+    pub(super) fn addition(&self, dim: usize, group: &GroupRef) -> String {
         let elements = self.mesh.elements.iter().filter(|element| element.dim() == dim);
-        let free: BTreeSet<usize> = elements
+        let free: Vec<usize> = elements
             .filter(|element| element.physical.is_empty())
             .map(|element| element.geometric)
             .collect();
-        if free.is_empty() {
-            return String::new();
+        if free.iter().all(|entity| *entity == 0) {
+            return match free.len() {
+                0 => String::new(),
+                count => format!(
+                    "; {count} {} are in none, and in no {} of Gmsh: in meshio give them a tag in \
+                     cell_data[\"gmsh:physical\"], and the tag its name in field_data, and save the mesh again",
+                    ELEMENT_NAMES[dim], ENTITIES[dim]
+                ),
+            };
         }
+        let free: BTreeSet<usize> = free.into_iter().collect();
         let more = if free.len() > MOST_LISTED { ", ..." } else { "" };
         let tags: Vec<String> = free.iter().take(MOST_LISTED).map(usize::to_string).collect();
         format!(
-            "; {} of {}s {} are in none: in Gmsh add those that belong to it, as in Physical {}({group}) = \
+            "; {} of {}{} {} are in none: in Gmsh add those that belong to it, as in Physical {}({group}) = \
              {{{}}}; and save the mesh again",
             ELEMENT_NAMES[dim],
             ENTITIES[dim],
+            if free.len() == 1 { "" } else { "s" },
             tags.join(", ") + more,
             STATEMENTS[dim],
             free.first().expect("there are some")

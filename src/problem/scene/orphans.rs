@@ -11,11 +11,14 @@ use base::error::{InputError, Result};
 /// The description does not allow it, or names a dropped node.
 pub fn drop(mesh: &mut Mesh, dropped: &[usize], description: &mut Description) -> Result<()> {
     if !description.drop_orphans {
-        let what = format!(
-            "nodes {} belong to no triangle (finding K4: Km would be singular)",
-            mesh.named(dropped)
-        );
-        let fix = "remove them (in Gmsh: Mesh.SaveAll = 0), or set \"drop_orphans\": true";
+        let named = mesh.named(dropped);
+        let nodes = match dropped.len() {
+            1 => format!("node {named} belongs"),
+            _ => format!("nodes {named} belong"),
+        };
+        let what = format!("{nodes} to no triangle (finding K4: Km would be singular)");
+        let fix =
+            "remove what is in none (in Gmsh: Mesh.SaveAll = 0), or set \"drop_orphans\": true";
         return Err(InputError::new("the mesh's nodes", what, fix));
     }
     let is_dropped = |n: &usize| dropped.binary_search(n).is_ok();

@@ -42,6 +42,15 @@ const POUND: f64 = 4.4482216152605;
 /// How far two units may be apart that are one, over the larger.
 const SAME: f64 = 1e-6;
 
+impl Units {
+    /// Returns whether a name is that of the scene's unit of length, or the scene names none.
+    pub fn measure_lengths_in(&self, name: &str) -> bool {
+        let own = &*self.length;
+        let known = in_si(&LENGTHS, own).is_some_and(|size| in_si(&LENGTHS, name) == Some(size));
+        own.is_empty() || own == name || known
+    }
+}
+
 /// Says that a stress times the square of a length is no force in the unit that the scene names; None where it is, or
 /// a unit is not known.
 pub fn misfit(units: &Units) -> Option<String> {

@@ -3,12 +3,20 @@
 use problem::element::Plane;
 use problem::scene::{Axis, Mesh, MeshBuilder, Scene, SceneBuilder, first, gmsh};
 
+type Block = (&'static str, [f64; 2], [f64; 2], u32);
+
+const PUNCH: [Block; 2] =
+    [("block", [0.0, 10.0], [0.0, 5.0], 10), ("punch", [3.0, 7.0], [5.01, 8.0], 4)];
+
 /// A block under a narrower punch, a hundredth above it, with all their sides as groups.
 fn punch() -> Mesh {
+    blocks(&PUNCH)
+}
+
+/// Blocks by name, extent and number of cells, each in a surface of its own, with all their sides as groups.
+fn blocks(blocks: &[Block]) -> Mesh {
     let mut mesh = MeshBuilder::default();
-    for (name, [left, right], [low, high], cells) in
-        [("block", [0.0, 10.0], [0.0, 5.0], 10), ("punch", [3.0, 7.0], [5.01, 8.0], 4)]
-    {
+    for (name, [left, right], [low, high], cells) in blocks.iter().copied() {
         let row = |y: f64| {
             (0..=cells).map(move |k| [left + (right - left) * f64::from(k) / f64::from(cells), y])
         };
@@ -59,6 +67,72 @@ fn a_mesh_without_groups_is_refused_with_the_lines_that_it_lacks() {
     mesh.elements.retain(|element| element.dim() == 2);
     let why = first("punch.msh", gmsh::write(&mesh).as_bytes()).err().unwrap().to_string();
     assert!(why.contains("whose numbers Gmsh shows"), "{why}");
+}
+
+fn notes(mesh: &Mesh) -> String {
+    first("m.msh", gmsh::write(mesh).as_bytes()).unwrap().notes.join("\n")
+}
+
+#[test]
+fn bodies_that_nothing_or_contact_alone_holds_are_named() {
+    let far: Block = ("far", [30.0, 40.0], [20.0, 25.0], 10);
+    let said = notes(&blocks(&[PUNCH[0], PUNCH[1], far]));
+    assert!(said.contains("contact: \"punch_bottom\" on \"block_top\""), "{said}");
+    assert!(said.contains("contact alone holds the body \"punch\""), "{said}");
+    assert!(said.contains("nothing holds the body \"far\""), "{said}");
+    assert!(!said.contains("body \"block\""), "{said}");
+}
+
+#[test]
+fn curves_that_face_no_other_body_are_no_contact() {
+    // Beside each other, corner to corner: no side faces another.
+    let corner: Block = ("other", [10.0, 20.0], [5.0, 10.0], 10);
+    let said = notes(&blocks(&[PUNCH[0], corner]));
+    assert!(said.contains("no two groups of edges of different bodies face each other"), "{said}");
+    assert!(said.contains("nothing holds the body \"other\""), "{said}");
+    let above: Block = ("punch", [3.0, 7.0], [9.0, 12.0], 4);
+    let said = notes(&blocks(&[PUNCH[0], above]));
+    assert!(said.contains("though they are 4 apart, more than an edge"), "{said}");
+}
+
+#[test]
+fn each_triangle_is_in_one_group_with_a_material() {
+    let grouped = |edit: fn(&mut problem::scene::Element, usize)| {
+        let mut mesh = punch();
+        let extra = mesh.names.iter().map(|name| name.tag).max().unwrap() + 1;
+        mesh.names.push(problem::scene::PhysicalName { dim: 2, tag: extra, name: "all".into() });
+        mesh.elements.iter_mut().filter(|e| e.dim() == 2).for_each(|e| edit(e, extra));
+        first("m.msh", gmsh::write(&mesh).as_bytes())
+    };
+    let both = grouped(|element, extra| element.physical.push(extra)).unwrap();
+    let said = both.notes.join("\n");
+    assert!(said.contains("none for \"all\", whose triangles are in the other groups"), "{said}");
+    assert!(!both.text.contains("\"all\""), "{}", both.text);
+    let none = grouped(|element, extra| match element.number.is_multiple_of(2) {
+        true => element.physical.clear(),
+        false => element.physical[0] = extra,
+    });
+    let why = none.err().unwrap().to_string();
+    assert!(why.contains("has no material (surface") && why.contains("add those"), "{why}");
+    let part = grouped(|element, extra| match element.number.is_multiple_of(2) {
+        true => element.physical = [extra].into_iter().collect(),
+        false => element.physical.push(extra),
+    });
+    let why = part.err().unwrap().to_string();
+    assert!(why.contains("has two materials"), "{why}");
+}
+
+#[test]
+fn a_mesh_without_tags_is_refused_with_the_lines_of_meshio() {
+    let mut mesh = punch();
+    mesh.names.clear();
+    mesh.elements.iter_mut().for_each(|element| {
+        element.physical.clear();
+        element.geometric = 0;
+    });
+    let why = first("m.msh", gmsh::write(&mesh).as_bytes()).err().unwrap().to_string();
+    assert!(why.contains("mesh.cell_data[\"gmsh:physical\"] = ["), "{why}");
+    assert!(!why.contains("Physical Surface") && !why.contains("{0}"), "{why}");
 }
 
 #[test]

@@ -602,7 +602,7 @@ fn what_no_group_holds_is_named_with_what_gmsh_adds() {
     let no_group =
         SMALL_2.replace("9 2 2 1 4", "9 2 2 0 4").replace("2 1 \"the body\"", "2 6 \"x\"");
     let why = scene_on(no_group.as_bytes(), 30).expect("it is read").build().expect_err("no group");
-    assert!(why.fix.contains("triangles of surfaces 4 are in none"), "{}", why.fix);
+    assert!(why.fix.contains("triangles of surface 4 are in none"), "{}", why.fix);
     assert!(why.fix.contains("Physical Surface(\"the body\") = {4};"), "{}", why.fix);
 }
 

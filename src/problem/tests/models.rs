@@ -348,7 +348,7 @@ fn nodes_of_no_triangle_are_listed() {
         });
         result.expect_err("they belong to no triangle")
     };
-    assert!(apart(1).contains("nodes 14 belong to no triangle"), "{}", apart(1));
+    assert!(apart(1).contains("node 14 belongs to no triangle"), "{}", apart(1));
     let ten = "14, 15, 16, 17, 18, 19, 20, 21, 22, 23";
     assert!(apart(10).contains(&format!("nodes {ten} belong")), "{}", apart(10));
     assert!(apart(12).contains(&format!("nodes {ten} and 2 more belong")), "{}", apart(12));

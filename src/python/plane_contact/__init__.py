@@ -5,6 +5,9 @@ A scene is a path, the name of a scene of the program, or a dict as a scene file
 JSON: lists of numbers are numpy arrays, with nan for null, and a list of objects is a dict of its
 columns. Options are those of the command, with ``_`` for ``-``.
 
+Row k of what nodes have is node k + 1: of a mesh of meshio the row k of ``mesh.points``, of a mesh
+file the nodes by ascending number, which ``meshio.read`` leaves in the order of the file.
+
 >>> import plane_contact
 >>> result = plane_contact.reference("fig1")
 >>> result["u"].shape
@@ -21,13 +24,13 @@ import shutil
 import subprocess
 import sysconfig
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Optional, Union
 
 import numpy as np
 
-from ._gmsh import write
+from ._gmsh import whole, write
 
 File = Union[str, "os.PathLike[str]"]
 Scene = Union[File, Mapping[str, Any]]
@@ -89,7 +92,9 @@ def compare(scene: Scene, u: Any, **options: Any) -> Result:
     difference of a node and the distance in the energy norm, ``contact`` what the displacements imply of
     contact. With ``friction=0, geometry="initial"`` it is the distance from the reference solution.
     """
-    u = np.asarray(u, dtype=float)
+    if np.iscomplexobj(u):
+        raise ValueError("u is complex, expected real displacements")
+    u = np.asarray(whole(u, "u"), dtype=float)
     if u.ndim != 2 or u.shape[1] not in (2, 3):
         raise ValueError(f"u has the shape {u.shape}, expected a row of two or three for each node")
     rows = ((n, x, y) for n, (x, y) in enumerate(u[:, :2].tolist(), 1))
@@ -111,9 +116,12 @@ def record(scene: Scene, out: File, **options: Any) -> Result:
     return recorded
 
 
-def verify(*files: File, scene: Optional[File] = None) -> Result:
-    """Runs again what snapshots recorded. Raises `Differs`, whose ``result`` says what differs."""
-    return _json(["snapshot", "verify", *map(str, files)], None, {"scene": scene})
+def verify(*files: Union[File, Iterable[File]], scene: Optional[File] = None) -> Result:
+    """Runs again what snapshots recorded, files or lists of them. Raises `Differs`, whose ``result`` says what differs."""
+    single = (str, os.PathLike)
+    lists = [[entry] if isinstance(entry, single) else list(entry) for entry in files]
+    names = [os.fspath(file) for entry in lists for file in entry]
+    return _json(["snapshot", "verify"], None, {"scene": scene}, names)
 
 
 def arrays(value: Any) -> Any:
@@ -143,18 +151,25 @@ def program() -> str:
     return found
 
 
-def _json(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> Result:
-    result: Result = arrays(json.loads(_run(command, scene, {**options, "json": True})))
+def _json(
+    command: list[str], scene: Optional[Scene], options: Mapping[str, Any], files: Iterable[str] = ()
+) -> Result:
+    result: Result = arrays(json.loads(_run(command, scene, {**options, "json": True}, files)))
     return result
 
 
-def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any]) -> str:
+def _run(
+    command: list[str], scene: Optional[Scene], options: Mapping[str, Any], files: Iterable[str] = ()
+) -> str:
     """Returns what the program prints; a scene that is a dict is given to it on standard input."""
     words = [program(), *command]
     for option, value in options.items():
+        if option == "help":
+            raise InputError("help is no option here: help(plane_contact), or plane-contact --help")
         if value is not None and value is not False:
             name = "--" + option.replace("_", "-")
             words += [name] if value is True else [f"{name}={_word(value)}"]
+    words += ["--", *files] if files else []
     with tempfile.TemporaryDirectory() as folder:
         text, place = None, None
         if isinstance(scene, Mapping):
@@ -173,7 +188,12 @@ def _run(command: list[str], scene: Optional[Scene], options: Mapping[str, Any])
 
 
 def _plain(value: Any) -> Any:
-    return os.fspath(value) if isinstance(value, os.PathLike) else np.asarray(value).tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    array = np.asarray(whole(value, "the scene"))
+    if array.dtype.kind not in "biufUO" or array.shape == () and array.dtype == object:
+        raise TypeError(f"{value!r} is no number, text, list or dict, of which a scene is made")
+    return array.tolist()
 
 
 def _word(value: Any) -> str:

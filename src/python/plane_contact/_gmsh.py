@@ -8,8 +8,21 @@ import numpy as np
 _KINDS = {"vertex": (15, 0), "line": (1, 1), "triangle": (2, 2)}
 
 
+def whole(values: Any, name: str) -> Any:
+    """Returns values as they are. Raises ValueError where some are masked: they stand for no number."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values: give a number for each (np.ma.filled)")
+    return values
+
+
 def write(path: str, mesh: Any) -> None:
     """Writes the vertices, lines and triangles that are in a group, and all triangles."""
+    whole(mesh.points, "mesh.points")
+    for block in mesh.cells:
+        whole(block.data, f"mesh.cells of kind {block.type!r}")
+    for name, blocks in mesh.cell_data.items():
+        for values in blocks:
+            whole(values, f"mesh.cell_data[{name!r}]")
     points = np.zeros((len(mesh.points), 3))
     points[:, : np.shape(mesh.points)[1]] = mesh.points
     tags: dict[tuple[int, str], int] = {}

@@ -177,6 +177,69 @@ def test_a_snapshot_is_recorded_and_verified(tmp_path):
     assert caught.value.result["same"] is False
 
 
+def test_snapshots_are_verified_from_lists_too(tmp_path):
+    paths = [tmp_path / "a.json", tmp_path / "b.json"]
+    for path in paths:
+        plane_contact.record("fig1", path, variant="tied")
+    for files in [paths], [map(str, paths)], [paths[0], [paths[1]]]:
+        assert len(plane_contact.verify(*files)["files"]["file"]) == 2
+
+
+def test_masked_values_are_refused():
+    solved = plane_contact.solve("fig1")["u"]
+    masked = np.ma.masked_array(solved, mask=True)
+    with pytest.raises(ValueError, match="u has masked values"):
+        plane_contact.compare("fig1", masked)
+    with pytest.raises(ValueError, match="complex"):
+        plane_contact.compare("fig1", solved + 1j)
+    with pytest.raises(TypeError, match="no number, text, list or dict"):
+        plane_contact.solve({"title": object()})
+    unmasked = np.ma.masked_array(solved)
+    assert plane_contact.compare("fig1", unmasked, variant="stepped") is not None
+    folder = ROOT / "golden/strand"
+    described = json.loads((folder / "scene.json").read_text(encoding="utf-8"))
+    mesh = described["mesh"] = meshio.read(folder / "strand.msh")
+    mesh.points = np.ma.masked_array(mesh.points, mask=mesh.points > 1)
+    with pytest.raises(ValueError, match="mesh.points has masked values"):
+        plane_contact.solve(described)
+
+
+def test_help_is_no_option(tmp_path):
+    for value in [True, False]:
+        with pytest.raises(plane_contact.InputError, match="help"):
+            plane_contact.solve("fig1", help=value)
+    with pytest.raises(plane_contact.InputError, match="help"):
+        plane_contact.record("fig1", tmp_path / "s.json", help=True)
+
+
+def test_rows_are_nodes_in_the_order_of_the_mesh(tmp_path):
+    """A mesh file counts by its numbers, a mesh of meshio by its rows."""
+    folder = ROOT / "golden/strand"
+    described = json.loads((folder / "scene.json").read_text(encoding="utf-8"))
+    mesh = meshio.read(folder / "strand.msh")
+    own = plane_contact.reference({**described, "mesh": mesh})["u"]
+    order = np.arange(len(mesh.points))[::-1]
+    cells = [(block.type, len(order) - 1 - block.data) for block in mesh.cells]
+    turned = meshio.Mesh(mesh.points[order], cells, cell_data=mesh.cell_data, field_data=mesh.field_data)
+    u = plane_contact.reference({**described, "mesh": turned})["u"]
+    np.testing.assert_allclose(u[order], own, atol=1e-10 * abs(own).max())
+
+
+def test_the_lines_that_a_mesh_without_tags_is_refused_with_help(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    whole = meshio.read(ROOT / "golden/strand/strand.msh")
+    mesh = meshio.Mesh(whole.points, whole.cells)
+    mesh.write("part.msh", file_format="gmsh22")
+    new = [plane_contact.program(), "scene", "new", "part.msh"]
+    refused = subprocess.run(new, capture_output=True, encoding="utf-8", env={**os.environ, "COLUMNS": "80"})
+    lines = [line.strip() for line in refused.stderr.splitlines() if line.startswith("  mesh.")]
+    assert refused.returncode == 2 and len(lines) == 3
+    exec("\n".join(lines), {"mesh": mesh, "np": np})
+    assert subprocess.run(new).returncode == 0
+    scene = json.loads(Path("part.json").read_text(encoding="utf-8"))
+    assert list(scene["materials"]) == ["body"] and scene["restraints"][0]["on"] == "bottom"
+
+
 def test_the_example_of_the_front_page_runs(capsys):
     page = (ROOT / "README.md").read_text(encoding="utf-8")
     exec(page.split("```python\n")[1].split("```")[0], {})

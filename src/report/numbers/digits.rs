@@ -49,14 +49,17 @@ impl Digits {
             return "0".into();
         }
         match self {
-            Digits::Decimals(n) => {
-                let shown = format!("{x:.n$}");
-                let is_zero = shown.chars().all(|c| "-0.".contains(c));
-                if is_zero { shown.trim_start_matches('-').into() } else { shown }
-            }
+            Digits::Decimals(n) => fixed(x, n),
             Digits::Scientific(n) => format!("{x:.n$e}"),
         }
     }
+}
+
+/// Writes a number with so many decimals; what is rounded to nothing has no sign.
+pub fn fixed(x: f64, decimals: usize) -> String {
+    let shown = format!("{x:.decimals$}");
+    let is_zero = shown.chars().all(|c| "-0.".contains(c));
+    if is_zero { shown.trim_start_matches('-').into() } else { shown }
 }
 
 /// Writes a number with the digits that its relative error leaves ([`Digits::of`]); `-` stands for what is no

@@ -33,7 +33,7 @@ pub fn long(x: f64) -> String {
 
 /// Returns a point as text, `x, y`.
 pub fn coordinates([x, y]: [f64; 2], decimals: usize) -> String {
-    format!("{x:.decimals$}, {y:.decimals$}")
+    format!("{}, {}", digits::fixed(x, decimals), digits::fixed(y, decimals))
 }
 
 /// Writes a value by `written`, and `-` where there is none.

@@ -127,9 +127,15 @@ fn arithmetic(solution: &Solution) -> Vec<String> {
 /// Names the nodes that were dropped, by their numbers in the mesh file.
 fn dropped(model: &Model) -> Option<String> {
     let nodes = listed(&model.dropped);
-    (!nodes.is_empty()).then(|| {
-        format!("Dropped: nodes {nodes} of the mesh belong to no triangle and have no equations")
-    })
+    match model.dropped.len() {
+        0 => None,
+        1 => Some(format!(
+            "Dropped: node {nodes} of the mesh belongs to no triangle and has no equation"
+        )),
+        _ => Some(format!(
+            "Dropped: nodes {nodes} of the mesh belong to no triangle and have no equations"
+        )),
+    }
 }
 
 /// Names the nodes in contact at the end.

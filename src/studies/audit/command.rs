@@ -22,7 +22,7 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    ReadingArg, TablesArgs, offered, print, print_either, print_stderr, progress, waiting, width,
+    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
 };
 
 /// Show what every ambiguity and every finding does on a scene.
@@ -111,12 +111,12 @@ fn prices(args: &Args) -> Result<()> {
     let compared = Compared::new(&case)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
     let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
-    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("running", runs, "run {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
     let alone = compared.prices(&watch);
     let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
     let range = prices::over_range(&places, &watch);
-    bar.finish_and_clear();
+    bar.finish();
     let document =
         price_report::Document { reading, prices: &alone, repairs: &repairs, range: &range };
     let json = price_report::json(&document, &case.scene);
@@ -215,13 +215,13 @@ fn whole(args: &Args) -> Result<()> {
     let case = case(args)?;
     let places = places(args)?;
     if !std::io::stderr().is_terminal() {
-        print_stderr(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
+        note(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
-    let bar = progress(steps(), "auditing {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
     let found = if is_whole { audit(&case, &places, &watch) } else { first_screen(&case, &watch) };
-    bar.finish_and_clear();
+    bar.finish();
     let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
     if is_whole {
         let json = report::json(&found, &conclusion, &case.scene);

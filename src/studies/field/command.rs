@@ -7,7 +7,7 @@ use super::{Beside, Rows};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::plain::six_digits;
-use engine::error::Result;
+use engine::error::{Error, Result};
 use engine::{self, Request, max_displacement};
 
 use commands::{TablesArgs, print, waiting};
@@ -40,7 +40,8 @@ pub fn run(
             InputError::new(rows.place, what, "give them in the scene's unit of length").into()
         );
     }
-    let reference = waiting("solving", || engine::solve(request, &mut |_| ()))?;
+    let reference = waiting("solving", || engine::solve(request, &mut |_| ()));
+    let reference = reference.map_err(|why| without_reference(why, request))?;
     let beside = Beside::new(&reference, u, tolerance)?;
     let moves = max_displacement(&reference.u) > 0.0;
     if moves && !beside.distance.energy_relative.is_finite() {
@@ -55,4 +56,16 @@ pub fn run(
         false => tables.print(table::report(&compared))?,
     }
     Ok(ExitStatus::compared(compared.beside.is_same()))
+}
+
+/// Says that there is nothing to compare with where the published algorithm fails: that is no verdict on it here.
+fn without_reference(why: Error, request: &Request) -> Error {
+    match why {
+        Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => {
+            let what = format!("the run of {} has no end to compare with: {why}", request.variant);
+            let fix = "leave it out, which compares with the equilibrium, or name another variant";
+            InputError::new("--variant", what, fix).into()
+        }
+        Error::Input(_) | Error::Equilibrium(_) => why,
+    }
 }

@@ -1,16 +1,17 @@
 //! Displacements in a table of comma-separated values, as this program, spreadsheets and ParaView write it.
 
-use super::{HOW, Row, Rows, plain};
+use super::{HOW, Kind, Row, Rows, is_number, plain};
 use base::error::{InputError, Result};
 use base::files;
 
-/// The names of the columns, as [`plain`] leaves them: a node's number, x, y, and the displacements along them.
+/// The names of the columns, as [`plain`] leaves them: x, y, and the displacements along x, y and, where
+/// there are any, z.
 const COLUMNS: [&[&str]; 5] = [
-    &["node", "n", "id", "nodeid", "nodenumber", "nodelabel"],
     &["x", "coordx", "points0"],
     &["y", "coordy", "points1"],
     &["ux", "u1", "dx", "dispx", "displacementx", "displacementux", "displacement0"],
     &["uy", "u2", "dy", "dispy", "displacementy", "displacementuy", "displacement1"],
+    &["uz", "u3", "dz", "dispz", "displacementz", "displacementuz", "displacement2"],
 ];
 
 /// Reads a table: its first line names the columns, which commas, semicolons or tabs separate.
@@ -25,23 +26,24 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
     let (_, heading) = lines.next().ok_or_else(|| wrong("the file is empty".into()))?;
     let separator = [';', '\t'].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
     let headings = cells(heading, separator);
+    let column = |is_named: &dyn Fn(&str) -> bool| {
+        let found: Vec<usize> = (0..headings.len()).filter(|k| is_named(&headings[*k])).collect();
+        match found[..] {
+            [] => Ok(None),
+            [k] => Ok(Some(k)),
+            [k, other, ..] => Err(wrong(format!(
+                "the columns {:?} and {:?} mean the same",
+                headings[k], headings[other]
+            ))),
+        }
+    };
+    let number = column(&is_number)?;
     let mut columns = [None; 5];
-    for (column, names) in columns.iter_mut().zip(COLUMNS) {
-        let is_named = |k: &usize| names.contains(&&*plain(&headings[*k]));
-        let found: Vec<usize> = (0..headings.len()).filter(is_named).collect();
-        *column = match found[..] {
-            [] => None,
-            [k] => Some(k),
-            [k, other, ..] => {
-                return Err(wrong(format!(
-                    "the columns {:?} and {:?} mean the same",
-                    headings[k], headings[other]
-                )));
-            }
-        };
+    for (place, names) in columns.iter_mut().zip(COLUMNS) {
+        *place = column(&|name| names.contains(&&*plain(name)))?;
     }
-    let ([number, x, y, Some(ux), Some(uy)], true) =
-        (columns, columns[0].is_some() || columns[1].is_some() && columns[2].is_some())
+    let ([x, y, Some(ux), Some(uy), uz], true) =
+        (columns, number.is_some() || columns[0].is_some() && columns[1].is_some())
     else {
         let named = headings.join(" | ");
         return Err(wrong(format!(
@@ -52,14 +54,20 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
         let cells = cells(text, separator);
         if cells.len() != headings.len() {
             let (found, expected) = (cells.len(), headings.len());
-            return Err(wrong(format!("line {line} has {found} cells, the first line {expected}")));
+            let what = format!("line {line} has {found} cells, the first line {expected}");
+            let is_split = separator == ',' && found > expected;
+            let why =
+                if is_split { "; a decimal comma would separate cells: write a point" } else { "" };
+            return Err(wrong(what + why));
         }
         let float = |column: usize| {
             cells[column].parse::<f64>().map_err(|_| {
                 let (cell, heading) = (&cells[column], &headings[column]);
-                wrong(format!(
-                    "line {line}, column {heading:?}: {cell:?} is no number, such as 1.5e-3"
-                ))
+                let why = match cell.replacen(',', ".", 1).parse::<f64>() {
+                    Ok(_) => "has a decimal comma: write a point",
+                    Err(_) => "is no number, such as 1.5e-3",
+                };
+                wrong(format!("line {line}, column {heading:?}: {cell:?} {why}"))
             })
         };
         let number = match number {
@@ -75,14 +83,18 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
             (Some(x), Some(y)) => Some([float(x)?, float(y)?]),
             (Some(_) | None, None) | (None, Some(_)) => None,
         };
-        Ok(Row { line, number: number.transpose()?, at, u: [float(ux)?, float(uy)?] })
+        let u = [float(ux)?, float(uy)?, uz.map_or(Ok(0.0), float)?];
+        Ok(Row { line, number: number.transpose()?, at, u })
     };
     let rows = lines.filter(|(_, text)| !text.trim().is_empty()).map(row).collect::<Result<_>>()?;
-    let taken = columns.into_iter().flatten().map(|k| &*headings[k]).collect::<Vec<_>>();
+    let named = |places: &[Option<usize>]| -> Vec<String> {
+        places.iter().flatten().map(|k| headings[*k].clone()).collect()
+    };
     Ok(Rows {
         place: place.into(),
-        kind: "line",
-        taken: format!("columns {}", taken.join(" | ")),
+        kind: Kind::Line,
+        names: named(&columns),
+        taken: format!("columns {}", [named(&[number]), named(&columns)].concat().join(" | ")),
         rows,
     })
 }

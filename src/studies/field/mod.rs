@@ -22,7 +22,7 @@ use base::error::{InputError, Result};
 use base::files as disk;
 use base::plain::{shown, six_digits};
 use problem::model::{Model, NodeId};
-use problem::scene::Scene;
+use problem::scene::{Scene, Units};
 
 /// How far a place of the file may be from its node, over the larger side of the mesh.
 const NEAR: f64 = 1e-6;
@@ -31,12 +31,24 @@ const NEAR: f64 = 1e-6;
 const HOW: &str = "write it as CSV with the columns node, ux, uy or x, y, ux, uy, or as VTU, in ASCII, base64 or raw, \
                    compressed by zlib or not (meshio convert FIELD field.vtu)";
 
+base::choices! {
+    /// What a row of a file is.
+    Kind {
+        /// A line of a table, whose numbers of nodes are its author's.
+        Line = "line",
+        /// A point of a VTU file, whose numbers may be those that a viewer gave it.
+        Point = "point",
+    }
+}
+
 /// The displacements in a file.
 pub struct Rows {
     /// The path of the file.
     pub place: String,
-    /// What a row is called: a line or a point.
-    kind: &'static str,
+    /// What a row is called.
+    kind: Kind,
+    /// The names of what was taken for places and displacements, which may have a unit.
+    names: Vec<String>,
     /// What was taken for the displacements.
     pub taken: String,
     rows: Vec<Row>,
@@ -50,8 +62,8 @@ struct Row {
     number: Option<usize>,
     /// Its place in the undeformed shape, length.
     at: Option<[f64; 2]>,
-    /// The displacement, length.
-    u: [f64; 2],
+    /// The displacement along x, y and z, length; 0 along z where the file has none.
+    u: [f64; 3],
 }
 
 impl Rows {
@@ -77,7 +89,10 @@ impl Rows {
     /// # Errors
     /// A row belongs to no node or to several, a node has no row or several, or a displacement is no number.
     pub fn on_mesh(&self, scene: &Scene, model: &Model) -> Result<(DVector<f64>, &'static str)> {
+        self.check_units(&scene.units)?;
         let (nodes, how) = self.nodes(scene, model)?;
+        let size =
+            self.rows.iter().flat_map(|row| row.u).fold(0.0, |size: f64, u| size.max(u.abs()));
         let mut found: Vec<Option<&Row>> = vec![None; model.nodes.len()];
         for (node, row) in nodes.into_iter().zip(&self.rows) {
             if model.is_dropped(node) {
@@ -97,6 +112,15 @@ impl Rows {
                     format!("{} {} (node {node}) has no finite displacement", self.kind, row.line);
                 return Err(self.wrong(what, "give a number for each node of the mesh"));
             }
+            if row.u[2].abs() > NEAR * size {
+                let what = format!(
+                    "{} {} (node {node}) moves along z by {}, and the scene is plane",
+                    self.kind,
+                    row.line,
+                    six_digits(row.u[2])
+                );
+                return Err(self.wrong(what, "give the field of a plane problem"));
+            }
         }
         let is_missing = |node: &NodeId| found[node.index()].is_none() && !model.is_dropped(*node);
         let missing: Vec<NodeId> = model.node_ids().filter(is_missing).collect();
@@ -111,7 +135,7 @@ impl Rows {
                 self.wrong(what, "give the field of the scene's own mesh, at all of its nodes")
             );
         }
-        let u = |node: NodeId| found[node.index()].map_or([0.0; 2], |row| row.u);
+        let u = |node: NodeId| found[node.index()].map_or([0.0; 2], |row| [row.u[0], row.u[1]]);
         let u: Vec<[f64; 2]> = model.node_ids().map(u).collect();
         Ok((DVector::from_column_slice(u.as_flattened()), how))
     }
@@ -124,31 +148,46 @@ impl Rows {
             row.at.is_none_or(|[x, y]| (x - nx).hypot(y - ny) <= near)
         };
         if self.rows.iter().all(|row| row.number.is_some()) {
-            let in_file = scene.source().map_or(&[][..], |(_, mesh)| &mesh.in_file);
-            let here = self.by_number(model, |n| n.checked_sub(1), is_at);
-            if in_file.is_empty() {
-                return Ok((here?, "by number"));
+            let numbered = self.by_its_numbers(scene, model, is_at);
+            match (self.kind, &numbered) {
+                (Kind::Line, _) | (Kind::Point, Ok(_)) => return numbered,
+                (Kind::Point, Err(_)) => {}
             }
-            let in_file = self.by_number(model, |n| in_file.binary_search(&n).ok(), is_at);
-            return match (in_file, here) {
-                (Ok(nodes), Err(_)) => Ok((nodes, "by the numbers of the mesh file")),
-                (Err(_), Ok(nodes)) => Ok((nodes, "by number, as they are numbered here")),
-                (Err(why), Err(_)) => Err(why),
-                (Ok(_), Ok(_)) => {
-                    let what = "the node numbers may be those of the mesh file, which have gaps, or those here";
-                    Err(self.wrong(what, "give the columns x and y too"))
-                }
-            };
         }
-        let in_order =
-            || self.rows.iter().zip(model.node_ids()).all(|(row, node)| is_at(row, node));
-        if self.rows.len() == model.nodes.len() && in_order() {
-            return Ok((
-                model.node_ids().collect(),
-                "in the order of the mesh, at the same coordinates",
-            ));
+        let used = || model.node_ids().filter(|node| !model.is_dropped(*node));
+        // A dropped node has no place that matters.
+        let is_here = |(row, node): (&Row, NodeId)| model.is_dropped(node) || is_at(row, node);
+        for nodes in [model.node_ids().collect(), used().collect::<Vec<_>>()] {
+            let mut pairs = self.rows.iter().zip(nodes.iter().copied());
+            if self.rows.len() == nodes.len() && pairs.all(is_here) {
+                return Ok((nodes, "in the order of the mesh, at the same coordinates"));
+            }
         }
         Ok((self.by_coordinates(model, near, is_at)?, "by coordinates"))
+    }
+
+    /// Returns the node of each row by its number in the mesh file, or here, whichever fits.
+    fn by_its_numbers(
+        &self,
+        scene: &Scene,
+        model: &Model,
+        is_at: impl Fn(&Row, NodeId) -> bool + Copy,
+    ) -> Result<(Vec<NodeId>, &'static str)> {
+        let in_file = scene.source().map_or(&[][..], |(_, mesh)| &mesh.in_file);
+        let here = self.by_number(model, |n| n.checked_sub(1), is_at);
+        if in_file.is_empty() {
+            return Ok((here?, "by number"));
+        }
+        let in_file = self.by_number(model, |n| in_file.binary_search(&n).ok(), is_at);
+        match (in_file, here) {
+            (Ok(nodes), Err(_)) => Ok((nodes, "by the numbers of the mesh file")),
+            (Err(_), Ok(nodes)) => Ok((nodes, "by number, as they are numbered here")),
+            (Err(why), Err(_)) => Err(why),
+            (Ok(_), Ok(_)) => {
+                let what = "the node numbers may be those of the mesh file, which have gaps, or those here";
+                Err(self.wrong(what, "give the columns x and y too"))
+            }
+        }
     }
 
     /// Returns the node of each row by its number, whose place among the nodes is `index`.
@@ -201,7 +240,8 @@ impl Rows {
                 [node] => Ok(node),
                 [a, b, ..] => {
                     let what = format!("{place} is that of node {a} and of node {b}");
-                    let fix = "add a column node with their numbers to a CSV, or list all nodes in the mesh's order";
+                    let fix = "add a column node with their numbers to a CSV, or an array node to a VTU; or list all nodes in the \
+                               mesh's order";
                     Err(self.wrong(what, fix))
                 }
                 [] => {
@@ -214,9 +254,35 @@ impl Rows {
         self.rows.iter().map(node).collect()
     }
 
+    /// Checks that what was taken names no other unit of length than the scene's.
+    fn check_units(&self, units: &Units) -> Result<()> {
+        let other = self.names.iter().find_map(|name| {
+            let unit = unit(name).filter(|unit| !units.measure_lengths_in(unit))?;
+            Some((name, unit))
+        });
+        other.map_or(Ok(()), |(name, unit)| {
+            let what = format!("{name:?} is in {unit}, the scene in {}", units.length);
+            let fix = "give places and displacements in the scene's unit of length; no number is converted";
+            Err(self.wrong(what, fix))
+        })
+    }
+
     fn wrong(&self, what: impl Into<String>, fix: &str) -> InputError {
         InputError::new(&self.place, what, fix)
     }
+}
+
+/// Returns the unit in a name: `mm` of `u_x, mm`, `ux [mm]` and `ux (mm)`.
+fn unit(name: &str) -> Option<&str> {
+    let (_, unit) = name.split_once([',', '(', '['])?;
+    Some(unit.trim_matches([' ', ')', ']'])).filter(|unit| !unit.is_empty())
+}
+
+/// Returns whether a name is that of a column or an array of node numbers.
+fn is_number(name: &str) -> bool {
+    const NAMES: [&str; 9] =
+        ["node", "n", "id", "ids", "nodeid", "nodeids", "nodenumber", "nodelabel", "globalnodeid"];
+    NAMES.contains(&&*plain(name))
 }
 
 /// Returns a name without units, blanks and signs, in lower case: `u_x, mm` is `ux`.

@@ -126,11 +126,17 @@ fn bodies<'b>(beside: &'b Beside) -> Table<Vec<(&'b BodyDifference, &'b engine::
         })
         .column("node", |(body, _)| body.node)
         .column("x, y", |(body, _)| place(beside, body.node))
-        .column(quantity("von Mises, field", &units.stress), |(_, stress)| stress.von_mises_stress)
-        .column("reference", |(_, stress)| stress.reference)
+        .column(quantity("von Mises, field", &units.stress), |(_, stress)| {
+            stressed(stress.von_mises_stress)
+        })
+        .column("reference", |(_, stress)| stressed(stress.reference))
         .column("difference", |(_, stress)| {
             Cell::percent(stress.relative).because(reason("relative"))
         })
+}
+
+fn stressed(stress: f64) -> Cell {
+    Cell::of_digits(stress, Digits::of(stress, None))
 }
 
 fn place(beside: &Beside, node: NodeId) -> String {

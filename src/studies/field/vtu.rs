@@ -16,11 +16,14 @@ use base64::prelude::BASE64_STANDARD;
 use flate2::read::ZlibDecoder;
 use roxmltree::{Document, Node};
 
-use super::{HOW, Row, Rows, plain};
+use super::{HOW, Kind, Row, Rows, is_number, plain};
 use base::error::{InputError, Result};
 
 /// The names of the array of displacements, as [`plain`] leaves them.
-const NAMES: [&str; 4] = ["displacement", "displacements", "disp", "u"];
+const NAMES: [&str; 5] = ["displacement", "displacements", "disp", "depl", "u"];
+
+/// VTK's number of a linear triangle; those of curved elements, whose sides have nodes in between, are above 20.
+const CURVED: f64 = 20.0;
 
 /// What stands behind the XML of a file.
 const APPENDED: &[u8] = b"<AppendedData";
@@ -54,12 +57,13 @@ pub fn read(bytes: &[u8], place: &str) -> Result<Rows> {
     let xml = Document::parse(&text).map_err(|why| wrong(format!("the file is no XML: {why}")))?;
     let mark = appended.iter().position(|byte| *byte == b'_').map_or(0, |at| at + 1);
     let file = File { root: xml.root_element(), appended: &appended[mark..] };
-    let (rows, taken) = file.rows().map_err(wrong)?;
-    Ok(Rows { place: place.into(), kind: "point", taken, rows })
+    let (rows, name) = file.rows().map_err(wrong)?;
+    let taken = format!("array {name:?}");
+    Ok(Rows { place: place.into(), kind: Kind::Point, names: vec![name], taken, rows })
 }
 
 impl<'a> File<'a> {
-    /// Returns a row for each point, and what was taken for the displacements.
+    /// Returns a row for each point, and the name of the array that was taken for the displacements.
     fn rows(&self) -> Result<(Vec<Row>, String), Why> {
         let kind = self.root.attribute("type").unwrap_or_default();
         if kind != "UnstructuredGrid" {
@@ -78,31 +82,58 @@ impl<'a> File<'a> {
         let count: usize = count.ok_or("its piece has no NumberOfPoints")?;
         let points = named(piece, "Points").flat_map(|points| named(points, "DataArray")).next();
         let points = self.vectors(points.ok_or("the file has no Points")?, count)?;
-        let vectors: Vec<Node> = named(piece, "PointData")
-            .flat_map(|data| named(data, "DataArray"))
+        self.check_cells(piece)?;
+        let arrays: Vec<Node> =
+            named(piece, "PointData").flat_map(|data| named(data, "DataArray")).collect();
+        let vectors: Vec<Node> = arrays
+            .iter()
+            .copied()
             .filter(|array| matches!(array.attribute("NumberOfComponents"), Some("2" | "3")))
             .collect();
         let called = |array: &Node<'a, 'a>| array.attribute("Name").unwrap_or_default();
         let is_named = |array: &&Node<'a, 'a>| NAMES.contains(&&*plain(called(array)));
         let found: Vec<Node> = vectors.iter().filter(is_named).copied().collect();
-        let array = match (&found[..], &vectors[..]) {
-            ([array], _) | ([], [array]) => *array,
-            _ => {
-                let names: Vec<_> = vectors.iter().map(&called).collect();
-                let (there, names) = (names.len(), names.join(", "));
-                return Err(format!(
-                    "{there} arrays of vectors at its points ({names}), of which not one alone is named displacement"
-                ));
-            }
+        let [array] = found[..] else {
+            let names = match &vectors.iter().map(&called).collect::<Vec<_>>()[..] {
+                [] => "none".into(),
+                names => names.join(", "),
+            };
+            return Err(format!(
+                "of its arrays of vectors at points ({names}), {} are displacements by their names; one is \
+                 expected, named displacement or u",
+                found.len()
+            ));
         };
         let u = self.vectors(array, count)?;
-        let row = |(line, (at, u))| Row { line, number: None, at: Some(at), u };
+        let ids = arrays.iter().find(|array| is_number(called(array)));
+        let ids = ids.map(|ids| self.numbers(*ids)).transpose()?.unwrap_or_default();
+        let number = |point: usize| {
+            let id = ids.get(point).copied().filter(|id| id.fract() == 0.0 && *id >= 1.0);
+            id.map(|id| id as usize)
+        };
+        let row = |(line, ([x, y, _], u)): (usize, ([f64; 3], [f64; 3]))| {
+            let at = Some([x, y]);
+            Row { line, number: number(line), at, u }
+        };
         let rows = (0..).zip(points.into_iter().zip(u)).map(row).collect();
-        Ok((rows, format!("array {:?}", called(&array))))
+        Ok((rows, called(&array).into()))
     }
 
-    /// Returns x and y of `count` vectors of two or three components.
-    fn vectors(&self, array: Node, count: usize) -> Result<Vec<[f64; 2]>, Why> {
+    /// Checks that no cell has nodes on its sides, as the scene's triangles have none.
+    fn check_cells(&self, piece: Node) -> Result<(), Why> {
+        let types = named(piece, "Cells").flat_map(|cells| named(cells, "DataArray"));
+        let types = types.filter(|array| array.attribute("Name") == Some("types"));
+        let kinds = types.map(|array| self.numbers(array)).collect::<Result<Vec<_>, _>>()?.concat();
+        kinds.iter().find(|kind| **kind > CURVED).map_or(Ok(()), |kind| {
+            Err(format!(
+                "its cells of VTK's type {kind} have nodes on their sides, the scene's linear triangles have none: \
+                 give the displacements of the corners alone"
+            ))
+        })
+    }
+
+    /// Returns `count` vectors of two or three components; of two the third is 0.
+    fn vectors(&self, array: Node, count: usize) -> Result<Vec<[f64; 3]>, Why> {
         let name = array.attribute("Name").unwrap_or("Points").to_string();
         let components = match array.attribute("NumberOfComponents") {
             Some("2") => 2,
@@ -115,7 +146,8 @@ impl<'a> File<'a> {
                 "array {name:?} has {found} numbers, expected {components} for each of {count} points"
             ));
         }
-        Ok(numbers.chunks_exact(components).map(|vector| [vector[0], vector[1]]).collect())
+        let vector = |v: &[f64]| [v[0], v[1], v.get(2).copied().unwrap_or(0.0)];
+        Ok(numbers.chunks_exact(components).map(vector).collect())
     }
 
     fn numbers(&self, array: Node) -> Result<Vec<f64>, Why> {
@@ -149,9 +181,16 @@ impl<'a> File<'a> {
         match array.attribute("type") {
             Some("Float64") => Ok(values(&bytes, f64::from_le_bytes)),
             Some("Float32") => Ok(values(&bytes, |bytes| f32::from_le_bytes(bytes).into())),
+            // Numbers of nodes and kinds of cells, which are far below 2^53.
+            Some("Int64") => Ok(values(&bytes, |bytes| i64::from_le_bytes(bytes) as f64)),
+            Some("UInt64") => Ok(values(&bytes, |bytes| u64::from_le_bytes(bytes) as f64)),
+            Some("Int32") => Ok(values(&bytes, |bytes| i32::from_le_bytes(bytes).into())),
+            Some("UInt32") => Ok(values(&bytes, |bytes| u32::from_le_bytes(bytes).into())),
+            Some("Int8") => Ok(values(&bytes, |bytes| i8::from_le_bytes(bytes).into())),
+            Some("UInt8") => Ok(values(&bytes, |bytes| u8::from_le_bytes(bytes).into())),
             other => {
                 let other = other.unwrap_or("unknown");
-                Err(format!("its numbers are of type {other}, expected Float64 or Float32"))
+                Err(format!("its numbers are of type {other}, which is not read"))
             }
         }
     }

@@ -14,9 +14,10 @@ use commands::print_report;
 /// Write a first scene for a mesh of Gmsh, to be edited.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Groups of triangles become bodies; of the groups of edges the two that lie closest become the contact, the
-lowest of the others a restraint, the highest a load. What only you know is null: moduli, pressure, friction;
-solve names what is still to be chosen. A mesh without groups is refused with the lines to add.
+Groups of triangles become bodies; of the groups of edges the two that face each other closest become the
+contact, the lowest of the others a restraint, the highest a load. What only you know is null: moduli, pressure,
+friction; solve names what is still to be chosen. A body that nothing holds is named. A mesh of which a triangle
+is in no group is refused with the lines to add.
 
 Examples:
   plane-contact scene new my/block.msh
@@ -32,15 +33,15 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| args.mesh.with_extension("json"));
-    if out.exists() {
-        let fix = "choose another file with --out";
-        return Err(InputError::new(shown(&out), "it exists already", fix).into());
-    }
     let file = files::read(&args.mesh).map_err(|why| {
         let what = format!("the mesh cannot be read: {why}");
         InputError::new(shown(&args.mesh), what, "give the path of a mesh that Gmsh saved")
     })?;
     let scene = first(&name_beside(&args.mesh, &out)?, &file)?;
+    if out.exists() {
+        let fix = "choose another file with --out";
+        return Err(InputError::new(shown(&out), "it exists already", fix).into());
+    }
     files::write(&out, &scene.text)?;
     let out = shell_word(&shown(&out));
     print_report(

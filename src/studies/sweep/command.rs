@@ -10,7 +10,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::Result;
 
-use commands::{offered, print, print_fitted, print_stderr, progress};
+use commands::{note, offered, print, print_fitted, progress};
 
 /// The most bytes of a sweep.
 const MOST: u64 = 1 << 22;
@@ -112,7 +112,7 @@ pub fn run(command: &Command) -> Result<()> {
             let rows = jobs.list.iter().map(|job| result(&out, job)).collect::<Result<Vec<_>>>()?;
             let missing = rows.iter().filter(|row| row.is_none()).count();
             if missing > 0 {
-                print_stderr(&format!("{missing} of {} jobs have not run\n", rows.len()));
+                note(&format!("{missing} of {} jobs have not run\n", rows.len()));
             }
             print(&report::table(&jobs.list, &rows, *json))
         }
@@ -129,7 +129,7 @@ fn run_jobs(sweep: &SweepArgs, only: Option<usize>) -> Result<()> {
         })?,
     };
     let (mut ran, mut failed) = (0, 0);
-    let bar = progress(chosen.len(), "job {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("running the jobs", chosen.len(), "job {pos} of {len} {wide_bar} {eta}");
     for job in chosen {
         let row = match result(&out, job)? {
             Some(row) => row,
@@ -143,7 +143,7 @@ fn run_jobs(sweep: &SweepArgs, only: Option<usize>) -> Result<()> {
         failed += usize::from(row["exit_status"] != 0);
         bar.inc(1);
     }
-    bar.finish_and_clear();
+    bar.finish();
     let (all, out) = (chosen.len(), shown(&out));
     print_fitted(&format!("{all} jobs: {ran} ran, {failed} failed\nWritten to {out}\n"))
 }

@@ -61,13 +61,17 @@ pub fn run(args: &Args) -> Result<()> {
     if is_written {
         files::check_folder(&out, &["trade.json"])?;
     }
-    let bar = progress(trade::steps(&request, &options), "{pos} of {len} {wide_bar} {eta} {msg}");
+    let bar = progress(
+        "measuring",
+        trade::steps(&request, &options),
+        "{pos} of {len} {wide_bar} {eta} {msg}",
+    );
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
         bar.inc(1);
     };
     let measured = trade::measure(&request, &options, watch)?;
-    bar.finish_and_clear();
+    bar.finish();
     let json = report::json(&scene, &measured);
     if is_written {
         let mut written = vec![("trade.json", &json)];

@@ -47,12 +47,12 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitStatus> {
     let sheet = open(&args.file)?;
     let limits = Limits { steps: args.limit, ..limits() };
-    let bar = progress(0, "region {pos} of {len} {wide_bar} {elapsed}");
+    let bar = progress("executing", 0, "region {pos} of {len} {wide_bar} {elapsed}");
     let checked = worksheet::execute_watched(&sheet, &limits, &mut |done, of| {
         bar.set_length(of as u64);
         bar.set_position(done as u64);
     });
-    bar.finish_and_clear();
+    bar.finish();
     let json = || report::json(&shown(&args.file), &checked);
     print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));

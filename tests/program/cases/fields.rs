@@ -102,6 +102,43 @@ const CASES: &[Case] = &[
         ],
         lacks: &["panicked", ".csv 0", ".vtu 0", ".csv 1", ".vtu 1"],
     },
+    // What means displacement, in which unit, at which nodes.
+    Case {
+        input: "fig1",
+        command: "sed 's/Name=\"U\"/Name=\"velocity\"/' ascii.vtu >velocity.vtu; \
+                  sed '1s/U1/ux [furlong]/' numbers.csv >unit.csv; sed 's/,/;/g; s/\\./,/g' numbers.csv >comma.csv; \
+                  sed '2s/$/,1/' numbers.csv >cells.csv; sed '1s/$/,uz/; 2,$s/$/,1/' numbers.csv >z.csv; \
+                  (sed '/<Cells>/,$d' ascii.vtu; echo '<Cells><DataArray Name=\"types\" type=\"Int32\" \
+                  format=\"ascii\">22 22</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>') >curved.vtu; \
+                  for file in velocity.vtu unit.csv comma.csv cells.csv z.csv curved.vtu; do \
+                  plane-contact compare fig1 --friction 0 --with $file; echo \"$file $?\"; done; \
+                  plane-contact compare fig1 --with numbers.csv --reading R4=eager --variant printed",
+        status: 2,
+        contains: &[
+            "(velocity), 0 are displacements by their names",
+            "\"ux [furlong]\" is in furlong, the scene in",
+            "has a decimal comma: write a point",
+            "a decimal comma would separate cells",
+            "moves along z by 1",
+            "VTK's type 22 have nodes on their sides",
+            "the run of printed has no end to compare with",
+        ],
+        lacks: &["panicked", ".csv 0", ".vtu 0", ".csv 1", ".vtu 1"],
+    },
+    // Nodes of bodies that touch, in another order, by an array of their numbers; and with a node in no triangle.
+    Case {
+        input: "",
+        command: "plane-contact scene copy strand --out s >log; \
+                  sed -i 's/\"mesh\"/\"drop_orphans\": true, \"mesh\"/' s/scene.json; \
+                  awk '/\\$EndNodes/ {print n + 1, 7, 99, 0} c == 2 {c = 0; n = $1; $1 = n + 1} /\\$Nodes/ {c = 2} 1' \
+                  s/strand.msh >m && mv m s/strand.msh; \
+                  plane-contact solve s --friction 0 --variant unilateral --coupling mortar --no-pictures \
+                  --no-assessment --out o >log; \
+                  plane-contact compare s --friction 0 --with o/fields.vtu --rtol 0",
+        status: 0,
+        contains: &["in the order of the mesh", "Same within 0 ("],
+        lacks: &["panicked"],
+    },
     // Bodies that touch have two nodes at one place.
     Case {
         input: "",

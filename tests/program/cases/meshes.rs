@@ -47,6 +47,7 @@ const CASES: &[Case] = &[
         command: "plane-contact scene mesh punch --out p >log; rm p/scene.json; plane-contact solve p; \
                   plane-contact solve p/punch.msh; plane-contact scene new p/punch.msh; \
                   plane-contact scene new p/punch.msh; plane-contact scene new p/punch.msh --out q/s.json; \
+                  plane-contact scene new p/none.msh --out p/punch.json; \
                   plane-contact solve p/punch.json",
         status: 2,
         contains: &[
@@ -55,6 +56,7 @@ const CASES: &[Case] = &[
             "Guessed from the groups of the mesh",
             "Written to p/punch.json",
             "it exists already",
+            "the mesh cannot be read",
             "name a file in the mesh's folder",
             "values to be chosen",
             "contact.friction",
@@ -214,6 +216,6 @@ json.dump({\"plane\": \"strain\", \"node\": [[1, 0, 0, 0], [2, 1, 0, 0], [3, 0, 
     mesh_edited!(
         "/Nodes/,/EndNodes/s/^4$/5/; s/^4 0 1 0/&\\n99 5 5 0/",
         2,
-        &["nodes 99 (5 here) belong to no triangle"]
+        &["node 99 (5 here) belongs to no triangle"]
     ),
 ];

@@ -45,7 +45,12 @@ pub fn run(args: &Args) -> Result<()> {
     if let Some(scene) = given_file {
         new.scene_file = scene.path().and_then(|scene| from_folder_of(&args.file, scene));
     }
-    files::rewrite(&args.file, &was, &report::file(&new))?;
+    let text = report::file(&new);
+    files::rewrite(&args.file, &was, &text)?;
+    let done = match text.as_bytes() == was {
+        true => format!("Nothing changed: {file} stays as it was"),
+        false => format!("Recorded again: {file}"),
+    };
     let verified = Ok(difference(&old, &new));
-    print_report(report::report(&[VerifiedFile { file, scene: said, verified }]))
+    print_report(report::report(&[VerifiedFile { file, scene: said, verified }]).line(done))
 }

@@ -12,7 +12,7 @@ use base::plain::shown;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use commands::{print_either, print_stderr, progress, report_error, within};
+use commands::{note, print_either, progress, report_error, within};
 
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
@@ -55,7 +55,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         snapshots = scenes;
     } else {
         scenes.iter().for_each(|(file, _)| {
-            print_stderr(&format!("note: {} is a scene, and skipped\n", shown(file)));
+            note(&format!("note: {} is a scene, and skipped\n", shown(file)));
         });
     }
     let snapshots = snapshots.into_iter().map(|(file, text)| (&**file, snapshot_of(file, text)));
@@ -132,7 +132,7 @@ pub fn snapshot_of(file: &Path, text: io::Result<Vec<u8>>) -> Result<Snapshot> {
 fn check(snapshots: Vec<(&Path, Result<Snapshot>)>, given: Option<&Scene>) -> Vec<VerifiedFile> {
     let read = snapshots.iter().filter_map(|(_, snapshot)| snapshot.as_ref().ok());
     let runs = read.map(|snapshot| snapshot.runs.len()).sum();
-    let bar = progress(runs, "run {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("verifying", runs, "run {pos} of {len} {wide_bar} {eta}");
     let check = |(path, snapshot): (&Path, Result<Snapshot>)| {
         let file = shown(path);
         let verified = snapshot.and_then(|snapshot| {
@@ -146,6 +146,6 @@ fn check(snapshots: Vec<(&Path, Result<Snapshot>)>, given: Option<&Scene>) -> Ve
         }
     };
     let checked = snapshots.into_iter().map(check).collect();
-    bar.finish_and_clear();
+    bar.finish();
     checked
 }
