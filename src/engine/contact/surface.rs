@@ -50,7 +50,7 @@ pub(super) struct Edge {
 }
 
 impl Surface {
-    fn new(model: &Model, edges: Vec<Edge>) -> Self {
+    pub(super) fn new(model: &Model, edges: Vec<Edge>) -> Self {
         let mut listed = HashSet::new();
         let once: Vec<usize> =
             (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
@@ -70,6 +70,15 @@ impl Surface {
         }
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         Surface { edges, once, at, normals, node_normals: means.collect() }
+    }
+
+    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
+    /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
+    pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
+        let [a, b] = self.at[&node][..] else { return 0.0 };
+        let [a, b] = [a, b].map(|k| self.edges[k].in_shape(shape));
+        let cosine = dot(a.normal, b.normal);
+        if cosine > BEND { cosine.min(1.0).acos() * a.length.max(b.length) / 8.0 } else { 0.0 }
     }
 }
 
@@ -143,19 +152,11 @@ impl Surfaces {
         placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
     }
 
-    /// Returns the largest height of the arc of a circle over an edge, of the edges that meet others in a bend
-    /// of a smooth surface: an eighth of the edge's length times the angle between their normals, length.
+    /// Returns the largest height of an arc over an edge of either surface in a shape, length.
     pub fn facet_height(&self, shape: &[Vector]) -> f64 {
-        let of_surface = |Surface { edges, at, .. }: &Surface| {
-            let bends = at.values().filter_map(|meeting| {
-                let [a, b] = meeting[..] else { return None };
-                let [a, b] = [a, b].map(|k| edges[k].in_shape(shape));
-                let cosine = dot(a.normal, b.normal);
-                (cosine > BEND).then(|| cosine.min(1.0).acos() * a.length.max(b.length) / 8.0)
-            });
-            bends.fold(0.0, f64::max)
-        };
-        f64::max(of_surface(&self.contact), of_surface(&self.target))
+        let surfaces = [&self.contact, &self.target].into_iter();
+        let heights = surfaces.flat_map(|s| s.at.keys().map(|node| s.height_at(*node, shape)));
+        heights.fold(0.0, f64::max)
     }
 
     /// Returns the entries of the contact surface, in order.

@@ -77,9 +77,7 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
 /// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
 /// stress has a limit.
 fn corners(model: &Model) -> Vec<NodeId> {
-    let sides =
-        model.triangles.iter().flat_map(|t| [0, 1, 2].map(|k| [t.nodes[k], t.nodes[(k + 1) % 3]]));
-    let outline: Vec<TriangleSide> = sides.filter_map(|ends| model.sides.boundary(ends)).collect();
+    let outline: Vec<TriangleSide> = model.sides.outline().collect();
     let going: BTreeMap<NodeId, TriangleSide> =
         outline.iter().map(|side| (side.nodes[0], *side)).collect();
     let held = model.held_directions();

@@ -16,6 +16,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
     let error = error_of_mesh(assessment);
     let report = Report::default()
         .heading("Result")
+        .notes(equilibrium::overlap(solution))
         .notes(passes_on(solution))
         .then(contact_set(solution))
         .notes(resultant(solution))
@@ -210,7 +211,7 @@ fn from_equilibrium(assessment: &Assessment) -> Option<String> {
     })
 }
 
-fn place(solution: &Solution, node: NodeId) -> String {
+pub(super) fn place(solution: &Solution, node: NodeId) -> String {
     let place = coordinates(solution.model.coordinates(node), decimals(solution));
     format!("node {node}: {}", with_unit(&place, &solution.request.scene.units.length))
 }
