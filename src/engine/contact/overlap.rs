@@ -34,7 +34,7 @@ pub struct InsideNode {
 /// What contact knows of a node that lies inside a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watched {
-    /// It is a contact node that faces a target edge: its gap is an unknown of the problem.
+    /// It is a contact node over a target edge, or rests on its end: its gap is an unknown of the problem.
     Contact,
     /// It is a target node over a contact edge: mortar watches it, node to segment does not.
     Target,
@@ -75,20 +75,23 @@ impl Surfaces {
             let placed = PlacedTriangles::new(model, body, &nodes, shape);
             for node in nodes.into_iter().filter(|node| placed.contain(*node, shape)) {
                 let Some((depth, edge)) = whole.nearest(body, node, shape) else { continue };
-                let height_at = |node: NodeId| whole.height_at(node, &model.nodes);
-                let height = edge.nodes.into_iter().map(height_at).fold(height_at(node), f64::max);
-                let is_over = |own: &Surface, other: &Outline| {
+                let [a, b] = edge.nodes;
+                let height = [node, a, b].map(|at| whole.height_near(at, &model.nodes));
+                let height = height.into_iter().fold(0.0, f64::max);
+                // Whether the node lies over an edge of the other group, not past its end.
+                let over = |own: &Surface, other: &Outline| {
                     let normal = own.node_normals.get(&node).copied();
                     let faced = other.closest_point(shape[node.index()], normal);
-                    faced.is_some_and(|faced| faced.over && body.has(faced.masters[0].0))
+                    Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
-                let faces = is_target && facing.contains(&node);
-                let watched = if faces
-                    && (closed.contains(&node) || is_over(&self.contact, &target_outline))
-                {
+                let is_watched_contact = || match over(&self.contact, &target_outline) {
+                    Some(is_over) => is_over || closed.contains(&node),
+                    None => false,
+                };
+                let watched = if facing.contains(&node) && is_watched_contact() {
                     Watched::Contact
                 } else if self.target.at.contains_key(&node)
-                    && is_over(&self.target, &contact_outline)
+                    && over(&self.target, &contact_outline) == Some(true)
                 {
                     Watched::Target
                 } else {
@@ -103,6 +106,12 @@ impl Surfaces {
 }
 
 impl Surface {
+    /// Returns the largest height of the arcs over the edges that meet at a node, from either of their ends, length.
+    fn height_near(&self, node: NodeId, shape: &[Vector]) -> f64 {
+        let ends = self.at[&node].iter().flat_map(|k| self.edges[*k].nodes);
+        ends.map(|end| self.height_at(end, shape)).fold(0.0, f64::max)
+    }
+
     /// Returns the distance of a node from the nearest edge of a body's outline that does not end at it, length, and
     /// the edge.
     fn nearest(&self, body: &Body, node: NodeId, shape: &[Vector]) -> Option<(f64, &Edge)> {
