@@ -72,13 +72,39 @@ impl Surface {
         Surface { edges, once, at, normals, node_normals: means.collect() }
     }
 
+    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the surface ends.
+    fn meeting(&self, node: NodeId, shape: &[Vector]) -> Option<[PlacedEdge; 2]> {
+        let [k, l] = self.at.get(&node)?[..] else { return None };
+        let order = if self.edges[k].nodes[1] == node { [k, l] } else { [l, k] };
+        Some(order.map(|k| self.edges[k].in_shape(shape)))
+    }
+
     /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
     /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
     pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        let [a, b] = self.at[&node][..] else { return 0.0 };
-        let [a, b] = [a, b].map(|k| self.edges[k].in_shape(shape));
+        let Some([a, b]) = self.meeting(node, shape) else { return 0.0 };
         let cosine = dot(a.normal, b.normal);
         if cosine > BEND { cosine.min(1.0).acos() * a.length.max(b.length) / 8.0 } else { 0.0 }
+    }
+
+    /// Returns whether the surface ends at a node, or turns round a convex corner of the body there.
+    fn has_edge_at(&self, node: NodeId, shape: &[Vector]) -> bool {
+        match self.meeting(node, shape) {
+            Some([a, b]) => dot(a.normal, b.normal) <= BEND && dot(a.normal, b.tangent) < 0.0,
+            None => self.at.contains_key(&node),
+        }
+    }
+
+    /// Returns whether the surface goes on smoothly at its node that is nearest to a point in a shape.
+    fn goes_on_beside(&self, p: Vector, shape: &[Vector]) -> bool {
+        let distance = |node: &NodeId| {
+            let [x, y] = minus(shape[node.index()], p);
+            x.hypot(y)
+        };
+        let nearest =
+            self.at.keys().min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+        let meeting = nearest.and_then(|node| self.meeting(*node, shape));
+        meeting.is_some_and(|[a, b]| dot(a.normal, b.normal) > BEND)
     }
 }
 
@@ -150,6 +176,19 @@ impl Surfaces {
         let edges = self.contact.edges.iter().chain(&self.target.edges);
         let placed = edges.map(|edge| (edge.nodes, edge.in_shape(shape)));
         placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
+    }
+
+    /// Returns whether a body ends in contact while the other goes on, as at the edge of a punch, where contact node
+    /// and target node, which carries most of it, lie on each other in the undeformed shape.
+    pub fn is_edge(&self, model: &Model, [contact, target]: [NodeId; 2]) -> bool {
+        let held = model.held_directions();
+        let ends = |own: &Surface, node: NodeId, other: &Surface| {
+            // An end that a restraint holds may be one of symmetry.
+            own.has_edge_at(node, &model.nodes)
+                && held[node.index()] == 0
+                && other.goes_on_beside(model.coordinates(node), &model.nodes)
+        };
+        ends(&self.contact, contact, &self.target) || ends(&self.target, target, &self.contact)
     }
 
     /// Returns the largest height of an arc over an edge of either surface in a shape, length.
