@@ -36,7 +36,7 @@ pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleState,
     TriangleValues, summaries,
 };
-pub use range::{beyond_range, locking};
+pub use range::{beyond_range, locking, locking_of};
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,

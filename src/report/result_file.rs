@@ -52,6 +52,9 @@ pub struct ResultFile {
     /// do not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
+    /// Why linear triangles lock, in words; absent where they do not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub locking: Option<String>,
     /// The name of the scene.
     pub scene: String,
     /// The scene's line for people, which may be empty.
@@ -177,6 +180,7 @@ impl ResultFile {
             transmits_nothing: solution.transmits_nothing(),
             nothing_in_contact: solution.touches_nothing(),
             overlap: solution.overlap.clone(),
+            locking: engine::locking_of(&solution.model),
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,

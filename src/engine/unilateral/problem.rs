@@ -10,6 +10,7 @@ use super::rigid;
 use super::status::History;
 use crate::contact::{InsideNode, Pairing, Sense, Status, Surfaces, Watched};
 use crate::elimination::{Constraint, Motion};
+use crate::range::inside_out;
 use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
 use crate::solution::{APART, Cycle, max_displacement};
@@ -385,7 +386,12 @@ impl<'a> Problem<'a> {
         let closed = closed.filter(|(_, status)| status.is_closed());
         let closed = closed.filter_map(|(pairing, _)| Some(pairing.as_ref()?.node)).collect();
         let u = &last.solution.u;
-        let mut found = self.surfaces.inside(self.model, &self.model.shape(u), [&facing, &closed]);
+        let shape = self.model.shape(u);
+        // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own says so.
+        if inside_out(self.model, &shape).next().is_some() {
+            return Vec::new();
+        }
+        let mut found = self.surfaces.inside(self.model, &shape, [&facing, &closed]);
         let sees_target = match self.request.contact.coupling {
             Coupling::Nts => false,
             Coupling::Mortar => true,

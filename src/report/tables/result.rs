@@ -5,7 +5,7 @@ use crate::layout::counted;
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
 use engine::estimates::{NoLimit, edges};
-use engine::{Assessment, Cycle, Resultant, Solution};
+use engine::{Assessment, Cycle, Resultant, Solution, locking_of};
 use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -17,6 +17,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
     let report = Report::default()
         .heading("Result")
         .notes(equilibrium::overlap(solution))
+        .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
         .notes(passes_on(solution))
         .then(contact_set(solution))
         .notes(resultant(solution))

@@ -137,9 +137,18 @@ const CASES: &[Case] = &[
         status: 0,
         contains: &[
             "NOTE: body 1: Poisson's ratio 0.4999 in plane strain is nearly incompressible: linear triangles lock",
+            "Result\n  NOTE: Poisson's ratio 0.4999",
             "error of the mesh: unknown: Poisson's ratio 0.4999",
         ],
         lacks: &["in the energy norm"],
+    },
+    Case {
+        input: "locking",
+        command: "sed 's/0.4999/0.48/' scene.json > less.json; plane-contact solve less.json --json; \
+                  sed 's/0.4999/0.481/' scene.json > more.json; plane-contact solve more.json --json | grep -c '\"locking\"'",
+        status: 0,
+        contains: &["\n1\n"],
+        lacks: &["\"locking\""],
     },
     Case {
         input: "",
