@@ -66,12 +66,12 @@ const CASES: &[Case] = &[
     Case {
         input: "short-group",
         command: "plane-contact compare scene.json --with u.csv --rtol 10 | grep LIE; \
-                  plane-contact audit scene.json | grep LIE; plane-contact solve scene.json --json | grep '\"overlap\":{'",
+                  plane-contact audit scene.json | grep LIE; plane-contact solve scene.json --json | grep -A 2 '\"overlap\"'",
         status: 0,
         contains: &[
-            "\n  BODIES LIE IN EACH OTHER",
+            "  BODIES LIE IN EACH OTHER",
             "Of the equilibrium that runs are compared with: BODIES LIE IN EACH OTHER",
-            "\"overlap\":{\"nodes\":2,\"node\":13,",
+            "\"overlap\": {\n    \"nodes\": 2,\n    \"node\": 13,",
         ],
         lacks: &[],
     },
@@ -81,6 +81,26 @@ const CASES: &[Case] = &[
         status: 0,
         contains: &["Equilibrium: the only one in the shape reached"],
         lacks: &["LIE IN EACH OTHER"],
+    },
+    Case {
+        input: "short-group",
+        command: "sed 's/0.01/0.001/; s/\"length\": \"mm\"/\"length\": \"cm\"/' scene.json > cm.json; \
+                  sed 's/0.01/0.001/; s/\"length\": \"mm\"/\"length\": \"\"/' scene.json > none.json; \
+                  for s in cm none; do plane-contact solve $s.json --variant stepped --coupling nts --reading R8=m; done",
+        status: 0,
+        contains: &[
+            "NOTE: R8 = m takes c_tll in metres, which is 0.1 cm here: the scene is measured in cm, the paper's example in mm",
+            "NOTE: R8 = m takes c_tll in metres, which is 1 here: the scene names no unit of length, and mm is assumed",
+        ],
+        lacks: &[],
+    },
+    Case {
+        input: "short-group",
+        command: "sed 's/0.01/0.001/' scene.json > mm.json; \
+                  plane-contact solve mm.json --variant stepped --coupling nts --reading R8=m",
+        status: 0,
+        contains: &["Contact passes on"],
+        lacks: &["R8 = m"],
     },
     // The target group ends short of contact node 11.
     Case {
