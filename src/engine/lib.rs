@@ -36,12 +36,12 @@ pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleState,
     TriangleValues, summaries,
 };
-pub use range::{beyond_range, locking};
+pub use range::{beyond_range, locking, locking_of};
 pub use request::Request;
 pub use solution::{
-    Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Path,
-    Published, Solution, Start, Step, StepBounds, Unilateral, Uniqueness, last_under_each_load,
-    max_displacement,
+    Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
+    Path, Published, Solution, Start, Step, StepBounds, Unilateral, Uniqueness,
+    last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::is_dense;

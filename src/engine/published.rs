@@ -76,6 +76,7 @@ pub(super) fn published<T: Precision>(
         factored: run.visited.len(),
         digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
         equilibrium: None,
+        overlap: None,
         error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
         request: request.clone(),

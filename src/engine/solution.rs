@@ -6,9 +6,10 @@ use dashu_ratio::RBig;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::contact::{ContactNode, Pairing, ROUNDING_OF_A_FORCE, Status};
+use super::contact::{ContactNode, InsideNode, Pairing, ROUNDING_OF_A_FORCE, Status, Watched};
 use super::decisions::Decision;
 use super::elimination::Constraint;
+use super::error::{Cause, NoEquilibrium};
 use super::request::Request;
 use base::choices;
 use base::exit::ExitStatus;
@@ -392,8 +393,35 @@ pub struct Solution {
     /// length, where the scalar computes one; infinite where rounding may have changed who is in
     /// contact.
     pub error_bound: Option<f64>,
+    /// Where bodies lie in each other though no group of contact keeps them apart, under `unilateral`; None where they
+    /// do not.
+    pub overlap: Option<Overlap>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
+}
+
+/// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups, or beyond
+/// the end of the other one. What was found is then an equilibrium of bodies that pass through each other there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Overlap {
+    /// How many they are: those deeper than rounding and than the height of the arcs over the edges there.
+    pub nodes: usize,
+    /// The deepest.
+    pub node: NodeId,
+    /// Its distance from the outline of the other body, length.
+    pub depth: f64,
+    /// The height of the arcs over the edges there, length; 0 where they are straight.
+    pub facet_height: f64,
+}
+
+impl Overlap {
+    /// Returns what there is among nodes inside a body, the deepest first.
+    pub(super) fn of(inside: &[InsideNode]) -> Option<Self> {
+        let unwatched: Vec<_> =
+            inside.iter().filter(|inside| inside.watched == Watched::Not).collect();
+        let InsideNode { node, depth, height: facet_height, .. } = **unwatched.first()?;
+        Some(Overlap { nodes: unwatched.len(), node, depth, facet_height })
+    }
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
@@ -411,8 +439,8 @@ pub struct Equilibrium {
     /// thousandth of the model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unseen: Option<(NodeId, f64)>,
-    /// The contact node that lies deepest inside the target's body in the shape reached, and its
-    /// distance from the target's edges, length; None where none lies deeper than a thousandth of the
+    /// The contact node that lies deepest inside the target's body in the shape reached though it faces an edge of the
+    /// target, and its distance from the body's outline, length; None where none lies deeper than a thousandth of the
     /// model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
@@ -435,8 +463,17 @@ impl Solution {
     /// the contact surface, the reactions and the steps stay those of this solution.
     #[must_use]
     pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
-        let Solution { request, model, steps, reactions, contact, factored, equilibrium, .. } =
-            self.clone();
+        let Solution {
+            request,
+            model,
+            steps,
+            reactions,
+            contact,
+            factored,
+            overlap,
+            equilibrium,
+            ..
+        } = self.clone();
         let (digits, error_bound) = (None, None);
         Solution {
             request,
@@ -449,6 +486,7 @@ impl Solution {
             factored,
             digits,
             error_bound,
+            overlap,
             equilibrium,
         }
     }
@@ -458,9 +496,19 @@ impl Solution {
         self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
     }
 
-    /// Returns the exit status of the process, which is one of its own where other equilibria are known.
+    /// Returns why it is not the equilibrium of the scene: bodies lie in each other, or other equilibria are known;
+    /// None where neither is so.
+    pub fn doubt(&self) -> Option<NoEquilibrium> {
+        let overlap = "bodies lie in each other outside the groups of contact";
+        let overlap = self.overlap.as_ref().map(|_| (Cause::NotFound, overlap));
+        let others =
+            self.has_others().then_some((Cause::Several, "the equilibrium is not the only one"));
+        overlap.or(others).map(|(cause, what)| NoEquilibrium { cause, what: what.into() })
+    }
+
+    /// Returns the exit status of the process, which is one of its own where it is not the equilibrium of the scene.
     pub fn exit_status(&self) -> ExitStatus {
-        if self.has_others() { ExitStatus::Equilibrium } else { ExitStatus::Done }
+        if self.doubt().is_some() { ExitStatus::Equilibrium } else { ExitStatus::Done }
     }
 
     /// Returns the last step.

@@ -11,8 +11,8 @@ use engine::estimates::{ErrorEstimates, Perturbed};
 use engine::linear::Arithmetic;
 use engine::plan::Plan;
 use engine::{
-    Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Resultant,
-    Solution, SupportForce, TriangleValues,
+    Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Overlap,
+    Resultant, Solution, SupportForce, TriangleValues,
 };
 use numbers::finite;
 use numbers::scalar::rational;
@@ -48,6 +48,13 @@ pub struct ResultFile {
     /// Whether no node is in contact at the end, though the scene has contact; absent where it is not so.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub nothing_in_contact: bool,
+    /// Where bodies lie in each other though no group of contact keeps them apart: extend the groups; absent where they
+    /// do not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<Overlap>,
+    /// Why linear triangles lock, in words; absent where they do not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub locking: Option<String>,
     /// The name of the scene.
     pub scene: String,
     /// The scene's line for people, which may be empty.
@@ -172,6 +179,8 @@ impl ResultFile {
             mesh_sha256,
             transmits_nothing: solution.transmits_nothing(),
             nothing_in_contact: solution.touches_nothing(),
+            overlap: solution.overlap.clone(),
+            locking: engine::locking_of(&solution.model),
             scene: scene.name.clone(),
             title: scene.title.clone(),
             variant: request.variant,

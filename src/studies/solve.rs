@@ -7,7 +7,7 @@ use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
-use engine::error::{Cause, NoEquilibrium, Result};
+use engine::error::Result;
 use engine::estimates::perturbed;
 use engine::linear::Solver;
 use engine::plan::Plan;
@@ -199,11 +199,10 @@ fn beside_the_print(solution: &Solution) -> Report {
     }
 }
 
-/// Returns the exit status, and says where other equilibria are known; the result says so too.
+/// Returns the exit status, and says why it is not the equilibrium of the scene; the result says so too.
 fn status(solution: &Solution) -> ExitStatus {
-    if solution.has_others() {
-        let what = "the one that was found is not the only one: see the line Equilibrium".into();
-        report_error(&NoEquilibrium { cause: Cause::Several, what }.into());
+    if let Some(doubt) = solution.doubt() {
+        report_error(&doubt.into());
     }
     solution.exit_status()
 }

@@ -248,7 +248,7 @@ fn row(solution: &Solution) -> Row {
         }
     };
     set("exit_status", json!(solution.exit_status().number()));
-    set("error", json!(solution.has_others().then_some("the equilibrium is not the only one")));
+    set("error", json!(solution.doubt().map(|doubt| doubt.what)));
     set("iterations", json!(solution.steps.len()));
     set("in_contact", json!(last.in_contact));
     set("cycle", json!(last.cycle.as_ref().map(|cycle| cycle.length)));

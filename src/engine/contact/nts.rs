@@ -1,15 +1,13 @@
 //! Node to segment: the point of the target closest to each contact node, by the rules of
-//! `outline.rs`; and how deep nodes of either surface lie in the other body.
+//! `outline.rs`.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use super::outline::{FacedPoint, Outline};
 use super::pairing::{Pairing, Vector};
-use super::search::Segment;
 use super::surface::{Edge, Surfaces};
 use base::error::InputError;
-use numbers::scalar::Scalar;
-use problem::model::{Bounds, Model, NodeId, TriangleId};
+use problem::model::{Model, NodeId};
 
 /// The initial penetration, over the longest contact edge beside the node, beyond which a scene is
 /// refused. An interference that is modelled, as of a press fit, is a small part of an edge; a node
@@ -52,56 +50,6 @@ fn contact_node(
 }
 
 impl Surfaces {
-    /// Returns the target node that lies deepest in the contact body, and its depth, length, in a
-    /// shape given as the coordinates of each node; None where none lies in it.
-    ///
-    /// The depth is measured from the contact edges that face the target. Node to segment does not
-    /// see it: a vertex of the target between two contact nodes may enter the contact body. On
-    /// curved surfaces that lie flush it is of the size of the sagitta of an edge.
-    pub fn deepest_target_node(&self, shape: &[Vector]) -> Option<(NodeId, f64)> {
-        let outline = Outline::new(&self.contact, shape);
-        let nodes: BTreeSet<NodeId> =
-            self.target.edges.iter().flat_map(|edge| edge.nodes).collect();
-        let depth = |node: NodeId| {
-            let own = self.target.node_normals.get(&node).copied();
-            let faced = outline.closest_point(shape[node.index()], own)?;
-            (faced.over && faced.gap < 0.0).then_some((node, -faced.gap))
-        };
-        nodes.into_iter().filter_map(depth).max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// Returns the contact node that lies deepest inside a triangle of the target's body, and its distance
-    /// from the nearest target edge, length, in a shape given as the coordinates of each node; None where
-    /// none lies in it. No normal has a say in it.
-    pub fn deepest_contact_node(&self, model: &Model, shape: &[Vector]) -> Option<(NodeId, f64)> {
-        let at = |node: &NodeId| shape[node.index()];
-        let near = Bounds::around(&self.nodes.iter().map(at).collect::<Vec<_>>());
-        let corners = |id: &TriangleId| model.triangle(*id).nodes.map(|node| at(&node));
-        let target = model.target()?.triangles.iter().map(corners);
-        let close: Vec<[Vector; 3]> =
-            target.filter(|corners| Bounds::around(corners).meets(near)).collect();
-        let is_inside = |p: Vector| {
-            close.iter().any(|[a, b, c]| {
-                let sides = [[a, b], [b, c], [c, a]];
-                let side = |[from, to]: [&Vector; 2]| f64::orientation(*from, *to, p);
-                sides.into_iter().all(|ends| side(ends) > 0.0)
-            })
-        };
-        let edges: Vec<Segment<f64>> = self
-            .target
-            .edges
-            .iter()
-            .map(|edge| Segment::new(edge.nodes.map(|node| at(&node))))
-            .collect();
-        let depth = |p: Vector| {
-            let squares = edges.iter().map(|edge| edge.closest(p).distance_square);
-            squares.fold(f64::INFINITY, f64::min).sqrt()
-        };
-        let inside = self.nodes.iter().filter(|node| is_inside(at(node)));
-        let depths = inside.map(|node| (*node, depth(at(node))));
-        depths.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
-    }
-
     /// Checks that no contact node lies deep in the target before the loads act. What counts as
     /// deep is more than half the longest contact edge beside the node and more than 1 % of the
     /// scene's larger extent.

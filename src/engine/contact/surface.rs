@@ -50,7 +50,7 @@ pub(super) struct Edge {
 }
 
 impl Surface {
-    fn new(model: &Model, edges: Vec<Edge>) -> Self {
+    pub(super) fn new(model: &Model, edges: Vec<Edge>) -> Self {
         let mut listed = HashSet::new();
         let once: Vec<usize> =
             (0..edges.len()).filter(|k| listed.insert(unordered(edges[*k].nodes))).collect();
@@ -70,6 +70,41 @@ impl Surface {
         }
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         Surface { edges, once, at, normals, node_normals: means.collect() }
+    }
+
+    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the surface ends.
+    fn meeting(&self, node: NodeId, shape: &[Vector]) -> Option<[PlacedEdge; 2]> {
+        let [k, l] = self.at.get(&node)?[..] else { return None };
+        let order = if self.edges[k].nodes[1] == node { [k, l] } else { [l, k] };
+        Some(order.map(|k| self.edges[k].in_shape(shape)))
+    }
+
+    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
+    /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
+    pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
+        let Some([a, b]) = self.meeting(node, shape) else { return 0.0 };
+        let cosine = dot(a.normal, b.normal);
+        if cosine > BEND { cosine.min(1.0).acos() * a.length.max(b.length) / 8.0 } else { 0.0 }
+    }
+
+    /// Returns whether the surface ends at a node, or turns round a convex corner of the body there.
+    fn has_edge_at(&self, node: NodeId, shape: &[Vector]) -> bool {
+        match self.meeting(node, shape) {
+            Some([a, b]) => dot(a.normal, b.normal) <= BEND && dot(a.normal, b.tangent) < 0.0,
+            None => self.at.contains_key(&node),
+        }
+    }
+
+    /// Returns whether the surface goes on smoothly at its node that is nearest to a point in a shape.
+    fn goes_on_beside(&self, p: Vector, shape: &[Vector]) -> bool {
+        let distance = |node: &NodeId| {
+            let [x, y] = minus(shape[node.index()], p);
+            x.hypot(y)
+        };
+        let nearest =
+            self.at.keys().min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+        let meeting = nearest.and_then(|node| self.meeting(*node, shape));
+        meeting.is_some_and(|[a, b]| dot(a.normal, b.normal) > BEND)
     }
 }
 
@@ -143,19 +178,24 @@ impl Surfaces {
         placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
     }
 
-    /// Returns the largest height of the arc of a circle over an edge, of the edges that meet others in a bend
-    /// of a smooth surface: an eighth of the edge's length times the angle between their normals, length.
-    pub fn facet_height(&self, shape: &[Vector]) -> f64 {
-        let of_surface = |Surface { edges, at, .. }: &Surface| {
-            let bends = at.values().filter_map(|meeting| {
-                let [a, b] = meeting[..] else { return None };
-                let [a, b] = [a, b].map(|k| edges[k].in_shape(shape));
-                let cosine = dot(a.normal, b.normal);
-                (cosine > BEND).then(|| cosine.min(1.0).acos() * a.length.max(b.length) / 8.0)
-            });
-            bends.fold(0.0, f64::max)
+    /// Returns whether a body ends in contact while the other goes on, as at the edge of a punch, where contact node
+    /// and target node, which carries most of it, lie on each other in the undeformed shape.
+    pub fn is_edge(&self, model: &Model, [contact, target]: [NodeId; 2]) -> bool {
+        let held = model.held_directions();
+        let ends = |own: &Surface, node: NodeId, other: &Surface| {
+            // An end that a restraint holds may be one of symmetry.
+            own.has_edge_at(node, &model.nodes)
+                && held[node.index()] == 0
+                && other.goes_on_beside(model.coordinates(node), &model.nodes)
         };
-        f64::max(of_surface(&self.contact), of_surface(&self.target))
+        ends(&self.contact, contact, &self.target) || ends(&self.target, target, &self.contact)
+    }
+
+    /// Returns the largest height of an arc over an edge of either surface in a shape, length.
+    pub fn facet_height(&self, shape: &[Vector]) -> f64 {
+        let surfaces = [&self.contact, &self.target].into_iter();
+        let heights = surfaces.flat_map(|s| s.at.keys().map(|node| s.height_at(*node, shape)));
+        heights.fold(0.0, f64::max)
     }
 
     /// Returns the entries of the contact surface, in order.

@@ -4,7 +4,7 @@
 //!   held alike, at sin²ω = (κ + 1) / 4 between a fixed and a free one, with κ = 3 − 4ν in plane strain and
 //!   (3 − ν) / (1 + ν) in plane stress. (Sides on rollers count as free.)
 //! - Under a force on a single node, of the load or of a restraint, it goes like r^(−1).
-//! - Where contact ends and sticks, it goes like r^(−1/2) or nearly so.
+//! - Where contact ends and sticks, and at the edge of a punch, it goes like r^(−1/2) or nearly so.
 //!
 //! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in
 //! angular corners of plates in extension", J. Appl. Mech. 19 (1952) 526-528.
@@ -14,8 +14,8 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::DVector;
 
-use crate::contact::Status;
-use crate::{Detail, Solution, Stiffness};
+use crate::contact::{Status, Surfaces};
+use crate::{Constraint, Detail, Solution, Stiffness};
 use base::choices;
 use problem::element::Plane;
 use problem::model::{Dof, Force, Model, NodeId, Triangle, TriangleSide};
@@ -36,6 +36,8 @@ choices! {
         Force = "a force on a single node",
         /// Nodes that stick end where nodes are open.
         Sticking = "the end of sticking contact",
+        /// A body ends in contact, and the other goes on, as at the edge of a punch.
+        Edge = "contact at the edge of a body",
     }
 }
 
@@ -64,7 +66,9 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
     let corners = corners(model).into_iter().map(|node| (Cause::Corner, [node, node]));
     let forces = forces(solution).into_iter().map(|node| (Cause::Force, [node, node]));
     let ends = ends(solution).into_iter().map(|nodes| (Cause::Sticking, nodes));
-    let mut found: Vec<(Cause, [NodeId; 2])> = corners.chain(forces).chain(ends).collect();
+    let edges = edges(solution).into_iter().map(|nodes| (Cause::Edge, nodes));
+    let mut found: Vec<(Cause, [NodeId; 2])> =
+        corners.chain(forces).chain(ends).chain(edges).collect();
     found.sort_by_key(|(_, nodes)| nodes[0]);
     found.dedup_by_key(|(_, nodes)| nodes[0]);
     let point = |(cause, nodes): (Cause, [NodeId; 2])| {
@@ -77,9 +81,7 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
 /// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
 /// stress has a limit.
 fn corners(model: &Model) -> Vec<NodeId> {
-    let sides =
-        model.triangles.iter().flat_map(|t| [0, 1, 2].map(|k| [t.nodes[k], t.nodes[(k + 1) % 3]]));
-    let outline: Vec<TriangleSide> = sides.filter_map(|ends| model.sides.boundary(ends)).collect();
+    let outline: Vec<TriangleSide> = model.sides.outline().collect();
     let going: BTreeMap<NodeId, TriangleSide> =
         outline.iter().map(|side| (side.nodes[0], *side)).collect();
     let held = model.held_directions();
@@ -161,8 +163,22 @@ fn ends(solution: &Solution) -> Vec<[NodeId; 2]> {
         |k: usize| [k.wrapping_sub(1), k + 1].iter().any(|k| closed.get(*k) == Some(&false));
     let end = |k: usize| {
         let constraint = last.constraints.iter().find(|constraint| constraint.node == nodes[k])?;
-        let heaviest = constraint.masters.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-        Some([nodes[k], heaviest.0])
+        Some([nodes[k], carrier(constraint)?])
     };
     (0..nodes.len()).filter(|k| sticks(*k) && opens(*k)).filter_map(end).collect()
+}
+
+/// Returns the nodes in contact at which a body ends while the other goes on, each with the target node that carries
+/// most of it.
+pub fn edges(solution: &Solution) -> Vec<[NodeId; 2]> {
+    let Ok(surfaces) = Surfaces::new(&solution.model) else { return Vec::new() };
+    let pairs = solution.last().constraints.iter();
+    let pairs = pairs.filter_map(|constraint| Some([constraint.node, carrier(constraint)?]));
+    pairs.filter(|pair| surfaces.is_edge(&solution.model, *pair)).collect()
+}
+
+/// Returns the target node that carries most of a contact node.
+fn carrier(constraint: &Constraint) -> Option<NodeId> {
+    let heaviest = constraint.masters.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    Some(heaviest.0)
 }

@@ -1,7 +1,9 @@
 //! Corners of the target: no answer depends on the place, the direction or the order in which a
 //! scene is written, and no apex passes through the other body.
 
-use engine::contact::Surfaces;
+use std::collections::HashSet;
+
+use engine::contact::{InsideNode, Surfaces, Watched};
 use engine::error::Error;
 use engine::{Request, Solution, solve};
 use problem::model::NodeId;
@@ -165,9 +167,12 @@ fn a_target_node_in_the_contact_body_is_found() {
     let scene =
         bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial).build().unwrap();
     let mut shape = scene.model.nodes.clone();
-    assert_eq!(surfaces(&scene).deepest_target_node(&shape), None);
+    let none = HashSet::new();
+    let inside = |shape: &[[f64; 2]]| surfaces(&scene).inside(&scene.model, shape, [&none, &none]);
+    assert_eq!(inside(&shape), []);
     shape[3][1] = 0.85;
-    let (node, depth) = surfaces(&scene).deepest_target_node(&shape).unwrap();
-    assert_eq!(node, NodeId::new(3));
+    let found = inside(&shape);
+    let [InsideNode { node, depth, watched, .. }] = found[..] else { panic!("{found:?}") };
+    assert_eq!((node, watched), (NodeId::new(3), Watched::Target));
     assert_near("depth", depth, 0.1, 1.0, &INVARIANCE);
 }

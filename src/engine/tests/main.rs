@@ -11,6 +11,7 @@ mod friction;
 mod hard;
 mod invariance;
 mod orders;
+mod overlap;
 mod perturbed;
 mod precisions;
 mod quadratic_programme;

@@ -9,10 +9,10 @@ use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
-use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction};
+use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction, Watched};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::solution::{
-    self, Detail, Path, Solution, Start, Step, last_under_each_load, max_displacement,
+    self, Detail, Overlap, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
 use crate::support::{reactions, support_force, transmitted_force};
 
@@ -371,7 +371,12 @@ impl<'a> Run<'a> {
         let nearest = problem.search(&end.config, &setting).nearest_decision(&end.last);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
         let facets = problem.coarse_facets();
-        let [unseen, inside] = problem.deepest_nodes(&last.solution.u);
+        let found = problem.inside(&config, &last);
+        let deepest = |watched: Watched| {
+            let deepest = found.iter().find(|inside| inside.watched == watched)?;
+            Some((deepest.node, deepest.depth))
+        };
+        let [unseen, inside] = [Watched::Target, Watched::Contact].map(deepest);
         let of_contact = load_of(&config.pairings, &last.solution.forces, last.solution.u.len());
         let force = problem.stiffness.times(&last.solution.u) - &setting.load - of_contact;
         Solution {
@@ -384,6 +389,7 @@ impl<'a> Run<'a> {
             steps,
             digits: None,
             error_bound: None,
+            overlap: Overlap::of(&found),
             equilibrium: Some(solution::Equilibrium {
                 path,
                 uniqueness,

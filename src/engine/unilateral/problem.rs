@@ -8,11 +8,12 @@ use nalgebra::DVector;
 use super::forces::{ContactForce, contact_forces, tangent};
 use super::rigid;
 use super::status::History;
-use crate::contact::{Pairing, Sense, Status, Surfaces};
+use crate::contact::{InsideNode, Pairing, Sense, Status, Surfaces, Watched};
 use crate::elimination::{Constraint, Motion};
+use crate::range::inside_out;
 use crate::reduction::{ReducedLoad, Reduction};
 use crate::request::Request;
-use crate::solution::Cycle;
+use crate::solution::{APART, Cycle, max_displacement};
 use crate::stiffness::Stiffness;
 use crate::support::supports;
 use base::error::InputError;
@@ -29,8 +30,8 @@ const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
 /// How much of |q| over μ p is rounding.
 pub(super) const CONE: f64 = 1e-12;
 
-/// The depth of a target node inside the contact surface, over the model's size, that is reported;
-/// where curved surfaces lie on each other, their nodes stand inside by the sagitta of an edge.
+/// The depth inside the other body, over the model's size, from which a node that contact watches is reported: mortar
+/// closes averaged gaps, and where curved surfaces lie on each other their nodes stand inside by the height of an arc.
 const UNSEEN: f64 = 1e-3;
 
 /// The height of an arc over its edge, over an initial overlap or gap, beyond which the mesh is said to make it.
@@ -377,18 +378,31 @@ impl<'a> Problem<'a> {
         (self.closed < least && height > COARSE * least).then_some([height, least])
     }
 
-    /// Returns the target node that lies deepest inside the contact surface, under node to segment, and the
-    /// contact node that lies deepest inside the target's body in the shape reached, whatever edges it faces,
-    /// each with its depth, length; None where none lies deeper than [`UNSEEN`].
-    pub(super) fn deepest_nodes(&self, u: &DVector<f64>) -> [Option<(NodeId, f64)>; 2] {
+    /// Returns the nodes that lie inside another body in the shape reached, the deepest first: those that contact
+    /// does not watch deeper than rounding and the facets of curved surfaces, the others deeper than [`UNSEEN`].
+    pub(super) fn inside(&self, config: &Configuration, last: &Iteration) -> Vec<InsideNode> {
+        let facing = config.pairings.iter().flatten().map(|pairing| pairing.node).collect();
+        let closed = config.pairings.iter().zip(&last.statuses);
+        let closed = closed.filter(|(_, status)| status.is_closed());
+        let closed = closed.filter_map(|(pairing, _)| Some(pairing.as_ref()?.node)).collect();
+        let u = &last.solution.u;
         let shape = self.model.shape(u);
-        let unseen = match self.request.contact.coupling {
-            Coupling::Nts => self.surfaces.deepest_target_node(&shape),
-            Coupling::Mortar => None,
+        // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own says so.
+        if inside_out(self.model, &shape).next().is_some() {
+            return Vec::new();
+        }
+        let mut found = self.surfaces.inside(self.model, &shape, [&facing, &closed]);
+        let sees_target = match self.request.contact.coupling {
+            Coupling::Nts => false,
+            Coupling::Mortar => true,
         };
-        let inside = self.surfaces.deepest_contact_node(self.model, &shape);
-        let least = UNSEEN * size(self.model);
-        [unseen, inside].map(|deepest| deepest.filter(|(_, depth)| *depth > least))
+        let rounding = self.closed.max(APART * max_displacement(u));
+        found.retain(|inside| match inside.watched {
+            Watched::Contact => inside.depth > UNSEEN * size(self.model),
+            Watched::Target => !sees_target && inside.depth > UNSEEN * size(self.model),
+            Watched::Not => inside.depth > inside.height + rounding,
+        });
+        found
     }
 }
 

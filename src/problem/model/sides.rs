@@ -64,6 +64,11 @@ impl Sides {
         &of_lower[from..to]
     }
 
+    /// Returns the sides that bound the bodies, by the lower of their nodes, then by the higher one.
+    pub fn outline(&self) -> impl Iterator<Item = TriangleSide> {
+        self.beside.iter().filter_map(|side| self.boundary(side.nodes))
+    }
+
     /// Returns the one triangle that has this side, where the side bounds the body; None for an
     /// inner side and for two nodes without a common side.
     pub fn boundary(&self, nodes: [NodeId; 2]) -> Option<TriangleSide> {

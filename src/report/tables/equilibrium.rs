@@ -1,9 +1,12 @@
 //! What is known of an equilibrium: whether there are others, and how exact its geometry is.
 
+use super::result::place;
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{percent, short, six_digits, with_unit};
-use engine::{Equilibrium, Margin, NearestDecision, OtherEquilibrium, Solution, Uniqueness};
+use engine::{
+    Equilibrium, Margin, NearestDecision, OtherEquilibrium, Overlap, Solution, Uniqueness,
+};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
 
@@ -24,7 +27,7 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
         )
     });
     let inside = found.inside.map(|(node, depth)| {
-        let why = why_inside(solution, node);
+        let why = why_inside(solution);
         format!(
             "Contact node {node} lies {} INSIDE THE TARGET in the shape reached{why}",
             length(depth)
@@ -64,7 +67,12 @@ pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision
 
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
     let words = match found {
-        Uniqueness::Unique => "the only one in the shape reached (convex, no friction)".into(),
+        Uniqueness::Unique => {
+            let passing = "the only one of bodies that touch in the groups of contact alone and lie in each other beside \
+                           them (see the first line)";
+            let of = if solution.overlap.is_some() { passing } else { "the only one" };
+            format!("{of} in the shape reached (convex, no friction)")
+        }
         Uniqueness::Indifferent { node } => format!(
             "NOT THE ONLY ONE: node {node} can move without work, as contacts that carry nothing may \
              open"
@@ -123,19 +131,35 @@ fn tried(solution: &Solution, [states, steps]: [usize; 2], [all, last_only]: [bo
     format!("{states}{shapes}{earlier}")
 }
 
-/// Says how a contact node may lie inside the target.
-fn why_inside(solution: &Solution, node: NodeId) -> &'static str {
+/// Says how a contact node that faces the target may lie inside it.
+fn why_inside(solution: &Solution) -> &'static str {
     let contact = solution.request.contact;
-    let is_closed = solution.in_contact().any(|contact| contact.node == node);
-    match (is_closed, contact.coupling, contact.geometry) {
-        (false, ..) => {
-            ": it is treated as separated, as no edge of the target faced it, so that this is NO \
-             EQUILIBRIUM of that shape; give smaller loads, or list the side of the target that it meets"
-        }
-        (true, Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
-        (true, Coupling::Nts, Geometry::Initial) => {
+    match (contact.coupling, contact.geometry) {
+        (Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
+        (Coupling::Nts, Geometry::Initial) => {
             ": gaps were closed along the normals of the initial shape"
         }
-        (true, Coupling::Nts, Geometry::Current) => "",
+        (Coupling::Nts, Geometry::Current) => "",
     }
+}
+
+/// Says that bodies lie in each other where contact does not watch them; None where they do not.
+pub fn overlap(solution: &Solution) -> Option<String> {
+    let Overlap { nodes, node, depth, facet_height } = *solution.overlap.as_ref()?;
+    let length = |x: f64| with_unit(&short(x), &solution.request.scene.units.length);
+    let others = match nodes {
+        1 => String::new(),
+        nodes => format!(", the deepest of {nodes} nodes of outlines"),
+    };
+    let beside = match facet_height > 0.0 {
+        true => format!(" (its facets account for {})", length(facet_height)),
+        false => String::new(),
+    };
+    Some(format!(
+        "BODIES LIE IN EACH OTHER outside the groups of contact: {}{others}, lies {} inside another body{beside}; \
+         nothing keeps them apart there, so that all figures are those of bodies that pass through each other; extend \
+         the groups of contact beyond where the bodies meet",
+        place(solution, node),
+        length(depth)
+    ))
 }

@@ -6,7 +6,7 @@ use crate::numbers::{or_dash, percent, six_digits, with_unit};
 use engine::estimates::{
     BodyEstimates, Certainty, ContactChange, ErrorEstimates, NoLimit, Perturbed,
 };
-use engine::{Assessment, Decision, Solution, locking};
+use engine::{Assessment, Decision, Solution, locking_of};
 use problem::modelling::Variant;
 use problem::scene::Units;
 
@@ -90,9 +90,8 @@ fn moved_by_rounding(by: Option<f64>, unit: &str, is_bounded: bool) -> Option<St
 /// Says the error of the mesh in the energy norm, and what measures that of one number.
 fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
     let Some(relative) = errors.mesh_energy_relative else {
-        let model = &solution.model;
-        let locks = model.triangles.iter().find_map(|t| locking(model.plane, t.material.nu));
-        let why = locks.unwrap_or("a body is too small for an estimate".into());
+        let why =
+            locking_of(&solution.model).unwrap_or("a body is too small for an estimate".into());
         return format!("error of the mesh: unknown: {why}");
     };
     format!(

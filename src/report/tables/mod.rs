@@ -9,7 +9,7 @@ mod result;
 
 pub use call::{figure_numbers, pairs};
 pub use distance::distance;
-pub use equilibrium::nearest_decision;
+pub use equilibrium::{nearest_decision, overlap};
 pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
 pub use result::decimals;
 

@@ -4,8 +4,8 @@ use super::{contact_set, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
 use crate::layout::counted;
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
-use engine::estimates::NoLimit;
-use engine::{Assessment, Cycle, Resultant, Solution};
+use engine::estimates::{NoLimit, edges};
+use engine::{Assessment, Cycle, Resultant, Solution, locking_of};
 use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -16,6 +16,8 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
     let error = error_of_mesh(assessment);
     let report = Report::default()
         .heading("Result")
+        .notes(equilibrium::overlap(solution))
+        .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
         .notes(passes_on(solution))
         .then(contact_set(solution))
         .notes(resultant(solution))
@@ -100,37 +102,15 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
 }
 
 /// Says where the mesh decides the pressure of a node: it carries contact alone, or stands at the edge of a body, as
-/// that of a punch. An end that a restraint holds may be one of symmetry.
+/// that of a punch.
 fn of_the_mesh(solution: &Solution, node: NodeId) -> &'static str {
-    let model = &solution.model;
     if solution.in_contact().count() == 1 {
         return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts";
     }
-    let is_closed = |first, last| model.sides.boundary([first, last]).is_some();
-    let is_end = match model.contact.nodes[..] {
-        [first, .., last] if !is_closed(first, last) => [first, last].contains(&node),
-        _ => false,
-    };
-    let is_free = model.held_directions()[node.index()] == 0;
-    match is_end && is_free && !is_end_of_target(solution, node) {
-        true => {
-            "; the contact surface ends at this node, inside the target: at the edge of a body a finer mesh has more, \
-                 without limit"
-        }
+    match edges(solution).iter().any(|[contact, _]| *contact == node) {
+        true => "; contact at the edge of a body: a finer mesh has more, without limit",
         false => "",
     }
-}
-
-/// Returns whether a node faces an end of the target, as where two blocks of one width lie on each other.
-fn is_end_of_target(solution: &Solution, node: NodeId) -> bool {
-    let edges = || solution.model.target_edges().flat_map(|edge| edge.nodes);
-    let [x, y] = solution.model.coordinates(node);
-    let distance = |of: &NodeId| {
-        let [ox, oy] = solution.model.coordinates(*of);
-        (ox - x).hypot(oy - y)
-    };
-    let nearest = edges().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    nearest.is_some_and(|nearest| edges().filter(|other| *other == nearest).count() == 1)
 }
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error.
@@ -165,8 +145,8 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
     let line = |(k, body): (usize, &engine::BodySummary)| {
         let limit = limits.and_then(|bodies| bodies.get(k)?.no_limit.as_ref());
         let diverges = match limit {
-            Some(NoLimit { node, is_largest: true, .. }) => {
-                format!("; a finer mesh has more, without limit, at node {node}")
+            Some(NoLimit { node, cause, is_largest: true }) => {
+                format!("; a finer mesh has more, without limit, at node {node}: {cause}")
             }
             Some(NoLimit { is_largest: false, .. }) | None => String::new(),
         };
@@ -210,7 +190,7 @@ fn from_equilibrium(assessment: &Assessment) -> Option<String> {
     })
 }
 
-fn place(solution: &Solution, node: NodeId) -> String {
+pub(super) fn place(solution: &Solution, node: NodeId) -> String {
     let place = coordinates(solution.model.coordinates(node), decimals(solution));
     format!("node {node}: {}", with_unit(&place, &solution.request.scene.units.length))
 }

@@ -83,6 +83,9 @@ pub struct Compared {
     pub target_share: Option<f64>,
     /// The largest displacement and stress of each body.
     pub bodies: Vec<BodySummary>,
+    /// Where its bodies lie in each other outside the groups of contact, in words; absent where they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<String>,
     /// The error of the mesh in the energy norm, relative; nothing where it is not known.
     pub mesh_error: Option<f64>,
     /// The decision of its contact state that is nearest to another one.
@@ -166,6 +169,7 @@ fn compared(solution: &Solution, whole: bool) -> Compared {
         in_contact: solution.in_contact().count(),
         target_share: variants::target_share(solution),
         bodies: summaries(solution),
+        overlap: report::tables::overlap(solution),
         mesh_error: variants::mesh_error(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: if whole { perturbed(solution) } else { None },

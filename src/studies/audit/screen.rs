@@ -156,7 +156,12 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
         other_code.filter(|judged| is_example && judged.measured.verdict == Verdict::NotCheckable);
     let other_code =
         other_code.map(|_| "Agreement with the commercial code cannot be checked (P13).".into());
-    std::iter::once(coupled)
+    let overlap = audit.equilibrium.as_ref().and_then(|found| found.overlap.clone());
+    let overlap =
+        overlap.map(|what| format!("Of the equilibrium that runs are compared with: {what}"));
+    overlap
+        .into_iter()
+        .chain([coupled])
         .chain(nearest)
         .chain(range)
         .chain(strongest)

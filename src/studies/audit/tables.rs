@@ -203,6 +203,7 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
         in_contact,
         target_share: _,
         bodies,
+        overlap,
         mesh_error,
         nearest,
         rounding,
@@ -219,6 +220,7 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
             model.geometry,
             stresses(bodies, *mesh_error)
         ))
+        .details(overlap)
         .details(rounding.iter().flat_map(perturbed))
         .details(nearest.as_ref().map(nearest_decision))
 }

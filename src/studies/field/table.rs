@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{AtNode, Beside, BodyDifference, ContactValues, Rows};
-use engine::Distance;
+use engine::{Distance, Overlap};
 use problem::model::NodeId;
 use problem::modelling::{ContactModel, Variant};
 use report::json;
@@ -12,7 +12,7 @@ use report::numbers::{
     Digits, coordinates, figure, percent, quantity, reason, six_digits, with_unit,
 };
 use report::pressure;
-use report::tables::decimals;
+use report::tables::{decimals, overlap};
 
 /// How many nodes are listed, those with the largest differences.
 const WORST: usize = 10;
@@ -49,6 +49,7 @@ pub fn report(compared: &Compared) -> Report {
         ))
         .notes(request.scene.adapted().to_vec())
         .heading("Result")
+        .notes(overlap(reference))
         .notes(verdict(beside))
         .notes(hidden(beside))
         .notes(others)
@@ -214,6 +215,8 @@ struct Document<'a> {
     rtol: f64,
     /// Whether the solution compared with is not the only equilibrium.
     has_others: bool,
+    /// Where its bodies lie in each other outside the groups of contact; null where they do not.
+    overlap: &'a Option<Overlap>,
     distance: &'a Distance,
     bodies: &'a [BodyDifference],
     /// The node inside the bodies with the largest force that nothing balances, and its part of the largest.
@@ -244,6 +247,7 @@ pub fn json(compared: &Compared) -> String {
         is_same: beside.is_same(),
         rtol: beside.tolerance,
         has_others: beside.reference.has_others(),
+        overlap: &beside.reference.overlap,
         distance: &beside.distance,
         bodies: &beside.bodies,
         unbalanced: beside.unbalanced.map(|(node, value)| AtNode { node, value }),

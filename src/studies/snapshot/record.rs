@@ -75,10 +75,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
 /// Returns the exit status of `solve`, and the failure; null where there is none.
 fn outcome(solved: &Result<Solution>) -> (ExitStatus, Value) {
     match solved {
-        Ok(solution) => {
-            let several = solution.has_others().then_some("the equilibrium is not the only one");
-            (solution.exit_status(), json!(several))
-        }
+        Ok(solution) => (solution.exit_status(), json!(solution.doubt().map(|doubt| doubt.what))),
         Err(why) => (why.exit_status(), failure(why)),
     }
 }

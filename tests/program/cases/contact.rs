@@ -33,7 +33,10 @@ const CASES: &[Case] = &[
         input: "",
         command: "plane-contact scene mesh punch --out p >log; plane-contact solve p --no-pictures --out o",
         status: 0,
-        contains: &["the contact surface ends at this node, inside the target"],
+        contains: &[
+            "; contact at the edge of a body: a finer mesh has more, without limit",
+            "without limit, at node 411: contact at the edge of a body",
+        ],
         lacks: &["one node alone"],
     },
     Case {
@@ -43,7 +46,7 @@ const CASES: &[Case] = &[
                   m/scene.json; plane-contact solve m --variant unilateral --friction 0 --no-pictures",
         status: 0,
         contains: &["Contact presses under given displacements: force on the target 29.8"],
-        lacks: &["without a load", "ends at this node"],
+        lacks: &["without a load", "contact at the edge of a body"],
     },
     Case {
         input: "ring",
@@ -137,9 +140,18 @@ const CASES: &[Case] = &[
         status: 0,
         contains: &[
             "NOTE: body 1: Poisson's ratio 0.4999 in plane strain is nearly incompressible: linear triangles lock",
+            "Result\n  NOTE: Poisson's ratio 0.4999",
             "error of the mesh: unknown: Poisson's ratio 0.4999",
         ],
         lacks: &["in the energy norm"],
+    },
+    Case {
+        input: "locking",
+        command: "sed 's/0.4999/0.48/' scene.json > less.json; plane-contact solve less.json --json; \
+                  sed 's/0.4999/0.481/' scene.json > more.json; plane-contact solve more.json --json | grep -c '\"locking\"'",
+        status: 0,
+        contains: &["\n1\n"],
+        lacks: &["\"locking\""],
     },
     Case {
         input: "",
