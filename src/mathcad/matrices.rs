@@ -78,7 +78,7 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
 /// Solves the equations of a matrix by its entries that are not 0.
 #[cfg(feature = "sparse")]
 fn sparse(a: &Array, b: &Array) -> Result<Vec<f64>, Cause> {
-    let matrix = super::SparseSquare::from_rows(a.rows(), a.entries());
+    let matrix = super::SparseSquare::from_array(a);
     let x = super::sparse::solved(&matrix, &numbers(b)).ok_or(Cause::Singular)?;
     x.into_iter().map(finite).collect()
 }

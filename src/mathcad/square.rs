@@ -4,6 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::{DMatrix, DVector};
 
+use super::value::Array;
 use numbers::scalar::Scalar;
 
 /// A square matrix, counted from 0: of each column the entries that were written, rows ascending.
@@ -25,14 +26,6 @@ impl<T: Scalar> SparseSquare<T> {
         let entries = |(i, value): (usize, &T)| (!value.is_zero()).then_some((i, *value));
         let column = |j| matrix.column(j).into_iter().enumerate().filter_map(entries).collect();
         SparseSquare { columns: (0..matrix.ncols()).map(column).collect(), zero: T::zero() }
-    }
-
-    /// Takes the entries of n rows, one row after the other, zeros left out.
-    pub fn from_rows<'a>(n: usize, entries: impl Iterator<Item = &'a T>) -> Self {
-        let mut matrix = Self::zeros(n);
-        let entries = entries.enumerate().filter(|(_, value)| !value.is_zero());
-        entries.for_each(|(k, value)| matrix.columns[k % n].push((k / n, *value)));
-        matrix
     }
 
     /// Returns the number of rows, which is that of the columns.
@@ -102,6 +95,16 @@ impl<T: Scalar> IndexMut<(usize, usize)> for SparseSquare<T> {
 }
 
 impl SparseSquare {
+    /// Takes the entries of a square array, zeros left out.
+    pub fn from_array(array: &Array) -> Self {
+        let n = array.rows();
+        assert_eq!(n, array.cols(), "a square array");
+        let mut matrix = Self::zeros(n);
+        let entries = array.entries().enumerate().filter(|(_, value)| **value != 0.0);
+        entries.for_each(|(k, value)| matrix.columns[k % n].push((k / n, *value)));
+        matrix
+    }
+
     /// Returns the largest size of an entry.
     pub fn amax(&self) -> f64 {
         self.entries().fold(0.0, |most, (_, _, value)| most.max(value.abs()))

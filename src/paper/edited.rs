@@ -131,7 +131,7 @@ impl Interpreter {
                 let (rows, cols) = (matrix.rows(), matrix.cols());
                 return Err(wrong(edited, format!("MJS is {rows} x {cols}, not {n} x {n}")));
             }
-            Ok(Table::from_fn(n, n, |i, j| T::from_f64(matrix[(i, j)])))
+            Ok(Table::from_fn(n, n, |i, j| T::from_f64(*matrix.at(i - 1, j - 1))))
         }))
     }
 

@@ -1,5 +1,7 @@
 //! The paper's listings, executed as printed on the arrays of a scene.
 
+use std::rc::Rc;
+
 use crate::mirror::{Change, Pairs, Reading, Worksheet};
 use base::choices;
 use mathcad::array::{Column, Table};
@@ -125,12 +127,13 @@ pub fn km<O: Observer>(
     sheet: &Worksheet<f64>,
     k_cnt: &Table<f64>,
     observer: &mut O,
-) -> Traced<Table<f64>> {
+) -> Traced<Rc<Array>> {
     let mut runner = listing.runner(settings, &limits(sheet));
     define(&mut runner, sheet);
     let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
-    let matrix = Table::try_from(&outcome.value)
-        .map_err(|_| unexpected(listing, "an array", "value of the program"))?;
+    let Value::Array(matrix) = outcome.value else {
+        return Err(unexpected(listing, "an array", "value of the program"));
+    };
     Ok((matrix, outcome.trace_output))
 }
 

@@ -5,8 +5,11 @@
 //! without it, 2,000.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
+use std::rc::Rc;
+
 use mathcad::array::{Column, Table};
-use mathcad::{Cause as MathcadCause, Conjunction, Failure as MathcadFailure};
+use mathcad::value::Array;
+use mathcad::{Cause as MathcadCause, Conjunction, Failure as MathcadFailure, Value};
 use nalgebra::SMatrix;
 use paper::listings::{self, Which, settings};
 use paper::mirror::{Cause, Failure, Km, LoopPlace, Pairs, Reading, Wedge, Worksheet, c_cnt};
@@ -71,9 +74,13 @@ fn agree(
     let of_mirror_km = mirror_km.as_ref().map(flat).map_err(|f| mirror_stop(f.clone()));
     prop_assert_eq!(
         &of_mirror_km,
-        &listing_km.map(|(m, _)| flat(&m)).map_err(|f| listing_stop(&f))
+        &listing_km.map(|(m, _)| flat(&table(m))).map_err(|f| listing_stop(&f))
     );
     Ok(Seen { c_cnt: of_mirror.map(|(_, _, dy, _)| dy.iter().sum()), km: of_mirror_km.map(|_| ()) })
+}
+
+fn table(array: Rc<Array>) -> Table<f64> {
+    Table::try_from(&Value::Array(array)).expect("numbers")
 }
 
 /// What a scene went through, for the count at the end.
@@ -141,7 +148,7 @@ fn listing_and_mirror_agree_on_any_mates() {
                 Km(&sheet, &reading, &k_cnt).map(|m| flat(m.to_table())).map_err(mirror_stop);
             let (which, settings) = (Which::Km.under(&reading), settings(&reading));
             let listing = listings::km(&which, &settings, &sheet, &k_cnt, &mut ());
-            let listing = listing.map(|(m, _)| flat(m)).map_err(|f| listing_stop(&f));
+            let listing = listing.map(|(m, _)| flat(table(m))).map_err(|f| listing_stop(&f));
             prop_assert_eq!(&mirror, &listing);
         }
         Ok(())

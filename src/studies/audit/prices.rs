@@ -30,10 +30,6 @@ pub const NOTHING: f64 = 1e-6;
 /// The scale of the figures: a load that differs by a billionth moves any by as much, the small ones too.
 const SCALE: f64 = 10.0;
 
-/// The runs that share a worksheet at least: more would leave processors idle, fewer assemble the stiffness of the
-/// bodies more often, 0.3 s of `audit strand --prices`.
-const SHARED: usize = 5;
-
 /// The fault that ties both components of a node in contact.
 const STICKING: &str = "K9 (sliding)";
 
@@ -252,7 +248,7 @@ impl Compared {
     /// one input share a worksheet.
     fn priced(&self, faults: &[Option<&'static Fault>], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let slides = self.slides();
-        let run = |worksheet: &mut Worksheet, fault: &Option<&'static Fault>| {
+        let run = |worksheet: &Worksheet, fault: Option<&'static Fault>| {
             let outcome = match fault {
                 Some(fault) if fault.name() == STICKING && !slides => Outcome::NoFault {},
                 Some(fault) => self.run(worksheet, &[fault.edit]),
@@ -262,8 +258,8 @@ impl Compared {
             outcome
         };
         let on = |model: &&Model| -> Vec<Outcome> {
-            let faults = faults.par_iter().with_min_len(SHARED);
-            faults.map_init(|| Worksheet::new(model, Bound::Normal), run).collect()
+            let worksheet = Worksheet::new(model, Bound::Normal);
+            faults.iter().map(|fault| run(&worksheet, *fault)).collect()
         };
         let equivalents = self.equivalents.iter().map(|model| &**model);
         let models: Vec<&Model> = std::iter::once(&*self.exact.model).chain(equivalents).collect();

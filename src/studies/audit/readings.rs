@@ -117,7 +117,7 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
     };
     let listing = Which::Km.under(&reading);
     let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, &mut ())?;
-    Ok(Initial { pairs, matrix: SparseSquare::from_dense(matrix.as_matrix()) })
+    Ok(Initial { pairs, matrix: SparseSquare::from_array(&matrix) })
 }
 
 impl Effect {
