@@ -1,8 +1,9 @@
 //! The statements that a listing executes, by contact node (`c_cnt`) or by element (`Km`).
 
-use mathcad::array::Table;
+use std::rc::Rc;
+
 use mathcad::observe::Executed;
-use mathcad::{Failure, Line, Listing, Recorder, Settings};
+use mathcad::{Array, Failure, Line, Listing, Recorder, Settings};
 use paper::door::Call;
 use paper::listings::{self, Which};
 use paper::mirror::Pairs;
@@ -21,7 +22,7 @@ pub enum Product {
     /// What `c_cnt` computes: ct, yt, dy, k_cnt.
     Pairs(Pairs<f64>),
     /// What `Km` computes: MJS, 2R x 2R, force/length.
-    Matrix(Table<f64>),
+    Matrix(Rc<Array>),
 }
 
 /// A statement that was executed.
