@@ -148,7 +148,7 @@ fn executed(
         Which::CCnt => listings::c_cnt(&listing, &settings, sheet, node_n, &mut ())
             .map(|(pairs, _)| [bits(pairs.yt.as_slice()), bits(pairs.k_cnt.as_matrix())].concat()),
         Which::Km => listings::km(&listing, &settings, sheet, k_cnt, &mut ())
-            .map(|(matrix, _)| bits(matrix.as_matrix())),
+            .map(|(matrix, _)| bits(matrix.entries())),
     };
     match run {
         Ok(bits) => assert!(bits.into_iter().all(|x| f64::from_bits(x).is_finite())),
@@ -186,9 +186,10 @@ fn is_mirrored(sheet: &Worksheet<f64>, node_n: &Table<f64>, reading: &Reading) -
     let mirror = Km(sheet, reading, &k_cnt).map(|m| m.to_table());
     let executed = listings::km(&printed(Which::Km, reading), &settings, sheet, &k_cnt, &mut ());
     let flat = |table: &Table<f64>| bits(table.as_matrix());
+    let table = |array| Table::try_from(&Value::Array(array)).expect("numbers");
     assert_eq!(
         mirror.as_ref().map(flat).map_err(stop),
-        executed.map(|(table, _)| flat(&table)).map_err(|f| printed_stop(&f))
+        executed.map(|(array, _)| flat(&table(array))).map_err(|f| printed_stop(&f))
     );
     k_cnt
 }

@@ -84,7 +84,7 @@ impl Case {
                             .map(|(pairs, output)| (Value::from(&pairs.k_cnt), output))
                     }
                     Which::Km => listings::km(listing, settings, sheet, &argument, &mut recorder)
-                        .map(|(matrix, output)| (Value::from(&matrix), output)),
+                        .map(|(matrix, output)| (Value::Array(matrix), output)),
                 }
             }
         }

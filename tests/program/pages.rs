@@ -112,7 +112,9 @@ fn traces(folder: &Path) -> [String; 2] {
                 let places =
                     (1..=matrix.rows()).flat_map(|i| (1..=matrix.cols()).map(move |j| (i, j)));
                 entries.extend(
-                    places.map(|at| (at.0, at.1, matrix[at])).filter(|entry| entry.2 != 0.0),
+                    places
+                        .map(|at| (at.0, at.1, *matrix.at(at.0 - 1, at.1 - 1)))
+                        .filter(|entry| entry.2 != 0.0),
                 );
             }
         }

@@ -132,12 +132,12 @@ fn made(case: &Case, places: &Range, whole: bool, watch: &(dyn Fn() + Sync)) -> 
     let friction =
         || case.model().target().filter(|_| whole).map_or(Vec::new(), |_| friction(case));
     let prices = || prices::on(case, watch);
-    // All at once: each alone would end with one long run on one core.
-    let ((readings, (claims, by_reading)), (findings, (variants, (friction, prices)))) =
-        rayon::join(
-            || rayon::join(readings, || rayon::join(claims, by_reading)),
-            || rayon::join(findings, || rayon::join(variants, || rayon::join(friction, prices))),
-        );
+    // All at once, the longest first: each alone would end with one long run on one core.
+    let (prices, (findings, (readings, (claims, (by_reading, (variants, friction)))))) =
+        rayon::join(prices, || {
+            let others = || rayon::join(by_reading, || rayon::join(variants, friction));
+            rayon::join(findings, || rayon::join(readings, || rayon::join(claims, others)))
+        });
     let (equilibrium, reference) = rayon::join(
         || case.equilibrium().map(|solution| compared(solution, whole)),
         || case.reference().map(|solution| compared(solution, whole)),
