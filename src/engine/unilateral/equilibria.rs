@@ -72,7 +72,7 @@ pub(super) fn uniqueness(
             (false, None) => (),
         }
     }
-    if problem.friction == 0.0 {
+    if problem.friction == 0.0 || !problem.model.has_contact() {
         return Uniqueness::Unique;
     }
     let every = |steps: &[TakenStep]| -> Option<Vec<States>> {

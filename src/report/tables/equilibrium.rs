@@ -39,8 +39,8 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
             false => "less than that, so that the mesh decides it".into(),
         };
         format!(
-            "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the surfaces \
-             overlap by, or are apart by, {}, {part}; no error estimate counts it; refine the surfaces",
+            "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the deepest \
+             overlap, or else the least gap, is {}, {part}; no error estimate counts it; refine the surfaces",
             length(height),
             length(least)
         )
@@ -71,7 +71,9 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
             let passing = "the only one of bodies that touch in the groups of contact alone and lie in each other beside \
                            them (see the first line)";
             let of = if solution.overlap.is_some() { passing } else { "the only one" };
-            format!("{of} in the shape reached (convex, no friction)")
+            let model = &solution.request.scene.model;
+            let why = if model.has_contact() { "convex, no friction" } else { "no contact" };
+            format!("{of} in the shape reached ({why})")
         }
         Uniqueness::Indifferent { node } => format!(
             "NOT THE ONLY ONE: node {node} can move without work, as contacts that carry nothing may \
