@@ -209,7 +209,7 @@ fn a_stamp_below_its_target_is_refused() {
 #[test]
 fn dropped_nodes_leave_the_others_their_numbers() {
     let ended = solved("dropped-renumbers-output", "");
-    assert!(ended.text.contains("Dropped: nodes 1 of the mesh"), "{}", ended.text);
+    assert!(ended.text.contains("Dropped: node 1 of the mesh"), "{}", ended.text);
     assert_eq!(ended.result["dropped"], json!([1]));
     let nodes: Vec<u64> = forces(&ended).iter().map(|(node, _)| *node).collect();
     assert_eq!(nodes, [6, 7, 8, 9, 10]);

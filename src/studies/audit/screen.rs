@@ -26,7 +26,7 @@ pub const WIDTH: usize = 100;
 /// What is judged, and what is not.
 pub const JUDGED: [&str; 2] = [
     "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it.",
-    "Not judged: the worksheet that the authors ran, which is not public, and misprints.",
+    "Not judged: the worksheet that the authors ran, which is not public, and whether a line is a misprint.",
 ];
 
 /// What a mark at a claim says.
@@ -197,7 +197,7 @@ fn runs(audit: &Audit, scene: &Scene) -> Table {
         .map(|(_, row)| run(row))
         .chain(audit.equilibrium.as_ref().map(equilibrium))
         .chain(is_example(scene).then(calculix));
-    Table::new(["run", "load passed on", "nodes in contact", &stress, "error in energy"], rows)
+    Table::new(["run", "load passed on", "nodes in contact", &stress, "error, energy norm"], rows)
 }
 
 fn run(row: &VariantRow) -> Vec<Cell> {
@@ -251,7 +251,10 @@ fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
 
 fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
-    Some(format!("Error of the mesh in the equilibrium: {}, {UNDERESTIMATE}.", percent(error)))
+    let error = percent(error);
+    Some(format!(
+        "Error of the mesh, which all runs share, in the energy norm: {error}, {UNDERESTIMATE}."
+    ))
 }
 
 /// Says what is wrong with a run that passes a load on: which node is pressed across an open gap, which ends inside
@@ -272,7 +275,11 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
     let across = across.map(|PressedAcross { node, pressure, gap }| {
         let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
-        format!("node {node} is pressed with {pressure} across an open gap of {}", length(gap))
+        let of = with_unit(&figure(scene.model.contact.tolerance, None), &scene.units.length);
+        format!(
+            "node {node} is pressed with {pressure} across an open gap of {} (c_tol is {of})",
+            length(gap)
+        )
     });
     let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
         let status = if found.in_contact { "though in contact" } else { "carries nothing" };
@@ -332,7 +339,7 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let free = [
         own,
         listed(free),
-        "none of these costs anything: without friction, the corrected algorithm is as far".into(),
+        "these cost nothing: the corrected algorithm, without friction, is itself as far".into(),
     ];
     let none = (!none.is_empty())
         .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
