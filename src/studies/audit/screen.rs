@@ -25,8 +25,8 @@ pub const WIDTH: usize = 100;
 
 /// What is judged, and what is not.
 pub const JUDGED: [&str; 2] = [
-    "Judged: the listings c_cnt and Km as printed, and eq. (1) as the text has it.",
-    "Not judged: the worksheet that the authors ran, which is not public, and whether a line is a misprint.",
+    "Judged: listings c_cnt and Km as printed, eq. (1) as the text has it.",
+    "Not judged: the authors' unpublished worksheet; whether a line is a misprint.",
 ];
 
 /// What a mark at a claim says.
@@ -252,9 +252,7 @@ fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
 fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
     let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
     let error = percent(error);
-    Some(format!(
-        "Error of the mesh, which all runs share, in the energy norm: {error}, {UNDERESTIMATE}."
-    ))
+    Some(format!("Error of the mesh in the energy norm: {error}, {UNDERESTIMATE}."))
 }
 
 /// Says what is wrong with a run that passes a load on: which node is pressed across an open gap, which ends inside
@@ -275,10 +273,9 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
     let across = across.map(|PressedAcross { node, pressure, gap }| {
         let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
-        let of = with_unit(&figure(scene.model.contact.tolerance, None), &scene.units.length);
+        let (gap, tolerance) = (length(gap), scene.model.contact.tolerance);
         format!(
-            "node {node} is pressed with {pressure} across an open gap of {} (c_tol is {of})",
-            length(gap)
+            "node {node} is pressed with {pressure} across an open gap of {gap} (c_tol {tolerance})"
         )
     });
     let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
@@ -339,7 +336,7 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let free = [
         own,
         listed(free),
-        "these cost nothing: the corrected algorithm, without friction, is itself as far".into(),
+        "these cost nothing: the corrected algorithm is as far, without friction".into(),
     ];
     let none = (!none.is_empty())
         .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
