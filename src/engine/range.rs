@@ -36,7 +36,7 @@ pub fn locking(plane: Plane, nu: f64) -> Option<String> {
     locks(plane, nu).then(|| {
         format!(
             "Poisson's ratio {nu} in plane strain is nearly incompressible: linear triangles lock: displacements \
-             come out too small and contact pressures too large, a roller's peak by up to a tenth at 0.49, twofold at 0.499"
+             come out too small and contact pressures too large, a roller's peak by about a tenth at 0.49, twofold at 0.499"
         )
     })
 }

@@ -84,11 +84,10 @@ impl Surfaces {
                     let faced = other.closest_point(shape[node.index()], normal);
                     Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
-                let is_watched_contact = || match over(&self.contact, &target_outline) {
-                    Some(is_over) => is_over || closed.contains(&node),
-                    None => false,
-                };
-                let watched = if facing.contains(&node) && is_watched_contact() {
+                let watched = if facing.contains(&node)
+                    && over(&self.contact, &target_outline)
+                        .is_some_and(|is_over| is_over || closed.contains(&node))
+                {
                     Watched::Contact
                 } else if self.target.at.contains_key(&node)
                     && over(&self.target, &contact_outline) == Some(true)
