@@ -100,8 +100,7 @@ impl SparseSquare {
         let n = array.rows();
         assert_eq!(n, array.cols(), "a square array");
         let mut matrix = Self::zeros(n);
-        let entries = array.entries().enumerate().filter(|(_, value)| **value != 0.0);
-        entries.for_each(|(k, value)| matrix.columns[k % n].push((k / n, *value)));
+        array.filled().for_each(|(i, j, value)| matrix.columns[j].push((i, value)));
         matrix
     }
 

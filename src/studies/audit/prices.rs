@@ -234,40 +234,42 @@ impl Compared {
         self.prices_of(&FAULTS.iter().collect::<Vec<_>>(), watch)
     }
 
-    /// The same with each of some faults put back.
+    /// The same with each of some faults put back. The runs of one input share a worksheet, so that what all
+    /// programs begin with is executed once.
     pub fn prices_of(&self, faults: &[&'static Fault], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
-        let mut priced = self.priced(&[None], watch);
-        if priced[0].outcome.is_sound() {
-            let faults: Vec<_> = faults.iter().map(|fault| Some(*fault)).collect();
-            priced.extend(self.priced(&faults, watch));
-        }
-        priced
-    }
-
-    /// Runs the corrected algorithm with one fault put back, or none, on all inputs that mean the same. Those of
-    /// one input share a worksheet.
-    fn priced(&self, faults: &[Option<&'static Fault>], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let slides = self.slides();
-        let run = |worksheet: &Worksheet, fault: Option<&'static Fault>| {
-            let outcome = match fault {
-                Some(fault) if fault.name() == STICKING && !slides => Outcome::NoFault {},
-                Some(fault) => self.run(worksheet, &[fault.edit]),
-                None => self.run(worksheet, &[]),
-            };
-            watch();
-            outcome
-        };
         let on = |model: &&Model| -> Vec<Outcome> {
             let worksheet = Worksheet::new(model, Bound::Normal);
-            faults.iter().map(|fault| run(&worksheet, *fault)).collect()
+            let corrected = self.run(&worksheet, &[]);
+            watch();
+            let faults = faults.iter().take_while(|_| corrected.is_sound()).map(|fault| {
+                let outcome = match fault.name() == STICKING && !slides {
+                    true => Outcome::NoFault {},
+                    false => self.run(&worksheet, &[fault.edit]),
+                };
+                watch();
+                outcome
+            });
+            let mut outcomes: Vec<_> = faults.collect();
+            outcomes.insert(0, corrected);
+            outcomes
         };
         let equivalents = self.equivalents.iter().map(|model| &**model);
         let models: Vec<&Model> = std::iter::once(&*self.exact.model).chain(equivalents).collect();
         let mut others: Vec<_> = models.par_iter().map(on).collect();
-        let own = others.remove(0).into_iter().enumerate();
+        let own = others.remove(0);
+        // Where an input has no more than the corrected algorithm, it is not at the solution there.
+        let ends = others.iter().map(Vec::len).min().unwrap_or(own.len());
+        let own = own.into_iter().take(ends).enumerate();
         let outcomes =
             own.map(|(k, own)| own.repeated(others.iter().map(|other| other[k].clone())));
-        faults.iter().zip(outcomes).map(|(fault, outcome)| self.price(*fault, outcome)).collect()
+        let faults = std::iter::once(None).chain(faults.iter().map(|fault| Some(*fault)));
+        let prices = faults.zip(outcomes).map(|(fault, outcome)| self.price(fault, outcome));
+        let mut prices: Vec<Price> = prices.collect();
+        if !prices[0].outcome.is_sound() {
+            prices.truncate(1);
+        }
+        prices
     }
 
     /// Runs the corrected algorithm with all faults put back, then repairs one at a time. The order is
