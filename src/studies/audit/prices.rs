@@ -260,9 +260,7 @@ impl Compared {
         let own = others.remove(0);
         // Where an input has no more than the corrected algorithm, it is not at the solution there.
         let ends = others.iter().map(Vec::len).min().unwrap_or(own.len());
-        let own = own.into_iter().take(ends).enumerate();
-        let outcomes =
-            own.map(|(k, own)| own.repeated(others.iter().map(|other| other[k].clone())));
+        let outcomes = repeated(own.into_iter().take(ends), &others);
         let faults = std::iter::once(None).chain(faults.iter().map(|fault| Some(*fault)));
         let prices = faults.zip(outcomes).map(|(fault, outcome)| self.price(fault, outcome));
         let mut prices: Vec<Price> = prices.collect();
@@ -282,31 +280,41 @@ impl Compared {
             let faults = (0..FAULTS.len()).filter(|k| put_back.contains(k));
             faults.map(|k| FAULTS[k].edit).collect()
         };
-        let worksheet = || Worksheet::new(&self.exact.model, Bound::Normal);
-        let run = |worksheet: &mut Worksheet, put_back: &[usize]| {
-            let outcome = self.run(worksheet, &edits(put_back));
-            watch();
-            outcome
-        };
-        let (mut put_back, mut repaired) = (Vec::new(), Vec::new());
-        let mut outcome = run(&mut worksheet(), &put_back);
-        while put_back.len() < FAULTS.len() {
-            let left: Vec<usize> = (0..FAULTS.len()).filter(|k| !put_back.contains(k)).collect();
-            let with = |worksheet: &mut Worksheet, k: &usize| {
-                run(worksheet, &[&put_back[..], &[*k]].concat())
+        let (mut left, mut put_back): (Vec<usize>, _) = ((0..FAULTS.len()).collect(), Vec::new());
+        let mut own = vec![self.run(&Worksheet::new(&self.exact.model, Bound::Normal), &[])];
+        watch();
+        let mut runs = vec![edits(&put_back)];
+        while !left.is_empty() {
+            let with = |part: &[usize]| -> Vec<Outcome> {
+                let worksheet = Worksheet::new(&self.exact.model, Bound::Normal);
+                let run = |k: &usize| {
+                    let outcome = self.run(&worksheet, &edits(&[&put_back[..], &[*k]].concat()));
+                    watch();
+                    outcome
+                };
+                part.iter().map(run).collect()
             };
-            let mut outcomes: Vec<Outcome> = left.par_iter().map_init(worksheet, with).collect();
+            // One worksheet for each thread: to begin one takes as long as a run.
+            let part = left.len().div_ceil(rayon::current_num_threads());
+            let mut outcomes: Vec<Outcome> = left.par_chunks(part).flat_map_iter(with).collect();
             // Rounding is not to decide which comes first.
             let error = |k: &usize| (outcomes[*k].error() / NOTHING).round();
             let least = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
             let least = least.expect("a fault is left");
-            let before = std::mem::replace(&mut outcome, outcomes.swap_remove(least));
-            let before = self.repeated(&edits(&put_back), before);
-            repaired.push(self.price(Some(&FAULTS[left[least]]), before));
-            put_back.push(left[least]);
+            own.push(outcomes.remove(least));
+            put_back.push(left.remove(least));
+            runs.push(edits(&put_back));
         }
-        let outcome = self.repeated(&edits(&put_back), outcome);
-        repaired.push(Price { fault: "all are put back".into(), ..self.price(None, outcome) });
+        let on = |model: &Arc<Model>| -> Vec<Outcome> {
+            let worksheet = Worksheet::new(model, Bound::Normal);
+            runs.iter().map(|edits| self.run(&worksheet, edits)).collect()
+        };
+        let outcomes = repeated(own, &self.equivalents.par_iter().map(on).collect::<Vec<_>>());
+        // What is left when a fault is repaired is what was there before it was put back.
+        let faults = put_back.iter().map(|k| Some(&FAULTS[*k])).chain([None]);
+        let prices = faults.zip(outcomes).map(|(fault, outcome)| self.price(fault, outcome));
+        let mut repaired: Vec<Price> = prices.collect();
+        repaired.last_mut().expect("all are put back").fault = "all are put back".into();
         repaired.reverse();
         repaired
     }
@@ -332,13 +340,6 @@ impl Compared {
         };
         let mut states = equilibrium.steps.iter().filter_map(|step| step.unilateral());
         states.any(|state| state.statuses.iter().any(slips))
-    }
-
-    /// Leaves out the figures of an outcome where inputs that mean the same lead to others.
-    fn repeated(&self, edits: &[&str], outcome: Outcome) -> Outcome {
-        let run = |model: &Arc<Model>| self.run(&Worksheet::new(model, Bound::Normal), edits);
-        let others = self.equivalents.par_iter().map(run);
-        outcome.repeated(others.collect::<Vec<_>>().into_iter())
     }
 
     /// The largest displacement of a run that has a result: a body that nothing holds moves farther.
@@ -432,6 +433,16 @@ pub fn runs() -> usize {
 /// The runs that [`Compared::repairs`] makes.
 pub fn runs_of_repairs() -> usize {
     1 + FAULTS.len() * (FAULTS.len() + 1) / 2
+}
+
+/// Leaves out the figures of the runs whose repetitions on the inputs that mean the same, a row of them for each
+/// input, lead to others.
+fn repeated(
+    own: impl IntoIterator<Item = Outcome>,
+    others: &[Vec<Outcome>],
+) -> impl Iterator<Item = Outcome> {
+    let own = own.into_iter().enumerate();
+    own.map(|(k, own)| own.repeated(others.iter().map(|other| other[k].clone())))
 }
 
 /// Returns how many repairs the way from the print to the solution takes; nothing where it does not lead there.
