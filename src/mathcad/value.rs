@@ -146,11 +146,9 @@ impl Array {
         const AT_ONCE: usize = 16;
         let parts = self.blocks.iter().flat_map(|block| block.chunks(AT_ONCE)).enumerate();
         let parts = parts.filter(|(_, part)| part.iter().fold(false, |any, x| any | (*x != 0.0)));
-        parts.flat_map(|(k, part)| {
-            let place = |l| ((k * AT_ONCE + l) / self.cols, (k * AT_ONCE + l) % self.cols);
-            let part = part.iter().enumerate().map(move |(l, x)| (place(l).0, place(l).1, *x));
-            part.filter(|(_, _, x)| *x != 0.0)
-        })
+        let entries = parts.flat_map(|(k, part)| (k * AT_ONCE..).zip(part.iter().copied()));
+        let filled = entries.filter(|(_, x)| *x != 0.0);
+        filled.map(|(k, x)| (k / self.cols, k % self.cols, x))
     }
 }
 
