@@ -155,13 +155,20 @@ fn units_that_do_not_fit_each_other_are_named() {
         ["in", "psi", "lbf"],
         ["in", "ksi", "kip"],
         ["", "MPa", "kip"],
-        ["furlong", "MPa", "N"],
+        ["mm", "N/mm2", "N"],
+        ["MM", "N / mm^2", "n"],
+        ["cm", "kN/cm²", "KN"],
+        ["in", "lbf/in**2", "lb"],
     ];
     fitting.into_iter().for_each(|units| assert_eq!(note(units), None, "{units:?}"));
     let misfits = [
         (["in", "psi", "kip"], "psi times in² is 0.001 kip", "\"lbf\""),
         (["m", "MPa", "N"], "MPa times m² is 1000000 N", "\"MN\""),
         (["in", "MPa", "N"], "MPa times in² is 645.16 N", "units that fit"),
+        (["cm", "n/MM2", "N"], "n/MM2 times cm² is 100 N", "units that fit"),
+        (["cm", "mpa", "N"], "mpa times cm² is 100 N", "units that fit"),
+        (["furlong", "MPa", "N"], "the length \"furlong\"", "not checked"),
+        (["mm", "MPa", "mn"], "the force \"mn\"", "not checked"),
     ];
     for (units, size, fix) in misfits {
         let note = note(units).unwrap();
