@@ -48,7 +48,8 @@ fn contact_node(
 impl Surfaces {
     /// Checks that no contact node lies deep in the target before the loads act: deeper than 1 % of the
     /// scene's larger extent, and nearer to a side of the target's body that looks the other way, so that it may
-    /// have come from there. How long the edges are does not count: an interference may be several edges deep.
+    /// have come from there. How long the edges are does not count: rings of
+    /// radii 10 and 20 pressed on each other by 0.25 and 0.5, 0.33 to 8 edges deep, have Lamé's pressure to 6 % and less.
     ///
     /// # Errors
     /// A contact node lies deep in the target; the error names the deepest.
@@ -60,8 +61,8 @@ impl Surfaces {
             let sides = model.sides.outline().filter(|side| body.has(side.nodes[0]));
             let ends = sides.map(|side| side.nodes.map(|end| model.coordinates(end)));
             let against = ends.filter(|[[ax, ay], [bx, by]]| dot([by - ay, ax - bx], normal) < 0.0);
-            let distance = |ends| Segment::new(ends).closest(model.coordinates(node)).distance();
-            against.map(distance).fold(f64::INFINITY, f64::min)
+            let square = |ends| Segment::new(ends).closest(model.coordinates(node)).distance_square;
+            against.map(square).fold(f64::INFINITY, f64::min).sqrt()
         };
         let deep = |&node: &NodeId| {
             let faced = contact_node(self, &outline, &model.nodes, node)?;

@@ -69,7 +69,7 @@ pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
     let words = match found {
         Uniqueness::Unique => {
-            let none = "the only one of the equations, which leave out what the first line says";
+            let none = "the only one, of equations that leave out what the first line says,";
             let of = if solution.doubt().is_some() { none } else { "the only one" };
             let model = &solution.request.scene.model;
             let why = if model.has_contact() { "convex, no friction" } else { "no contact" };
