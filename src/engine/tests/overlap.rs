@@ -7,7 +7,7 @@ use engine::contact::{InsideNode, Surfaces, Watched};
 use engine::{Request, share_of_load, solve};
 use problem::element::Plane;
 use problem::model::NodeId;
-use problem::modelling::{Coupling, Friction, Variant};
+use problem::modelling::{Coupling, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// A block on a wider one; the groups of contact have some of the nodes where they meet.
@@ -143,7 +143,9 @@ fn bodies_without_contact_are_searched_and_so_are_triangles_turned_inside_out() 
         [(-10.0, [true, false]), (10.0, [false, false]), (3000.0, [false, true])]
     {
         let scene = pressed(ALL).restrain("top", &[Axis::X, Axis::Y]).pressure("target", pressure);
-        let request = Request::new(&scene.build().expect("it is sound"));
+        let mut request = Request::new(&scene.build().expect("it is sound"));
+        // In the current geometry the step that turns a triangle inside out is refused.
+        request.contact.geometry = Geometry::Initial;
         let solution = solve(&request, &mut |_| ()).expect("there are displacements");
         assert_eq!((solution.overlap.is_some(), solution.is_inside_out()), (overlaps, inside_out));
         let status = solution.exit_status().number();

@@ -89,14 +89,20 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
             )),
         }
     }
+    // A body that is held at all its nodes is rigid, as it is meant to be.
+    let is_rigid = |node: NodeId| {
+        model.body_of(node).is_some_and(|body| body.nodes.iter().all(|n| held[n.index()] == 2))
+    };
     for support in &model.supports {
         let nodes: HashSet<NodeId> = support.holds.iter().map(|hold| hold.node).collect();
-        let count =
-            surfaces.iter().filter(|edge| edge.iter().all(|end| nodes.contains(end))).count();
+        let is_held = |edge: &&[NodeId; 2]| edge.iter().all(|end| nodes.contains(end));
+        let count = surfaces.iter().filter(is_held).filter(|edge| !is_rigid(edge[0])).count();
         if count > 0 {
             notes.push(format!(
-                "The restraint of {} holds {count} edges of a contact surface, and may take what contact presses there",
-                support.name
+                "The restraint of {} holds {count} of the {} edges of the contact surfaces, and may take what contact \
+                 presses there",
+                support.name,
+                surfaces.len()
             ));
         }
     }

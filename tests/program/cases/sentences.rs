@@ -81,7 +81,7 @@ const CASES: &[Case] = &[
         contains: &[
             "loads[1]: restraints hold 2 of its 2 edges or nodes along it",
             "loads[2]: 2 of its 2 edges belong to a contact surface",
-            "The restraint of 11 holds 2 edges of a contact surface",
+            "The restraint of 11 holds 2 of the 4 edges of the contact surfaces",
         ],
         lacks: &["loads[0]:", "loads[2]: restraints", "The restraint of 10"],
     },
