@@ -46,5 +46,5 @@ pub use solution::{
 pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
-pub use support::{Resultant, resultant};
+pub use support::{Resultant, resultant, share_of_load};
 pub use unilateral::{Implied, implied};

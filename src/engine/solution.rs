@@ -10,6 +10,7 @@ use super::contact::{ContactNode, InsideNode, Pairing, ROUNDING_OF_A_FORCE, Stat
 use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::error::{Cause, NoEquilibrium};
+use super::range::inside_out;
 use super::request::Request;
 use base::choices;
 use base::exit::ExitStatus;
@@ -394,7 +395,7 @@ pub struct Solution {
     /// contact.
     pub error_bound: Option<f64>,
     /// Where bodies lie in each other though no group of contact keeps them apart, under `unilateral`; None where they
-    /// do not.
+    /// do not, and where triangles are turned inside out.
     pub overlap: Option<Overlap>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
@@ -496,14 +497,28 @@ impl Solution {
         self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
     }
 
-    /// Returns why it is not the equilibrium of the scene: bodies lie in each other, or other equilibria are known;
-    /// None where neither is so.
+    /// Returns whether displacements turn a triangle inside out, so that they are no equilibrium's; what the paper's
+    /// variants end with is judged elsewhere.
+    pub fn is_inside_out(&self) -> bool {
+        let shape = || self.model.shape(&self.u);
+        self.equilibrium.is_some() && inside_out(&self.model, &shape()).next().is_some()
+    }
+
+    /// Returns why it is not the equilibrium of the scene: triangles are turned inside out, bodies lie in each other,
+    /// or other equilibria are known; None where none of these is so.
     pub fn doubt(&self) -> Option<NoEquilibrium> {
-        let overlap = "bodies lie in each other outside the groups of contact";
-        let overlap = self.overlap.as_ref().map(|_| (Cause::NotFound, overlap));
-        let others =
-            self.has_others().then_some((Cause::Several, "the equilibrium is not the only one"));
-        overlap.or(others).map(|(cause, what)| NoEquilibrium { cause, what: what.into() })
+        let (cause, what) = if self.is_inside_out() {
+            (Cause::OutOfRange, "triangles are turned inside out by the displacements")
+        } else if self.overlap.is_some() && self.model.has_contact() {
+            (Cause::NotFound, "bodies lie in each other outside the groups of contact")
+        } else if self.overlap.is_some() {
+            (Cause::NotFound, "bodies lie in each other, and the scene has no contact")
+        } else if self.has_others() {
+            (Cause::Several, "the equilibrium is not the only one")
+        } else {
+            return None;
+        };
+        Some(NoEquilibrium { cause, what: what.into() })
     }
 
     /// Returns the exit status of the process, which is one of its own where it is not the equilibrium of the scene.
@@ -523,11 +538,19 @@ impl Solution {
 
     /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has
     /// contact, and a load or a displaced node: an audit result under `printed`, which couples nothing (finding K1).
+    /// Under `unilateral` no contact node is pressed: contact may act across the load, or between parts of one body.
     pub fn transmits_nothing(&self) -> bool {
         let [fx, fy] = self.model.total_load();
-        let load = fx.hypot(fy);
+        let load = if self.equilibrium.is_some() { self.model.load.amax() } else { fx.hypot(fy) };
+        let least = ROUNDING_OF_A_FORCE * load;
         let is_loaded = self.model.target().is_some() && (load > 0.0 || self.is_displaced());
-        is_loaded && self.target_force().abs() <= ROUNDING_OF_A_FORCE * load
+        is_loaded
+            && match &self.equilibrium {
+                None => self.target_force().abs() <= least,
+                Some(_) => self
+                    .in_contact()
+                    .all(|node| node.force.is_some_and(|force| force.abs() <= least)),
+            }
     }
 
     /// Returns whether a restraint displaces a node.

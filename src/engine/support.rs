@@ -139,6 +139,29 @@ pub fn resultant(solution: &Solution) -> Option<Resultant> {
     Some(Resultant { force, through })
 }
 
+/// Returns which part of the load a force along it, as [`transmitted_force`] has it, is. None where that says nothing:
+/// no load acts, or not on one of the two bodies alone, the loads cancel each other, or a lever makes the force larger
+/// than the load, or turns it round.
+pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
+    /// How far a share may be beyond 0 and 1: what is left of loads that cancel, and solving, round.
+    const ROUNDING: f64 = 1e-6;
+    let contact = model.body_of(*model.contact.nodes.first()?)?;
+    let loaded = model.bodies.iter().filter(|body| is_loaded(model, body));
+    let loaded: Vec<&Body> = loaded.collect();
+    let [body] = &loaded[..] else { return None };
+    let is = |other: &Body| std::ptr::eq(*body, other);
+    let target = model.target().filter(|target| !std::ptr::eq(*target, contact))?;
+    let [fx, fy] = model.total_load();
+    let size = fx.hypot(fy);
+    let sizes = model.node_ids().map(|node| node.components(&model.load));
+    let all: f64 = sizes.map(|[x, y]| x.hypot(y)).sum();
+    let share = force / size;
+    let says = (is(contact) || is(target))
+        && size > ROUNDING * all
+        && (share - 0.5).abs() <= 0.5 + ROUNDING;
+    says.then_some(share)
+}
+
 /// Returns the contact force on a constrained node, force.
 fn constraint_force<T: Scalar>(
     constraint: &Constraint<T>,

@@ -52,6 +52,9 @@ pub struct ResultFile {
     /// do not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
+    /// Why it is not the equilibrium of the scene, in words, and the exit status is 4; absent where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<String>,
     /// Why linear triangles lock, in words; absent where they do not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking: Option<String>,
@@ -180,6 +183,7 @@ impl ResultFile {
             transmits_nothing: solution.transmits_nothing(),
             nothing_in_contact: solution.touches_nothing(),
             overlap: solution.overlap.clone(),
+            doubt: solution.doubt().map(|doubt| doubt.what),
             locking: engine::locking_of(&solution.model),
             scene: scene.name.clone(),
             title: scene.title.clone(),

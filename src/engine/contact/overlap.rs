@@ -51,22 +51,22 @@ struct PlacedTriangles {
 impl Surfaces {
     /// Returns the nodes of all outlines that lie inside another body in a shape, given as the coordinates of each
     /// node, length, the deepest first; where both surfaces are one body's, inside that body too. `facing` are the
-    /// contact nodes that face the target, `closed` those of them that are in contact.
+    /// contact nodes that face the target, `closed` those of them that are in contact; without contact there are none.
     pub fn inside(
         &self,
         model: &Model,
         shape: &[Vector],
         [facing, closed]: [&HashSet<NodeId>; 2],
     ) -> Vec<InsideNode> {
-        let Some(target) = model.target() else { return Vec::new() };
+        let target = model.target();
         let sides = model.sides.outline().map(|side| Edge { id: None, nodes: side.nodes });
         let whole = Surface::new(model, sides.collect());
         let [contact_outline, target_outline] =
             [&self.contact, &self.target].map(|surface| Outline::new(surface, shape));
-        let is_self = self.nodes.iter().all(|node| target.has(*node));
+        let is_self = target.is_some_and(|target| self.nodes.iter().all(|node| target.has(*node)));
         let mut found = Vec::new();
         for body in &model.bodies {
-            let is_target = std::ptr::eq(body, target);
+            let is_target = target.is_some_and(|target| std::ptr::eq(body, target));
             let around = Bounds::around(body.nodes.iter().map(|node| &shape[node.index()]));
             let may_enter = |node: &&NodeId| {
                 (is_self && is_target || !body.has(**node)) && around.contains(shape[node.index()])

@@ -127,7 +127,8 @@ quantities! {
              acts on one of the two bodies alone, else its size. 0 without contact.";
         target_share: Option<f64> = at.target_share(),
             "share of the load" [] Share,
-            "That force over the size of the whole load; null without a load.";
+            "That force over the size of the whole load, along it; null where that says nothing: without a load, where \
+             it acts on another body too or cancels, and where a lever makes the force larger than the load.";
         solve_residual: f64 = at.step.solve_residual, "residual" [] One,
             "The relative residual |A x − b| / (|A| |x| + |b|) of the equations.";
     }

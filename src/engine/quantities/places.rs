@@ -4,30 +4,27 @@ use std::collections::HashSet;
 
 use super::{BodySummary, IterationRow, NodeFields, SupportForce, TriangleValues};
 use crate::solution::{Solution, Step};
-use crate::support::reactions_of_supports;
-use numbers::finite;
+use crate::support::{reactions_of_supports, share_of_load};
 use numbers::largest::{Largest, largest};
 use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
 use problem::model::{Body, Model, Support, TriangleId};
 
-/// An iteration of a run whose whole load has the size `load`, force.
+/// An iteration of a run.
 pub(crate) struct IterationPlace<'a> {
     pub(super) step: &'a Step,
-    load: f64,
+    model: &'a Model,
 }
 
 impl IterationPlace<'_> {
     pub(super) fn target_share(&self) -> Option<f64> {
-        finite(self.step.target_force / self.load)
+        share_of_load(self.model, self.step.target_force)
     }
 }
 
 impl IterationRow {
     /// Returns the results of each iteration of a solution.
     pub fn all(solution: &Solution) -> Vec<Self> {
-        let [fx, fy] = solution.model.total_load();
-        let load = fx.hypot(fy);
-        let row = |step| IterationRow::compute(&IterationPlace { step, load });
+        let row = |step| IterationRow::compute(&IterationPlace { step, model: &solution.model });
         solution.steps.iter().map(row).collect()
     }
 }

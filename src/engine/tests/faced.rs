@@ -230,27 +230,6 @@ fn edges_meet_in_a_corner_up_to_the_limit_of_a_bend() {
     }
 }
 
-/// A node may lie as deep in the target as a hundredth of the scene's size, which is 4, or as half
-/// its contact edge.
-#[test]
-fn a_scene_is_refused_beyond_a_hundredth_of_its_size_and_half_a_contact_edge() {
-    for (edge, depth, is_refused) in [
-        (0.0625, 0.04, false),
-        (0.0625, 0.041, true),
-        (0.0625, 0.035, false),
-        (0.5, 0.25, false),
-        (0.5, 0.26, true),
-        (0.5, 0.041, false),
-    ] {
-        let target: Chain = &[[4.0, 0.0], [0.0, 0.0]];
-        let contact = [[2.0, -depth], [2.0 + edge, -depth]];
-        let model = model(&[target], &contact);
-        let surfaces = Surfaces::new(&model).expect("edges of the outline");
-        let refused = surfaces.check_initial_penetration(&model).is_err();
-        assert_eq!(refused, is_refused, "{depth} beside {edge}");
-    }
-}
-
 /// A node beside a tip's flank faces the tip where that is its nearer end, from the middle too, whichever
 /// way the edge is gone along.
 #[test]

@@ -1,12 +1,13 @@
 //! Nodes that lie inside another body: how deep, and whether contact watches them, by hand.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use engine::contact::{InsideNode, Surfaces, Watched};
-use engine::{Request, solve};
+use engine::{Request, share_of_load, solve};
 use problem::element::Plane;
 use problem::model::NodeId;
-use problem::modelling::{Coupling, Friction, Variant};
+use problem::modelling::{Coupling, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 
 /// A block on a wider one; the groups of contact have some of the nodes where they meet.
@@ -20,6 +21,17 @@ use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 ///       0---1---2---3---4   y = 0
 /// ```
 fn blocks(contact: &[usize], target: &[usize]) -> Scene {
+    let contact_of = Contact {
+        friction: Some(Friction::NONE),
+        coupling: Some(Coupling::Mortar),
+        ..Contact::new("contact", "target", 0.01)
+    };
+    let scene = pressed([contact, target]).restrain_node(15, &[Axis::X]).pressure("top", 1.0);
+    scene.contact(contact_of).build().expect("it is sound")
+}
+
+/// The same without contact, load, and what holds the upper block.
+fn pressed([contact, target]: [&[usize]; 2]) -> SceneBuilder {
     let mut mesh = MeshBuilder::default();
     let mut row = |xs: &[f64], y: f64| mesh.row(xs.iter().map(|x| [*x, y]));
     let (wide, narrow) = ([0.0, 1.0, 2.0, 3.0, 4.0], [0.75, 1.75, 2.75]);
@@ -31,20 +43,11 @@ fn blocks(contact: &[usize], target: &[usize]) -> Scene {
     mesh.edges("target", &of(&rows[1], target));
     mesh.edges("contact", &of(&rows[2], contact));
     mesh.edges("top", &rows[3]);
-    let contact = Contact {
-        friction: Some(Friction::NONE),
-        coupling: Some(Coupling::Mortar),
-        ..Contact::new("contact", "target", 0.01)
-    };
-    let scene = SceneBuilder::new("blocks", mesh.finish(), Plane::Stress)
+    SceneBuilder::new("blocks", mesh.finish(), Plane::Stress)
         .variant(Variant::Unilateral)
         .material("lower", 1000.0, 0.3)
         .material("upper", 1000.0, 0.3)
         .restrain("bottom", &[Axis::X, Axis::Y])
-        .restrain_node(15, &[Axis::X])
-        .pressure("top", 1.0)
-        .contact(contact);
-    scene.build().expect("it is sound")
 }
 
 const ALL: [&[usize]; 2] = [&[0, 1, 2], &[0, 1, 2, 3, 4]];
@@ -131,4 +134,73 @@ fn an_equilibrium_of_bodies_that_lie_in_each_other_is_none_of_the_scene() {
     assert_eq!(overlap(ALL), None);
     assert_eq!(overlap([&[0, 1], ALL[1]]), Some((12, 2)));
     assert_eq!(overlap([ALL[0], &[1, 2, 3, 4]]).map(|found| found.0), Some(10));
+}
+
+/// Without contact the lower block is pulled into the upper one, or away from it, or pushed through its own bottom.
+#[test]
+fn bodies_without_contact_are_searched_and_so_are_triangles_turned_inside_out() {
+    for (pressure, [overlaps, inside_out]) in
+        [(-10.0, [true, false]), (10.0, [false, false]), (3000.0, [false, true])]
+    {
+        let scene = pressed(ALL).restrain("top", &[Axis::X, Axis::Y]).pressure("target", pressure);
+        let mut request = Request::new(&scene.build().expect("it is sound"));
+        // In the current geometry the step that turns a triangle inside out is refused.
+        request.contact.geometry = Geometry::Initial;
+        let solution = solve(&request, &mut |_| ()).expect("there are displacements");
+        assert_eq!((solution.overlap.is_some(), solution.is_inside_out()), (overlaps, inside_out));
+        let status = solution.exit_status().number();
+        assert_eq!(status == 4, overlaps || inside_out, "{pressure}");
+    }
+}
+
+/// Bodies lie in each other by what six digits leave of their coordinates; what the load adds is found all the same.
+#[test]
+fn rounded_coordinates_are_no_overlap() {
+    for (depth, load, is_found) in
+        [(0.0, 1e-6, true), (4e-6, 1e-6, false), (4e-6, 1.0, true), (4e-4, 1e-6, true)]
+    {
+        let mut scene = blocks(&[0, 1], ALL[1]);
+        let model = Arc::make_mut(&mut scene.model);
+        model.nodes[12][1] -= depth;
+        model.stages.iter_mut().chain([&mut model.load]).for_each(|f| *f *= load);
+        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("an equilibrium");
+        assert_eq!(solution.overlap.is_some(), is_found, "{depth} {load}");
+    }
+}
+
+/// The lower block is 1 thick. However short the edges, an interference is told from a node of its other side down to
+/// the middle.
+#[test]
+fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
+    for (depth, is_refused) in [(0.49, false), (0.51, true), (1.5, true)] {
+        let mut model = (*blocks(ALL[0], ALL[1]).model).clone();
+        model.nodes[10..].iter_mut().for_each(|at| at[1] -= depth);
+        let surfaces = Surfaces::new(&model).expect("edges of the outline");
+        let refused = surfaces.check_initial_penetration(&model).is_err();
+        assert_eq!(refused, is_refused, "{depth}");
+    }
+}
+
+/// Contact passes on the whole load, none where it acts across, and no share where the loads on a body cancel or act on
+/// both.
+#[test]
+fn a_share_of_the_load_is_said_where_it_says_something() {
+    let share = |forces: &[(usize, [f64; 2])]| {
+        let mut scene = pressed(ALL).restrain_node(15, &[Axis::X]);
+        for (node, force) in forces {
+            scene = scene.force(*node, *force);
+        }
+        let contact =
+            Contact { friction: Some(Friction::NONE), ..Contact::new("contact", "target", 0.01) };
+        let scene = scene.contact(contact).build().expect("it is sound");
+        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("an equilibrium");
+        assert!(!solution.transmits_nothing(), "{forces:?}");
+        share_of_load(&solution.model, solution.target_force()).map(|share| share.round())
+    };
+    let (down, up, across) = ([0.0, -1.0], [0.0, 1.0], [0.1, 0.0]);
+    assert_eq!(share(&[(15, down)]), Some(1.0));
+    assert_eq!(share(&[(15, down), (6, up)]), None);
+    assert_eq!(share(&[(15, [0.0, -1.0 - 1e-9]), (12, up)]), None);
+    assert_eq!(share(&[(15, [10.0, -0.1])]), Some(0.0));
+    assert_eq!(share(&[(15, down), (11, across)]), Some(1.0));
 }

@@ -1,6 +1,7 @@
 //! The problem of contact under one load: the scene, where its nodes face the target, and what statuses
 //! impose.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -33,6 +34,10 @@ pub(super) const CONE: f64 = 1e-12;
 /// The depth inside the other body, over the model's size, from which a node that contact watches is reported: mortar
 /// closes averaged gaps, and where curved surfaces lie on each other their nodes stand inside by the height of an arc.
 const UNSEEN: f64 = 1e-3;
+
+/// How deep bodies that fit exactly lie in each other where coordinates are written with six significant digits, over
+/// the farthest coordinate: half a unit of the sixth digit, 5e-6, of both bodies, along both axes.
+const WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * 5e-6;
 
 /// The height of an arc over its edge, over an initial overlap or gap, beyond which the mesh is said to make it.
 const COARSE: f64 = 0.05;
@@ -402,7 +407,25 @@ impl<'a> Problem<'a> {
             Watched::Target => !sees_target && inside.depth > UNSEEN * size(self.model),
             Watched::Not => inside.depth > inside.height + rounding,
         });
+        if found.iter().any(|inside| inside.watched == Watched::Not) {
+            let written = self.written();
+            found.retain(|inside| {
+                inside.watched != Watched::Not || inside.depth > inside.height + written + rounding
+            });
+        }
         found
+    }
+
+    /// Returns how deep nodes lie inside other bodies in the undeformed shape as the digits of their coordinates have
+    /// it, length: the deepest of those within [`WRITTEN`]. 0 where all coordinates have all their digits: no part
+    /// of what the load does is taken for rounding.
+    fn written(&self) -> f64 {
+        let facing = self.initial.iter().flatten().map(|pairing| pairing.node).collect();
+        let shape = &self.model.nodes;
+        let mut at_rest = self.surfaces.inside(self.model, shape, [&facing, &HashSet::new()]);
+        let within = WRITTEN * farthest(self.model);
+        at_rest.retain(|inside| inside.watched == Watched::Not && inside.depth <= within);
+        at_rest.first().map_or(0.0, |inside| inside.depth)
     }
 }
 
@@ -444,9 +467,12 @@ pub(super) fn cause_first(cause: &str, tried: String) -> String {
 
 /// Returns the larger extent of the model, or what its coordinates can resolve of it, length.
 fn size(model: &Model) -> f64 {
-    let bounds = model.bounds();
     // A gap in the current shape is a difference of coordinates and has no digits below theirs.
-    let farthest =
-        [bounds.low, bounds.high].as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max);
-    bounds.larger_side().max(RESOLVED * farthest)
+    model.bounds().larger_side().max(RESOLVED * farthest(model))
+}
+
+/// Returns the coordinate that is farthest from 0, length.
+fn farthest(model: &Model) -> f64 {
+    let bounds = model.bounds();
+    [bounds.low, bounds.high].as_flattened().iter().map(|x| x.abs()).fold(0.0, f64::max)
 }

@@ -6,7 +6,7 @@ use super::description::Description;
 use super::groups::Groups;
 use super::mesh::Mesh;
 use super::surface;
-use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, TriangleId};
+use crate::model::{self, Body, ContactSurfaces, EdgeId, Model, NodeId, Sides, TriangleId};
 use crate::modelling::{check_iterations, check_tolerance};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
@@ -67,7 +67,12 @@ pub fn materials(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Vec
 /// # Errors
 /// The tolerance is negative, the number of steps is 0 or too large, or the surfaces do not
 /// exist or share a node.
-pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<ContactSurfaces> {
+pub fn contact(
+    mesh: &Mesh,
+    groups: &Groups,
+    sides: &Sides,
+    file: &Description,
+) -> Result<ContactSurfaces> {
     let Some(contact) = &file.contact else { return Ok(ContactSurfaces::default()) };
     check_tolerance(contact.tolerance)?;
     contact.model().check()?;
@@ -78,7 +83,17 @@ pub fn contact(mesh: &Mesh, groups: &Groups, file: &Description) -> Result<Conta
     for edge in mesh.of_dimension(1).filter(|e| on_target.contains(&e.number)) {
         if let Some(n) = edge.nodes.iter().find(|n| on_contact.contains(n)) {
             let what = format!("contact node {n} is also on the target edge {}", edge.number);
-            return Err(InputError::new("contact", what, "let the two bodies share no node"));
+            let both_on = edge.nodes.iter().all(|n| on_contact.contains(n));
+            let is_outer = sides.boundary([0, 1].map(|k| NodeId::from_number(edge.nodes[k])));
+            let fix = match both_on && is_outer.is_some() {
+                true => {
+                    "that edge is in cnt and in trg: give the surface of each body a group of its own"
+                }
+                false => {
+                    "let the two bodies share no node: mesh them apart, in Gmsh without Coherence and BooleanFragments"
+                }
+            };
+            return Err(InputError::new("contact", what, fix));
         }
     }
     let place: HashMap<usize, EdgeId> = mesh

@@ -12,6 +12,7 @@ use super::file::text_of;
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::source;
+use super::surface::Surface;
 use crate::element::Plane;
 use crate::model::{Bounds, NodeId, Sides};
 use base::error::{InputError, Result};
@@ -55,12 +56,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let groups = Groups::new(&mesh);
     let mut notes = Vec::new();
     let materials = materials(name, &mesh, &groups, &mut notes)?;
-    let sides = mesh.of_dimension(2).flat_map(|triangle| {
-        let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[k] - 1);
-        [(a, b), (b, c)]
-    });
-    // The body of each node, by its lowest one.
-    let body = joined(mesh.nodes.len(), sides);
+    let body = bodies(&mesh);
     let mut curves = curves(&mesh, &groups, &body)?;
     let contact = match pair(&curves) {
         Some((gap, [cnt, trg])) => {
@@ -120,6 +116,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let touching = contact.as_ref().map_or(BTreeSet::new(), |(_, pair)| of(pair));
     let restrained = lowest.map_or(BTreeSet::new(), |curve| curve.bodies.clone());
     notes.extend(loose(&mesh, &groups, &materials, &body, [&restrained, &touching])?);
+    notes.extend(groups.without_triangles());
     let unknown = |group: &GroupRef| (group.text(), json!({ "E": null, "nu": null }));
     let restraints = lowest.map(|curve| json!({ "on": curve.group, "fix": ["x", "y"] }));
     let loads = highest.map(|curve| json!({ "on": curve.group, "pressure": null }));
@@ -210,6 +207,13 @@ fn loose(
             names.entry(*first).or_default().push(part);
         }
     }
+    let merged = names.values().filter(|names| names.len() > 1).map(|names| {
+        format!(
+            "{} share nodes and are one body: nothing comes in contact between them; where they only touch, mesh them \
+             apart, in Gmsh without Coherence and BooleanFragments",
+            names.join(" and ")
+        )
+    });
     let free = names.iter().filter(|(first, _)| !restrained.contains(first));
     let said = free.map(|(first, names)| {
         let name = names.join(", ");
@@ -221,7 +225,16 @@ fn loose(
             false => format!("nothing holds the body {name}: restrain it, or give it a contact surface"),
         }
     });
-    Ok(said.collect())
+    Ok(merged.chain(said).collect())
+}
+
+/// Returns the body of each node, by its lowest one.
+fn bodies(mesh: &Mesh) -> Vec<usize> {
+    let sides = mesh.of_dimension(2).flat_map(|triangle| {
+        let [a, b, c] = [0, 1, 2].map(|k| triangle.nodes[k] - 1);
+        [(a, b), (b, c)]
+    });
+    joined(mesh.nodes.len(), sides)
 }
 
 /// Returns the groups of edges.
@@ -282,6 +295,26 @@ fn gap([a, b]: &[[f64; 2]; 2], [c, d]: &[[f64; 2]; 2]) -> Option<f64> {
     let along = (at[0] * v[0] + at[1] * v[1]) / (v[0] * v[0] + v[1] * v[1]);
     let meets = across < 0.0 && (0.0..=1.0).contains(&along);
     meets.then(|| part * u[0].hypot(u[1]))
+}
+
+/// Says that the two groups of a scene's contact do not face each other, and which ones do.
+pub fn not_facing(mesh: &Mesh, groups: &Groups, file: &Description) -> Option<String> {
+    let named = file.contact.as_ref().map(|contact| [&contact.contact, &contact.target]);
+    let Some([Surface::Group(cnt), Surface::Group(trg)]) = named else { return None };
+    let curves = curves(mesh, groups, &bodies(mesh)).ok()?;
+    let is = |curve: &&Curve, group: &GroupRef| {
+        groups.places(1, &curve.group, "").ok() == groups.places(1, group, "").ok()
+    };
+    let [own, other] = [cnt, trg].map(|group| curves.iter().find(|curve| is(curve, group)));
+    let [own, other] = [own?, other?];
+    if own.edges.iter().any(|edge| other.edges.iter().any(|target| gap(edge, target).is_some())) {
+        return None;
+    }
+    let right =
+        pair(&curves).map(|(_, places)| places.map(|place| curves[place].group.to_string()));
+    right.map(|[a, b]| {
+        format!("The contact surfaces {cnt} and {trg} face each other nowhere; {a} and {b} do")
+    })
 }
 
 /// Returns the smallest distance of the two curves of different bodies that look like a contact, and their places:

@@ -131,6 +131,20 @@ impl<'m> Groups<'m> {
         self.places.range((dim, 0)..(dim + 1, 0)).map(group).collect()
     }
 
+    /// Names the groups of triangles that have none: bodies that are not in the mesh.
+    pub fn without_triangles(&self) -> Option<String> {
+        let is_empty = |tag: usize| !self.places.contains_key(&(2, tag));
+        let empty = self.mesh.names.iter().filter(|name| name.dim == 2 && is_empty(name.tag));
+        let empty: Vec<String> = empty.map(|name| format!("{:?}", name.name)).collect();
+        (!empty.is_empty()).then(|| {
+            format!(
+                "The mesh names groups of triangles that have none: {}: their surfaces are not in the mesh, as where Gmsh \
+                 failed on them or a Boolean operation removed them",
+                empty.join(", ")
+            )
+        })
+    }
+
     /// Returns a group's elements of dimension `dim` (1: edges, 2: triangles), in mesh order.
     ///
     /// # Errors

@@ -1,13 +1,13 @@
 //! The load, consistent with linear edges.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use nalgebra::DVector;
 
 use super::description::{Load, LoadKind};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::model::{Force, Model, NodeId, Sides};
+use crate::model::{Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
 
@@ -17,6 +17,8 @@ pub struct Loading {
     pub forces: Vec<Force>,
     /// What they come to in `f64`.
     pub total: DVector<f64>,
+    /// The place of the load of each part in the scene file.
+    pub of: Vec<usize>,
     /// What each stage adds; there is at least one.
     pub stages: Vec<DVector<f64>>,
 }
@@ -39,7 +41,72 @@ pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> R
     for (k, (load, own)) in loads.iter().zip(&forces).enumerate() {
         add(own, &mut stages[load.stage.unwrap_or(1) - 1], model, k)?;
     }
-    Ok(Loading { forces: forces.into_iter().flatten().collect(), total, stages })
+    let of = forces.iter().enumerate().flat_map(|(k, own)| vec![k; own.len()]).collect();
+    Ok(Loading { forces: forces.into_iter().flatten().collect(), of, total, stages })
+}
+
+/// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the contact surfaces.
+/// `of` is the place of the load of each part.
+pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
+    let held = model.held_directions();
+    let mut f = DVector::zeros(model.dofs());
+    let mut is_taken = |part: &Force| {
+        part.add_to(&mut f, model, &|x| x);
+        let mut acts = false;
+        let takes = part.nodes().fold(true, |takes, node| {
+            let loaded = node.dofs().map(|dof| std::mem::take(&mut f[dof.index()]) != 0.0);
+            acts |= loaded.contains(&true);
+            let mut along = loaded.into_iter().zip(model.restraints_of(node));
+            takes && (held[node.index()] == 2 || along.all(|(loaded, held)| held || !loaded))
+        });
+        acts && takes
+    };
+    let surfaces: HashSet<[NodeId; 2]> = (model.target_edges().map(|edge| edge.nodes))
+        .chain(model.contact.nodes.windows(2).map(|pair| [pair[0], pair[1]]))
+        .map(unordered)
+        .collect();
+    let on_contact = |part: &Force| match *part {
+        Force::Node(..) => false,
+        Force::Pressure(edge, _) | Force::Traction(edge, _) => surfaces.contains(&unordered(edge)),
+    };
+    let mut notes = Vec::new();
+    for k in of.iter().copied().collect::<BTreeSet<usize>>() {
+        let parts =
+            || model.forces.iter().zip(of).filter(|(_, of)| **of == k).map(|(part, _)| part);
+        let (all, place) = (parts().count(), load_field(k));
+        match parts().filter(|part| is_taken(part)).count() {
+            0 => {}
+            taken => notes.push(format!(
+                "{place}: restraints hold {taken} of its {all} edges or nodes along it, and take that part of it alone: it \
+                 does nothing to the bodies"
+            )),
+        }
+        match parts().filter(|part| on_contact(part)).count() {
+            0 => {}
+            count => notes.push(format!(
+                "{place}: {count} of its {all} edges belong to a contact surface: it acts there beside contact, also where \
+                 the bodies touch"
+            )),
+        }
+    }
+    // A body that is held at all its nodes is rigid, as it is meant to be.
+    let is_rigid = |node: NodeId| {
+        model.body_of(node).is_some_and(|body| body.nodes.iter().all(|n| held[n.index()] == 2))
+    };
+    for support in &model.supports {
+        let nodes: HashSet<NodeId> = support.holds.iter().map(|hold| hold.node).collect();
+        let is_held = |edge: &&[NodeId; 2]| edge.iter().all(|end| nodes.contains(end));
+        let count = surfaces.iter().filter(is_held).filter(|edge| !is_rigid(edge[0])).count();
+        if count > 0 {
+            notes.push(format!(
+                "The restraint of {} holds {count} of the {} edges of the contact surfaces, and may take what contact \
+                 presses there",
+                support.name,
+                surfaces.len()
+            ));
+        }
+    }
+    notes
 }
 
 fn load_field(k: usize) -> String {

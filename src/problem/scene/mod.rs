@@ -192,7 +192,7 @@ impl Scene {
             nodes: mesh.nodes.iter().map(|node| [node.xyz[0], node.xyz[1]]).collect(),
             z: mesh.nodes[0].xyz[2],
             edges: mesh.of_dimension(1).map(edge).collect(),
-            contact: check::contact(&mesh, &physical, &description)?,
+            contact: check::contact(&mesh, &physical, &sides, &description)?,
             forces: Vec::new(),
             load: DVector::zeros(0),
             stages: Vec::new(),
@@ -209,9 +209,12 @@ impl Scene {
         fold::check(&mesh, &model)?;
         let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
         (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
+        let in_vain = load::in_vain(&model, &loading.of);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
         let notes = notes.chain(units::misfit(&description.units));
-        let notes = notes.chain(support::narrow(&mesh, &model.supports));
+        let notes = notes.chain(support::narrow(&mesh, &model.supports)).chain(in_vain);
+        let notes = notes.chain(first::not_facing(&mesh, &physical, &description));
+        let notes = notes.chain(physical.without_triangles());
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
         // A scene of one's own asks for contact as it is, not for the paper's algorithm.

@@ -3,9 +3,10 @@
 use super::description::Units;
 use base::plain::six_digits;
 
-/// The units that are known, in m, Pa and N. A name that is not among them is not judged.
-const LENGTHS: [(&str, f64); 8] = [
+/// The units that are known, in m, Pa and N, and how they are shown. Others are named as unknown.
+const LENGTHS: [(&str, f64); 9] = [
     ("m", 1.0),
+    ("km", 1e3),
     ("cm", 1e-2),
     ("mm", 1e-3),
     ("um", 1e-6),
@@ -14,20 +15,19 @@ const LENGTHS: [(&str, f64); 8] = [
     ("inch", 0.0254),
     ("ft", 0.3048),
 ];
-const STRESSES: [(&str, f64); 9] = [
+const STRESSES: [(&str, f64); 7] = [
     ("Pa", 1.0),
     ("kPa", 1e3),
     ("MPa", 1e6),
-    ("N/mm²", 1e6),
-    ("N/mm^2", 1e6),
     ("GPa", 1e9),
     ("bar", 1e5),
     ("psi", POUND / (0.0254 * 0.0254)),
     ("ksi", 1000.0 * POUND / (0.0254 * 0.0254)),
 ];
-const FORCES: [(&str, f64); 8] = [
+const FORCES: [(&str, f64); 9] = [
     ("N", 1.0),
     ("mN", 1e-3),
+    ("daN", 10.0),
     ("kN", 1e3),
     ("MN", 1e6),
     ("lbf", POUND),
@@ -51,12 +51,25 @@ impl Units {
     }
 }
 
-/// Says that a stress times the square of a length is no force in the unit that the scene names; None where it is, or
-/// a unit is not known.
+/// Says that a stress times the square of a length is no force in the unit that the scene names, or which unit is not
+/// known; None where it is, or the scene does not name all three.
 pub fn misfit(units: &Units) -> Option<String> {
     let Units { length, stress, force } = units;
-    let [in_length, in_stress, in_force] =
-        [in_si(&LENGTHS, length)?, in_si(&STRESSES, stress)?, in_si(&FORCES, force)?];
+    if [length, stress, force].iter().any(|name| name.is_empty()) {
+        return None;
+    }
+    let sizes = [in_si(&LENGTHS, length), stress_in_si(stress), in_si(&FORCES, force)];
+    let [Some(in_length), Some(in_stress), Some(in_force)] = sizes else {
+        let named = [("length", length), ("stress", stress), ("force", force)];
+        let unknown = named.iter().zip(sizes).filter(|(_, size)| size.is_none());
+        let unknown: Vec<String> =
+            unknown.map(|((what, name), _)| format!("the {what} {name:?}")).collect();
+        return Some(format!(
+            "Whether the units fit each other is not checked, as it is not known what {} is; known are mm, MPa, N and \
+             others, as kN/cm2, psi and lbf",
+            unknown.join(" and ")
+        ));
+    };
     let fits = in_stress * in_length * in_length;
     let is_same = |a: f64, b: f64| (a - b).abs() <= SAME * a.max(b);
     let named = FORCES.iter().find(|(_, size)| is_same(*size, fits));
@@ -71,6 +84,21 @@ pub fn misfit(units: &Units) -> Option<String> {
     })
 }
 
+/// Returns the size of a unit by its name, which may have capitals elsewhere where that leaves one: mN and MN are two.
 fn in_si(units: &[(&str, f64)], name: &str) -> Option<f64> {
-    units.iter().find_map(|(known, size)| (*known == name).then_some(*size))
+    let exact = units.iter().find(|(known, _)| *known == name);
+    let mut alike = units.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
+    let only = alike.next().filter(|_| alike.next().is_none());
+    exact.or(only).map(|(_, size)| *size)
+}
+
+/// Returns the size of a unit of stress: one of its own, or a force per area, as N/mm², N/mm^2, kN/cm2 and lbf/in**2.
+fn stress_in_si(name: &str) -> Option<f64> {
+    let plain = name.replace('²', "2").replace([' ', '^', '*', '(', ')'], "");
+    let quotient = || {
+        let (force, area) = plain.split_once('/')?;
+        let length = in_si(&LENGTHS, area.strip_suffix('2')?)?;
+        Some(in_si(&FORCES, force)? / (length * length))
+    };
+    in_si(&STRESSES, &plain).or_else(quotient)
 }

@@ -1,7 +1,7 @@
 //! The first scene of a mesh, and what it leaves to its author; units that do not fit each other.
 
 use problem::element::Plane;
-use problem::scene::{Axis, Mesh, MeshBuilder, Scene, SceneBuilder, first, gmsh};
+use problem::scene::{Axis, Mesh, MeshBuilder, PhysicalName, Scene, SceneBuilder, first, gmsh};
 
 type Block = (&'static str, [f64; 2], [f64; 2], u32);
 
@@ -96,11 +96,42 @@ fn curves_that_face_no_other_body_are_no_contact() {
 }
 
 #[test]
+fn bodies_that_share_nodes_and_bodies_that_are_missing_are_named() {
+    let mut mesh = MeshBuilder::default();
+    let rows = [0.0, 1.0, 2.0].map(|y| mesh.row([0.0, 1.0, 2.0].map(|x| [x, y])));
+    mesh.join("lower", &rows[0], &rows[1]);
+    mesh.join("upper", &rows[1], &rows[2]);
+    mesh.edges("bottom", &rows[0]);
+    let mut mesh = mesh.finish();
+    mesh.names.push(PhysicalName { dim: 2, tag: 99, name: "lid".into() });
+    let said = notes(&mesh);
+    let merged = "\"lower\" and \"upper\" share nodes and are one body: nothing comes in contact";
+    assert!(said.contains(merged) && said.contains("have none: \"lid\""), "{said}");
+    let said = notes(&punch());
+    assert!(!said.contains("share nodes") && !said.contains("have none"), "{said}");
+}
+
+/// Groups that face each other nowhere, and one group of both sides.
+#[test]
+fn the_right_groups_of_contact_are_named() {
+    let file = gmsh::write(&punch());
+    let text = first("punch.msh", file.as_bytes()).unwrap().text;
+    let text = text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
+    let named = |trg: &str| build(&text.replace("\"trg\":\"block_top\"", trg), &file);
+    let notes = |trg: &str| named(trg).unwrap().adapted().join(" ");
+    let wrong = notes("\"trg\":\"block_bottom\"");
+    assert!(wrong.contains("nowhere; \"punch_bottom\" and \"block_top\" do"), "{wrong}");
+    assert!(!notes("\"trg\":\"block_top\"").contains("nowhere"));
+    let why = named("\"trg\":\"punch_bottom\"").unwrap_err();
+    assert!(why.contains("give the surface of each body a group of its own"), "{why}");
+}
+
+#[test]
 fn each_triangle_is_in_one_group_with_a_material() {
     let grouped = |edit: fn(&mut problem::scene::Element, usize)| {
         let mut mesh = punch();
         let extra = mesh.names.iter().map(|name| name.tag).max().unwrap() + 1;
-        mesh.names.push(problem::scene::PhysicalName { dim: 2, tag: extra, name: "all".into() });
+        mesh.names.push(PhysicalName { dim: 2, tag: extra, name: "all".into() });
         mesh.elements.iter_mut().filter(|e| e.dim() == 2).for_each(|e| edit(e, extra));
         first("m.msh", gmsh::write(&mesh).as_bytes())
     };
@@ -155,13 +186,20 @@ fn units_that_do_not_fit_each_other_are_named() {
         ["in", "psi", "lbf"],
         ["in", "ksi", "kip"],
         ["", "MPa", "kip"],
-        ["furlong", "MPa", "N"],
+        ["mm", "N/mm2", "N"],
+        ["MM", "N / mm^2", "n"],
+        ["cm", "kN/cm²", "KN"],
+        ["in", "lbf/in**2", "lb"],
     ];
     fitting.into_iter().for_each(|units| assert_eq!(note(units), None, "{units:?}"));
     let misfits = [
         (["in", "psi", "kip"], "psi times in² is 0.001 kip", "\"lbf\""),
         (["m", "MPa", "N"], "MPa times m² is 1000000 N", "\"MN\""),
         (["in", "MPa", "N"], "MPa times in² is 645.16 N", "units that fit"),
+        (["cm", "n/MM2", "N"], "n/MM2 times cm² is 100 N", "units that fit"),
+        (["cm", "mpa", "N"], "mpa times cm² is 100 N", "units that fit"),
+        (["furlong", "MPa", "N"], "the length \"furlong\"", "not checked"),
+        (["mm", "MPa", "mn"], "the force \"mn\"", "not checked"),
     ];
     for (units, size, fix) in misfits {
         let note = note(units).unwrap();

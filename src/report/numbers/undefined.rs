@@ -26,7 +26,10 @@ const REASONS: &[(&str, &str)] = &[
     ("errors", "there is no order of convergence"),
     ("certainty", "the run failed, or the parameter has no verdict"),
     ("cycle", "the contact state is new"),
-    ("target_share", "no load acts"),
+    (
+        "target_share",
+        "no load acts on one of the two bodies alone, or contact carries more than it",
+    ),
     ("hertz", "Hertz's theory does not apply: it takes two curved bodies pressed by a known force"),
     ("pressure", "restraints leave the force undetermined"),
     ("shear", "restraints leave the force undetermined"),

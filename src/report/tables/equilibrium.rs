@@ -6,6 +6,7 @@ use crate::model::Report;
 use crate::numbers::{percent, short, six_digits, with_unit};
 use engine::{
     Equilibrium, Margin, NearestDecision, OtherEquilibrium, Overlap, Solution, Uniqueness,
+    beyond_range,
 };
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
@@ -68,9 +69,8 @@ pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
     let words = match found {
         Uniqueness::Unique => {
-            let passing = "the only one of bodies that touch in the groups of contact alone and lie in each other beside \
-                           them (see the first line)";
-            let of = if solution.overlap.is_some() { passing } else { "the only one" };
+            let none = "the only one, of equations that leave out what the first line says,";
+            let of = if solution.doubt().is_some() { none } else { "the only one" };
             let model = &solution.request.scene.model;
             let why = if model.has_contact() { "convex, no friction" } else { "no contact" };
             format!("{of} in the shape reached ({why})")
@@ -145,22 +145,35 @@ fn why_inside(solution: &Solution) -> &'static str {
     }
 }
 
-/// Says that bodies lie in each other where contact does not watch them; None where they do not.
+/// Says that triangles are turned inside out, or bodies lie in each other where contact does not watch them; None where
+/// neither is so.
 pub fn overlap(solution: &Solution) -> Option<String> {
+    if solution.is_inside_out() {
+        let beyond = beyond_range(&solution.model, &solution.elements, &solution.u)?;
+        return Some(format!(
+            "TRIANGLES ARE TURNED INSIDE OUT: all figures are those of bodies that cannot have this shape: {beyond}"
+        ));
+    }
     let Overlap { nodes, node, depth, facet_height } = *solution.overlap.as_ref()?;
     let length = |x: f64| with_unit(&short(x), &solution.request.scene.units.length);
     let others = match nodes {
         1 => String::new(),
         nodes => format!(", the deepest of {nodes} nodes of outlines"),
     };
+    let (outside, fix) = match solution.model.has_contact() {
+        true => (
+            " outside the groups of contact",
+            "extend the groups of contact beyond where the bodies meet",
+        ),
+        false => (", and the scene has no contact", "give it the contact between them"),
+    };
     let beside = match facet_height > 0.0 {
         true => format!(" (its facets account for {})", length(facet_height)),
         false => String::new(),
     };
     Some(format!(
-        "BODIES LIE IN EACH OTHER outside the groups of contact: {}{others}, lies {} inside another body{beside}; \
-         nothing keeps them apart there, so that all figures are those of bodies that pass through each other; extend \
-         the groups of contact beyond where the bodies meet",
+        "BODIES LIE IN EACH OTHER{outside}: {}{others}, lies {} inside another body{beside}; nothing keeps them apart \
+         there, so that all figures are those of bodies that pass through each other; {fix}",
         place(solution, node),
         length(depth)
     ))

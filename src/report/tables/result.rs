@@ -5,10 +5,13 @@ use crate::layout::counted;
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
 use engine::estimates::{NoLimit, edges};
-use engine::{Assessment, Cycle, Resultant, Solution, locking_of};
+use engine::{Assessment, Cycle, Resultant, Solution, locking_of, share_of_load};
 use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
+
+/// The cosine of the angle from the load up to which a contact force carries it, rather than acts across it: 45 degrees.
+const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Reports whether contact passes the load on, its pressure and width, the largest displacement and stresses,
 /// how exact they are, and whether this is the only equilibrium.
@@ -53,19 +56,49 @@ fn passes_on(solution: &Solution) -> Option<String> {
         });
         return Some(format!("Nothing in contact: no node is, at the end; {least}"));
     }
-    let force = with_unit(&six_digits(solution.target_force()), &units.force);
-    let [fx, fy] = solution.model.total_load();
-    let load = fx.hypot(fy);
-    Some(match load > 0.0 {
-        true => {
-            let share = percent(solution.target_force() / load);
-            format!("Contact passes on {share} of the load: force on the target {force}")
+    let force = |size: f64| with_unit(&six_digits(size), &units.force);
+    let along = solution.target_force();
+    let resultant = engine::resultant(solution).map(|resultant| resultant.force);
+    let is_along = resultant.is_none_or(|[fx, fy]| along.abs() >= ALONG * fx.hypot(fy));
+    let share = share_of_load(&solution.model, along).filter(|_| is_along);
+    Some(match (share, resultant) {
+        (Some(share), _) => {
+            let share = percent(share);
+            format!("Contact passes on {share} of the load: force on the target {}", force(along))
         }
-        false if solution.is_displaced() => {
-            format!("Contact presses under given displacements: force on the target {force}")
+        (None, None) => {
+            let all = solution.in_contact().filter_map(|node| node.force).sum();
+            format!(
+                "Contact presses one body on itself: the forces on its nodes sum to {}",
+                force(all)
+            )
         }
-        false => format!("Contact presses without a load: force on the target {force}"),
+        (None, Some([fx, fy])) => {
+            let why = match solution.model.load.amax() > 0.0 {
+                true => "",
+                false if solution.is_displaced() => " under given displacements",
+                false => " without a load",
+            };
+            let (size, towards) = (fx.hypot(fy), towards([fx, fy]));
+            format!("Contact presses{why}: force on the target {}{towards}", force(size))
+        }
     })
+}
+
+/// Says where a force points, among eight directions.
+fn towards([fx, fy]: [f64; 2]) -> String {
+    // The tangent of 22.5 degrees.
+    let least = (std::f64::consts::SQRT_2 - 1.0) * fx.abs().max(fy.abs());
+    let word = |f: f64, [less, more]: [&'static str; 2]| match f {
+        f if f < -least => Some(less),
+        f if f > least => Some(more),
+        _ => None,
+    };
+    let words = [word(fy, ["down", "up"]), word(fx, ["to the left", "to the right"])];
+    match words.into_iter().flatten().collect::<Vec<_>>()[..] {
+        [] => String::new(),
+        ref words => format!(", {}", words.join(" and ")),
+    }
 }
 
 /// Says what contact passes to the target's body, and where. It balances restraints and loads to rounding.

@@ -8,7 +8,10 @@ use super::evidence::{Measured, NoFigures, beyond_noise, repeated};
 use engine::contact::pulling;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
-use engine::{BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, summaries};
+use engine::{
+    BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, share_of_load,
+    summaries,
+};
 use numbers::finite;
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -213,10 +216,9 @@ pub(super) fn apart(solution: &Solution, equilibrium: &Solution) -> Distance {
     }
 }
 
-/// Returns the force that contact passes on at the end over the size of the whole load; None without a load.
+/// Returns the force that contact passes on at the end over the size of the whole load; None where that says nothing.
 pub(super) fn target_share(solution: &Solution) -> Option<f64> {
-    let [fx, fy] = solution.model.total_load();
-    finite(solution.target_force() / fx.hypot(fy))
+    share_of_load(&solution.model, solution.target_force())
 }
 
 /// Returns the error of the mesh in the energy norm, relative; nothing where it is not known.

@@ -147,12 +147,21 @@ impl Rows {
             let [nx, ny] = model.coordinates(node);
             row.at.is_none_or(|[x, y]| (x - nx).hypot(y - ny) <= near)
         };
+        let mut has_unused = false;
         if self.rows.iter().all(|row| row.number.is_some()) {
             let numbered = self.by_its_numbers(scene, model, is_at);
             match (self.kind, &numbered) {
                 (Kind::Line, _) | (Kind::Point, Ok(_)) => return numbered,
                 (Kind::Point, Err(_)) => {}
             }
+            // A viewer or a script may count from 0, as points of a VTU file do.
+            let is_first = |row: &Row| row.number == Some(0);
+            if self.rows.iter().any(is_first)
+                && let Ok(nodes) = self.by_number(model, Some, is_at)
+            {
+                return Ok((nodes, "by number, counted from 0"));
+            }
+            has_unused = true;
         }
         let used = || model.node_ids().filter(|node| !model.is_dropped(*node));
         // A dropped node has no place that matters.
@@ -160,10 +169,22 @@ impl Rows {
         for nodes in [model.node_ids().collect(), used().collect::<Vec<_>>()] {
             let mut pairs = self.rows.iter().zip(nodes.iter().copied());
             if self.rows.len() == nodes.len() && pairs.all(is_here) {
-                return Ok((nodes, "in the order of the mesh, at the same coordinates"));
+                return Ok((
+                    nodes,
+                    match has_unused {
+                        false => "in the order of the mesh, at the same coordinates",
+                        true => {
+                            "in the order of the mesh, at the same coordinates; its node numbers are not the mesh's"
+                        }
+                    },
+                ));
             }
         }
-        Ok((self.by_coordinates(model, near, is_at)?, "by coordinates"))
+        let how = match has_unused {
+            false => "by coordinates",
+            true => "by coordinates; its node numbers are not the mesh's",
+        };
+        Ok((self.by_coordinates(model, near, is_at)?, how))
     }
 
     /// Returns the node of each row by its number in the mesh file, or here, whichever fits.

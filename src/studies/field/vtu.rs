@@ -108,7 +108,7 @@ impl<'a> File<'a> {
         let ids = arrays.iter().find(|array| is_number(called(array)));
         let ids = ids.map(|ids| self.numbers(*ids)).transpose()?.unwrap_or_default();
         let number = |point: usize| {
-            let id = ids.get(point).copied().filter(|id| id.fract() == 0.0 && *id >= 1.0);
+            let id = ids.get(point).copied().filter(|id| id.fract() == 0.0 && *id >= 0.0);
             id.map(|id| id as usize)
         };
         let row = |(line, ([x, y, _], u)): (usize, ([f64; 3], [f64; 3]))| {

@@ -139,6 +139,16 @@ const CASES: &[Case] = &[
         contains: &["in the order of the mesh", "Same within 0 ("],
         lacks: &["panicked"],
     },
+    // An array of node numbers from 0, and one of another mesh.
+    Case {
+        input: "fig1",
+        command: "for step in 1 7; do ids=$(awk -v s=$step 'BEGIN {for (k = 0; k < 13; k++) print s * k}' | tr '\\n' ' '); \
+                  sed \"s|<PointData[^>]*>|&<DataArray type=\\\"Int64\\\" Name=\\\"node\\\" format=\\\"ascii\\\">$ids</DataArray>|\" \
+                  ascii.vtu >ids.vtu; plane-contact compare fig1 --friction 0 --with ids.vtu || exit; done",
+        status: 0,
+        contains: &["found by number, counted from 0", "its node numbers are not the mesh's"],
+        lacks: &["panicked"],
+    },
     // Bodies that touch have two nodes at one place.
     Case {
         input: "",

@@ -58,8 +58,8 @@ const CASES: &[Case] = &[
                   { \"node\": 2, \"force\": [0.0, -100.0] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant tied",
         status: 0,
-        contains: &["force on the target 12.6", "passes on 11 %", "the whole load is 112.6"],
-        lacks: &["panicked"],
+        contains: &["Contact presses: force on the target 12.6 N, down", "the whole load is 112.6"],
+        lacks: &["passes on"],
     },
     // Opposite loads on both bodies: the sum is 0, and contact passes 12.6 all the same.
     Case {
@@ -68,8 +68,22 @@ const CASES: &[Case] = &[
                   { \"node\": 2, \"force\": [0.0, 12.6] }/' d/scene.json && plane-contact solve \
                   d/scene.json --variant unilateral",
         status: 0,
-        contains: &["force on the target 12.6"],
-        lacks: &["panicked"],
+        contains: &["Contact presses: force on the target 12.6 N, down"],
+        lacks: &["passes on", " % of the load"],
+    },
+    // A load on a held edge and on a contact surface, and a restraint of one.
+    Case {
+        input: "",
+        command: "plane-contact scene copy two-blocks --out d && sed -i 's/\"pressure\": 6.3 }/\"pressure\": 6.3 }, \
+                  { \"on\": 10, \"pressure\": 1.0 }, { \"on\": 20, \"pressure\": 1.0 }/; s/{ \"on\": 10, \"fix\"/{ \
+                  \"on\": 11, \"fix\": [\"x\"] }, &/' d/scene.json && plane-contact solve d/scene.json --variant tied",
+        status: 0,
+        contains: &[
+            "loads[1]: restraints hold 2 of its 2 edges or nodes along it",
+            "loads[2]: 2 of its 2 edges belong to a contact surface",
+            "The restraint of 11 holds 2 of the 4 edges of the contact surfaces",
+        ],
+        lacks: &["loads[0]:", "loads[2]: restraints", "The restraint of 10"],
     },
     Case {
         input: "",
