@@ -66,7 +66,7 @@ class LineParser {
     return statement;
   }
 
-  /** Reads what begins with a word, if that of a statement. */
+  /** Reads the statement that begins with a word; one that begins with none is an assignment or a value alone. */
   headed(word) {
     if (!["for", "while", "if", "otherwise", "try", "return", "break", "continue"].includes(word)) return this.assignment();
     this.next += 1;
@@ -158,11 +158,7 @@ class LineParser {
 
   not() {
     const start = this.start;
-    let signs = 0;
-    while (this.takes("¬")) signs += 1;
-    let value = this.comparison();
-    for (; signs > 0; signs -= 1) value = this.node("not", start, { parts: [value] });
-    return value;
+    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.comparison();
   }
 
   /** Reads a comparison, or several of each operand with the next. */
@@ -234,8 +230,17 @@ class LineParser {
     if (token.type === "name") return this.node("read", start, { name: token.value, parts: [] });
     if (token.type === "function") return this.call(token.value, start);
     if (token.value === "(") return this.rows(start);
-    if (token.value === "if") return this.choice(start);
-    if (token.value === "transpose") return this.transposed(start);
+    if (token.value === "if") {
+      const parts = this.inBrackets(() => this.expression());
+      if (parts.length !== 3) throw new Complaint(start, "found `if` without three arguments");
+      return this.node("choice", start, { parts });
+    }
+    if (token.value === "transpose") {
+      const bracket = this.start;
+      this.need("(");
+      const rows = this.rows(bracket);
+      return this.node("transpose", start, { parts: rows.kind === "group" ? rows.parts : [rows] });
+    }
     if (token.value === "{") {
       const block = this.program();
       return this.node("program", start, { block, parts: block.flatMap(expressionsOf) });
@@ -243,19 +248,6 @@ class LineParser {
     const inside = this.expression();
     if (!this.take("`|`", ({ type }) => type === "bar")) this.refuse();
     return this.node("magnitude", start, { parts: [inside] });
-  }
-
-  choice(start) {
-    const parts = this.inBrackets(() => this.expression());
-    if (parts.length !== 3) throw new Complaint(start, "found `if` without three arguments");
-    return this.node("choice", start, { parts });
-  }
-
-  transposed(start) {
-    const bracket = this.start;
-    this.need("(");
-    const rows = this.rows(bracket);
-    return this.node("transpose", start, { parts: rows.kind === "group" ? rows.parts : [rows] });
   }
 
   /** Reads the arguments of a function, or the range and the term of a series. */
