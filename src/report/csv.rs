@@ -8,18 +8,12 @@ impl Report {
     pub fn csv(&self) -> Vec<(String, String)> {
         let mut files: Vec<(String, String)> = Vec::new();
         for block in &self.blocks {
-            match block {
-                Block::Table { title, table } => {
-                    let mut name = file_name(title);
-                    if files.iter().any(|(other, _)| *other == name) {
-                        name += &format!("-{}", files.len() + 1);
-                    }
-                    files.push((name, table.csv()));
+            if let Block::Table { title, table } = block {
+                let mut name = file_name(title);
+                if files.iter().any(|(other, _)| *other == name) {
+                    name += &format!("-{}", files.len() + 1);
                 }
-                Block::Heading { .. }
-                | Block::Line { .. }
-                | Block::Code(_)
-                | Block::Figure { .. } => {}
+                files.push((name, table.csv()));
             }
         }
         files
@@ -39,40 +33,33 @@ impl<R> Table<R> {
     pub fn csv(&self) -> String {
         let field = |cell: &Cell| match cell {
             Cell::Text(text) => words(text),
-            Cell::Empty
-            | Cell::Missing(_)
-            | Cell::Integer(_)
-            | Cell::Number { .. }
-            | Cell::Percent(_) => cell.exact(),
+            cell => cell.exact(),
         };
-        let rows = self.cells.iter().map(|row| row.iter().map(field).collect());
+        let line = |cells: Vec<String>| cells.join(",") + "\r\n";
         let headings = self.headings.iter().map(|heading| words(heading)).collect();
+        let rows = self.cells.iter().map(|row| row.iter().map(field).collect());
         std::iter::once(headings).chain(rows).map(line).collect()
     }
-}
-
-/// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
-/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
-fn words(text: &str) -> String {
-    let text = text.replace(controls_a_terminal, "\u{fffd}");
-    let start = if text.starts_with(['\t', '\n']) { "'" } else { "" };
-    start.to_string() + &text.split_inclusive(SEPARATORS).map(guarded).collect::<String>()
 }
 
 /// The separators of tables beside the comma, in which a cell is quoted.
 const SEPARATORS: [char; 4] = [';', '\t', '\n', '|'];
 
-fn guarded(part: &str) -> String {
-    const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
-    let is_number = part.trim_end_matches(SEPARATORS).parse::<f64>().is_ok();
-    let is_formula = !is_number && part.trim_start().starts_with(STARTS);
-    if is_formula { format!("'{part}") } else { part.into() }
-}
+/// With what a spreadsheet takes a cell for a formula.
+const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
 
-fn line(cells: Vec<String>) -> String {
-    let quoted = |cell: String| match cell.contains(['"', ',', '\n', '\r']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell,
-    };
-    cells.into_iter().map(quoted).collect::<Vec<_>>().join(",") + "\r\n"
+/// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
+/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
+fn words(text: &str) -> String {
+    let text = text.replace(controls_a_terminal, "\u{fffd}");
+    let mut shown = String::from(if text.starts_with(['\t', '\n']) { "'" } else { "" });
+    for part in text.split_inclusive(SEPARATORS) {
+        let is_number = part.trim_end_matches(SEPARATORS).parse::<f64>().is_ok();
+        let is_formula = !is_number && part.trim_start().starts_with(STARTS);
+        shown.extend([if is_formula { "'" } else { "" }, part]);
+    }
+    match shown.contains(['"', ',', '\n', '\r']) {
+        true => format!("\"{}\"", shown.replace('"', "\"\"")),
+        false => shown,
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::picture::{self, Drawing, Field};
-use super::quantities::{Array, triangle_array};
+use super::quantities::triangle_array;
 use super::result_file::ResultFile;
 use super::{pressure, vtu};
 use base::error::Result;
@@ -58,46 +58,37 @@ enum File {
     Pressure,
 }
 
-impl File {
-    /// Returns the files that a run may leave; pictures of the quantities that are scalars.
-    fn all(wanted: FolderOptions) -> impl Iterator<Item = File> {
+/// Returns the files that a run may leave with their names; the last is `result.json`. There are pictures of the
+/// quantities that are scalars.
+fn files(wanted: FolderOptions) -> Vec<(String, File)> {
+    let mut files = vec![("fields.vtu".into(), File::Fields)];
+    if wanted.pictures {
+        files.push(("mesh.svg".into(), File::Mesh));
         let quantities = TriangleValues::QUANTITIES.iter();
-        let scalars = quantities.filter(|quantity| quantity.components().len() == 1);
-        let pictures = std::iter::once(File::Mesh).chain(scalars.map(File::Picture));
-        let pictures = pictures.chain([File::Pressure]).filter(move |_| wanted.pictures);
-        std::iter::once(File::Fields).chain(pictures).chain([File::Result])
-    }
-
-    fn name(self) -> String {
-        match self {
-            File::Result => "result.json".into(),
-            File::Fields => "fields.vtu".into(),
-            File::Mesh => "mesh.svg".into(),
-            File::Picture(quantity) => format!("{}.svg", quantity.array()),
-            File::Pressure => "pressure.svg".into(),
+        for quantity in quantities.filter(|quantity| quantity.components().len() == 1) {
+            files.push((format!("{}.svg", quantity.array()), File::Picture(quantity)));
         }
+        files.push(("pressure.svg".into(), File::Pressure));
     }
+    files.push(("result.json".into(), File::Result));
+    files
 }
 
 /// Returns the names of the files that a run may leave; the last is `result.json`.
 pub fn names(wanted: FolderOptions) -> Vec<String> {
-    File::all(wanted).map(File::name).collect()
+    files(wanted).into_iter().map(|(name, _)| name).collect()
 }
 
 /// Returns the files that a run may leave, for help: four a line, with what not every name says.
 pub fn help() -> String {
-    let described = |file: File| match file {
-        File::Fields => format!("{} (for ParaView)", file.name()),
-        File::Mesh => format!("{} (the paper's fig. 4)", file.name()),
-        File::Result | File::Picture(_) | File::Pressure => file.name(),
-    };
-    let files: Vec<String> = File::all(FolderOptions::default()).map(described).collect();
-    let lines: Vec<String> = files.chunks(4).map(|line| line.join(", ")).collect();
-    lines.join(",\n")
+    let files = files(FolderOptions::default()).into_iter().map(|(name, file)| match file {
+        File::Fields => name + " (for ParaView)",
+        File::Mesh => name + " (the paper's fig. 4)",
+        File::Result | File::Picture(_) | File::Pressure => name,
+    });
+    let files: Vec<String> = files.collect();
+    files.chunks(4).map(|line| line.join(", ")).collect::<Vec<_>>().join(",\n")
 }
-
-/// Computes the content of a file.
-type Content<'a> = Box<dyn Fn() -> Vec<u8> + Send + Sync + 'a>;
 
 /// Returns the files of a run, each with its name; the last is `result.json`.
 pub fn contents(
@@ -109,37 +100,28 @@ pub fn contents(
     let scene = &solution.request.scene;
     let drawing = &Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
     let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
-    let content = |file| -> Option<Content> {
+    let content = |file| {
         Some(match file {
-            File::Result => {
-                Box::new(move || result(solution, assessment, plan, wanted).into_bytes())
-            }
-            File::Fields => Box::new(move || vtu::vtu(drawing, solution, assessment)),
-            File::Mesh => Box::new(move || picture::mesh(drawing).into_bytes()),
+            File::Result => result(solution, assessment, plan, wanted).into_bytes(),
+            File::Fields => vtu::vtu(drawing, solution, assessment),
+            File::Mesh => picture::mesh(drawing).into_bytes(),
             File::Picture(quantity) => {
                 let array = triangle_array(quantity, &triangles, &scene.units)?;
-                let quantity = quantity.title;
-                Box::new(move || field_picture(drawing, solution, quantity, &array).into_bytes())
+                let field = Field {
+                    quantity: quantity.title,
+                    unit: &array.unit,
+                    values: &array.values,
+                    displacement: &solution.displacements(),
+                    largest_at: None,
+                };
+                picture::field(drawing, &field).into_bytes()
             }
             File::Pressure if solution.contact.is_empty() => return None,
-            File::Pressure => Box::new(move || pressures(solution, assessment).into_bytes()),
+            File::Pressure => pressures(solution, assessment).into_bytes(),
         })
     };
-    let files = File::all(wanted).filter_map(|file| Some((file.name(), content(file)?)));
-    let files: Vec<(String, Content)> = files.collect();
-    files.par_iter().with_max_len(1).map(|(name, content)| (name.clone(), content())).collect()
-}
-
-/// Draws a quantity of the triangles on the deformed mesh, each with one value.
-pub fn field_picture(
-    drawing: &Drawing,
-    solution: &Solution,
-    quantity: &str,
-    array: &Array,
-) -> String {
-    let (unit, values) = (&array.unit[..], &array.values[..]);
-    let displacement = &solution.displacements()[..];
-    picture::field(drawing, &Field { quantity, unit, values, displacement, largest_at: None })
+    let files = files(wanted).into_par_iter().with_max_len(1);
+    files.filter_map(|(name, file)| Some((name, content(file)?))).collect()
 }
 
 /// Returns the content of `result.json`, and writes nothing.
@@ -150,11 +132,8 @@ pub fn result(
     wanted: FolderOptions,
 ) -> String {
     let result = ResultFile::new(solution, assessment, plan);
-    if wanted.fields {
-        result.with_fields(solution, assessment).to_json()
-    } else {
-        result.to_json()
-    }
+    let result = if wanted.fields { result.with_fields(solution, assessment) } else { result };
+    result.to_json()
 }
 
 /// Draws the contact pressure of a solution and of those beside which it is assessed.

@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
-use super::csv::file_name;
+/// The name of a place on a page: `p1` of `P1: nothing penetrates`.
+pub use super::csv::file_name as anchor;
 use super::model::{Block, Cell, Report, Table};
 use base::xml::escape;
 
@@ -26,15 +27,13 @@ impl Report {
                     while unfolded.pop_if(|open| *open >= *level).is_some() {
                         html += "</details>\n";
                     }
-                    let heading = format!("<h{level}>{}</h{level}>", prose(text));
-                    match UNFOLDING.contains(level) {
-                        true => {
-                            unfolded.push(*level);
-                            let id = anchor(text);
-                            (0, format!("<details id=\"{id}\"><summary>{heading}</summary>"))
-                        }
-                        false => (0, heading),
+                    let mut heading = format!("<h{level}>{}</h{level}>", prose(text));
+                    if UNFOLDING.contains(level) {
+                        unfolded.push(*level);
+                        let id = anchor(text);
+                        heading = format!("<details id=\"{id}\"><summary>{heading}</summary>");
                     }
+                    (0, heading)
                 }
                 Block::Line { level: 0, text } => (0, format!("<p>{}</p>", prose(text))),
                 Block::Line { level, text } => (*level, prose(text)),
@@ -50,20 +49,11 @@ impl Report {
 
     /// Returns the sections, each with its place on the page.
     pub fn sections(&self) -> impl Iterator<Item = (String, &str)> {
-        self.blocks.iter().filter_map(|block| match block {
-            Block::Heading { level: 2, text } => Some((anchor(text), text.as_str())),
-            Block::Heading { .. }
-            | Block::Line { .. }
-            | Block::Code(_)
-            | Block::Table { .. }
-            | Block::Figure { .. } => None,
+        self.blocks.iter().filter_map(|block| {
+            let Block::Heading { level: 2, text } = block else { return None };
+            Some((anchor(text), text.as_str()))
         })
     }
-}
-
-/// Returns the name of a place on a page: `P1` of `P1: nothing penetrates`.
-pub fn anchor(heading: &str) -> String {
-    file_name(heading)
 }
 
 /// Ends and begins items of lists between two blocks, which stand so many lists deep.
@@ -107,6 +97,13 @@ impl Table {
             format!("<th scope=\"col\"{class}>{}</th>", prose(heading))
         };
         let headings: String = self.headings.iter().enumerate().map(heading).collect();
+        let cell = |cell: &Cell| {
+            let (shown, exact) = (cell.to_string(), cell.exact());
+            let class = if cell.is_numeric() { " class=\"number\"" } else { "" };
+            let is_cut = matches!(cell, Cell::Number { .. }) && exact != shown;
+            let digits = if is_cut { format!(" data-exact=\"{exact}\"") } else { String::new() };
+            format!("<td{class}{digits}>{}</td>", prose(&shown))
+        };
         let row =
             |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
         let rows: String = self.cells.iter().map(row).collect();
@@ -119,21 +116,4 @@ impl Table {
             reasons.collect::<String>()
         )
     }
-}
-
-fn cell(cell: &Cell) -> String {
-    let (shown, exact) = (cell.to_string(), cell.exact());
-    let class = if cell.is_numeric() { " class=\"number\"" } else { "" };
-    let digits = match cell {
-        Cell::Number { .. } | Cell::Percent(_) if exact != shown => {
-            format!(" data-exact=\"{exact}\"")
-        }
-        Cell::Empty
-        | Cell::Missing(_)
-        | Cell::Text(_)
-        | Cell::Integer(_)
-        | Cell::Number { .. }
-        | Cell::Percent(_) => String::new(),
-    };
-    format!("<td{class}{digits}>{}</td>", prose(&shown))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::numbers::reason;
 use base::files::json::{FORMAT, VERSION};
@@ -49,14 +49,6 @@ pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
     value(&Document { format: FORMAT, version: VERSION, scene, own, nulls })
 }
 
-/// Adds the reasons of nulls to an object; nothing where there is none.
-fn with_reasons(mut object: Value, nulls: &BTreeMap<String, &'static str>) -> Value {
-    if let (Value::Object(fields), false) = (&mut object, nulls.is_empty()) {
-        fields.insert("nulls".into(), value(nulls));
-    }
-    object
-}
-
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
 pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
     document(scene, own).to_string() + "\n"
@@ -76,20 +68,19 @@ fn value(document: &impl Serialize) -> Value {
 
 /// Writes a document of a run over several lines, with the reasons of its nulls.
 pub fn pretty_explained(document: &impl Serialize) -> String {
-    let document = value(document);
+    let mut document = value(document);
     let nulls = reasons(&document);
-    several_lines(&with_reasons(document, &nulls))
+    if !nulls.is_empty() {
+        document["nulls"] = value(&nulls);
+    }
+    pretty(&document)
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for
 /// each field and for each item of a list of lists or shallow objects. A list of scalars stands on one line.
 pub fn pretty(document: &impl Serialize) -> String {
-    several_lines(&value(document))
-}
-
-fn several_lines(document: &Value) -> String {
     let mut text = String::new();
-    indented(document, 0, &mut text);
+    indented(&value(document), 0, &mut text);
     text + "\n"
 }
 
@@ -138,35 +129,21 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
         Value::Null => drop(nulls.insert(field.into(), reason(field))),
         Value::Array(values) => values.iter().for_each(|value| explain(value, field, nulls)),
         Value::Object(fields) => {
-            for (field, value) in fields {
-                explain(value, field, nulls);
-            }
+            fields.iter().for_each(|(field, value)| explain(value, field, nulls));
         }
         Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
 }
 
-/// What one call of `c_cnt` found.
-#[derive(Serialize)]
-pub struct Found {
-    /// The `elem` number of each contact node's target edge, 0 = none.
-    ct: Vec<usize>,
-    /// The vertical distance of each contact node from its target line, length.
-    yt: Vec<f64>,
-    /// Whether each contact node is in contact: 1 or 0.
-    dy: Vec<usize>,
-    /// By node: mate, weight, mate, weight.
-    k_cnt: Vec<[f64; 4]>,
-}
-
-impl From<&Pairs<f64>> for Found {
-    fn from(pairs: &Pairs<f64>) -> Self {
-        let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
-        Found {
-            ct: pairs.ct.as_slice().to_vec(),
-            yt: pairs.yt.as_slice().to_vec(),
-            dy: pairs.dy.as_slice().to_vec(),
-            k_cnt: (1..=pairs.k_cnt.rows()).map(row).collect(),
-        }
-    }
+/// Returns what one call of `c_cnt` found: of each contact node the `elem` number of its target edge (0 = none), the
+/// vertical distance from its target line, length, and whether it is in contact, 1 or 0; by node mate, weight, mate,
+/// weight.
+pub fn found(pairs: &Pairs<f64>) -> Value {
+    let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
+    json!({
+        "ct": pairs.ct.as_slice(),
+        "yt": pairs.yt.as_slice(),
+        "dy": pairs.dy.as_slice(),
+        "k_cnt": (1..=pairs.k_cnt.rows()).map(row).collect::<Vec<_>>(),
+    })
 }

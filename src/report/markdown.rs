@@ -13,7 +13,12 @@ impl Report {
             Block::Line { level, text } => {
                 format!("{}- {}\n", "  ".repeat(level - 1), escaped(text))
             }
-            Block::Code(lines) => code(lines),
+            Block::Code(lines) => {
+                // A fence longer than any in the lines.
+                let fences = lines.split(|c| c != '`').map(str::len);
+                let fence = "`".repeat(fences.max().unwrap_or(0).max(2) + 1);
+                format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
+            }
             Block::Table { title, table } => {
                 let title = (!title.is_empty()).then(|| format!("## {}\n\n", escaped(title)));
                 let reasons =
@@ -29,11 +34,9 @@ impl Report {
 
     /// Returns each figure, a file of SVG, with the name of its file.
     pub fn figures(&self) -> Vec<(String, &str)> {
-        let figures = self.blocks.iter().filter_map(|block| match block {
-            Block::Figure { title, svg } => Some((figure_file(title), svg.as_str())),
-            Block::Heading { .. } | Block::Line { .. } | Block::Code(_) | Block::Table { .. } => {
-                None
-            }
+        let figures = self.blocks.iter().filter_map(|block| {
+            let Block::Figure { title, svg } = block else { return None };
+            Some((figure_file(title), svg.as_str()))
         });
         figures.collect()
     }
@@ -65,11 +68,4 @@ fn escaped(text: &str) -> String {
         c => c.to_string(),
     };
     text.chars().map(escape).collect()
-}
-
-/// Returns lines as a block of code, whose fence is longer than any in them.
-fn code(lines: &str) -> String {
-    let fences = lines.split(|c| c != '`').map(str::len);
-    let fence = "`".repeat(fences.max().unwrap_or(0).max(2) + 1);
-    format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
 }

@@ -3,10 +3,13 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use indexmap::IndexSet;
+
 use super::numbers::{Digits, long, percent};
 use problem::model::{NodeId, TriangleId};
 
 /// A report, from its first block to its last.
+#[must_use]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Its parts, in their order.
@@ -41,77 +44,62 @@ impl Report {
     }
 
     /// Returns the report with the heading of a section behind it.
-    #[must_use]
     pub fn heading(self, text: impl Into<String>) -> Self {
         self.with(Block::Heading { level: 2, text: text.into() })
     }
 
     /// Returns the report with a line of prose behind it.
-    #[must_use]
     pub fn line(self, text: impl Into<String>) -> Self {
         self.with(Block::Line { level: 0, text: text.into() })
     }
 
     /// Adds a line that belongs to what stands above it.
-    #[must_use]
     pub fn note(self, text: impl Into<String>) -> Self {
         self.with(Block::Line { level: 1, text: text.into() })
     }
 
     /// Adds a line that belongs to the note above it.
-    #[must_use]
     pub fn detail(self, text: impl Into<String>) -> Self {
         self.with(Block::Line { level: 2, text: text.into() })
     }
 
     /// Adds notes, or the one note that an option has.
-    #[must_use]
     pub fn notes(self, texts: impl IntoIterator<Item = impl Into<String>>) -> Self {
         texts.into_iter().fold(self, Report::note)
     }
 
     /// Adds details, or the one detail that an option has.
-    #[must_use]
     pub fn details(self, texts: impl IntoIterator<Item = impl Into<String>>) -> Self {
         texts.into_iter().fold(self, Report::detail)
     }
 
     /// Returns the report with lines that are shown as they are.
-    #[must_use]
     pub fn code(self, lines: impl Into<String>) -> Self {
         self.with(Block::Code(lines.into()))
     }
 
     /// Adds a table under its title, whose first words name its CSV file.
-    #[must_use]
     pub fn table<R>(self, title: impl Into<String>, table: Table<R>) -> Self {
         let Table { headings, cells, .. } = table;
         self.with(Block::Table { title: title.into(), table: Table { rows: (), headings, cells } })
     }
 
     /// Adds a picture, as a file of SVG, whose title's first words name its file.
-    #[must_use]
     pub fn figure(self, title: impl Into<String>, svg: impl Into<String>) -> Self {
         self.with(Block::Figure { title: title.into(), svg: svg.into() })
     }
 
     /// Returns the report with its headings so many levels deeper, as a part of another one.
-    #[must_use]
     pub fn deeper(mut self, levels: usize) -> Self {
         for block in &mut self.blocks {
-            match block {
-                Block::Heading { level, .. } => *level += levels,
-                Block::Line { .. }
-                | Block::Code(_)
-                | Block::Table { .. }
-                | Block::Figure { .. } => (),
+            if let Block::Heading { level, .. } = block {
+                *level += levels;
             }
         }
         self
     }
 
     /// Adds all of another report.
-    #[must_use]
     pub fn then(mut self, other: Report) -> Self {
         self.blocks.extend(other.blocks);
         self
@@ -119,6 +107,7 @@ impl Report {
 }
 
 /// Cells in rows and columns, made column by column of `rows`.
+#[must_use]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table<R = ()> {
     rows: R,
@@ -146,7 +135,6 @@ impl Table {
 
 impl<R> Table<R> {
     /// Puts a column before the others that counts the rows from 1.
-    #[must_use]
     pub fn numbered(mut self, heading: &str) -> Self {
         self.headings.insert(0, heading.into());
         self.cells.iter_mut().zip(1_usize..).for_each(|(row, n)| row.insert(0, n.into()));
@@ -159,16 +147,9 @@ impl<R> Table<R> {
     }
 
     /// Returns why numbers are missing, each reason once.
-    pub fn reasons(&self) -> Vec<&'static str> {
-        let mut reasons = Vec::new();
-        for cell in self.cells.iter().flatten() {
-            if let Cell::Missing(Some(reason)) = cell
-                && !reasons.contains(reason)
-            {
-                reasons.push(*reason);
-            }
-        }
-        reasons
+    pub fn reasons(&self) -> IndexSet<&'static str> {
+        let reason = |cell| if let &Cell::Missing(reason) = cell { reason } else { None };
+        self.cells.iter().flatten().filter_map(reason).collect()
     }
 }
 
@@ -180,7 +161,6 @@ impl<R> Table<Vec<R>> {
     }
 
     /// Adds a column: its heading, and its cell of each row.
-    #[must_use]
     pub fn column<C: Into<Cell>>(mut self, heading: impl Display, cell: impl Fn(&R) -> C) -> Self {
         self.headings.push(heading.to_string());
         for (cells, row) in self.cells.iter_mut().zip(&self.rows) {
@@ -202,31 +182,14 @@ pub enum Cell {
     /// A whole number.
     Integer(i128),
     /// A finite number, and how it is shown.
-    Number {
-        /// The number.
-        value: f64,
-        /// How it is written.
-        notation: Notation,
-    },
-    /// A finite part of 1, shown in per cent.
-    Percent(f64),
-}
-
-/// How a number is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Notation {
-    /// As [`long`] writes it.
-    Long,
-    /// With all its digits.
-    Plain,
-    /// With these digits.
-    Digits(Digits),
+    #[expect(missing_docs, reason = "said of both")]
+    Number { value: f64, shown: String },
 }
 
 impl Cell {
     /// Shows a number with all its digits.
     pub fn plain(value: f64) -> Self {
-        Cell::number(value, Notation::Plain)
+        Cell::number(value, |x| x.to_string())
     }
 
     /// Shows a number with so many decimals.
@@ -241,20 +204,22 @@ impl Cell {
 
     /// Shows a number with the digits that an error leaves.
     pub fn of_digits(value: f64, digits: Digits) -> Self {
-        Cell::number(value, Notation::Digits(digits))
+        Cell::number(value, |x| digits.write(x))
     }
 
     /// Shows a part of 1 in per cent.
     pub fn percent(part: f64) -> Self {
-        if part.is_finite() { Cell::Percent(part) } else { Cell::Missing(None) }
+        Cell::number(part, percent)
     }
 
-    fn number(value: f64, notation: Notation) -> Self {
-        if value.is_finite() { Cell::Number { value, notation } } else { Cell::Missing(None) }
+    fn number(value: f64, written: impl Fn(f64) -> String) -> Self {
+        match value.is_finite() {
+            true => Cell::Number { value, shown: written(value) },
+            false => Cell::Missing(None),
+        }
     }
 
     /// Says why there is no number, where there is none.
-    #[must_use]
     pub fn because(self, reason: &'static str) -> Self {
         match self {
             Cell::Missing(_) => Cell::Missing(Some(reason)),
@@ -265,7 +230,7 @@ impl Cell {
     /// Whether a column of such cells stands to the right.
     pub fn is_numeric(&self) -> bool {
         match self {
-            Cell::Missing(_) | Cell::Integer(_) | Cell::Number { .. } | Cell::Percent(_) => true,
+            Cell::Missing(_) | Cell::Integer(_) | Cell::Number { .. } => true,
             Cell::Empty | Cell::Text(_) => false,
         }
     }
@@ -277,7 +242,6 @@ impl Cell {
             Cell::Text(text) => text.clone(),
             Cell::Integer(n) => n.to_string(),
             Cell::Number { value, .. } => format!("{value:?}"),
-            Cell::Percent(part) => format!("{part:?}"),
         }
     }
 }
@@ -285,17 +249,11 @@ impl Cell {
 /// Writes a cell for people; a number that is missing as `-`.
 impl Display for Cell {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        match *self {
+        match self {
             Cell::Empty => Ok(()),
-            Cell::Missing(_) => write!(out, "-"),
-            Cell::Text(ref text) => write!(out, "{text}"),
+            Cell::Missing(_) => out.write_str("-"),
             Cell::Integer(n) => write!(out, "{n}"),
-            Cell::Number { value, notation: Notation::Long } => write!(out, "{}", long(value)),
-            Cell::Number { value, notation: Notation::Plain } => write!(out, "{value}"),
-            Cell::Number { value, notation: Notation::Digits(digits) } => {
-                out.write_str(&digits.write(value))
-            }
-            Cell::Percent(part) => write!(out, "{}", percent(part)),
+            Cell::Text(text) | Cell::Number { shown: text, .. } => out.write_str(text),
         }
     }
 }
@@ -303,7 +261,7 @@ impl Display for Cell {
 /// Shows a number as [`long`] writes it.
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
-        Cell::number(value, Notation::Long)
+        Cell::number(value, long)
     }
 }
 

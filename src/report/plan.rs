@@ -3,8 +3,8 @@
 use super::json;
 use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, six_digits};
-use engine::plan::{BodyPlan, ContactPlan, MARGIN, Plan, Storage};
-use problem::scene::{Scene, Units};
+use engine::plan::{ContactPlan, MARGIN, Plan, Storage};
+use problem::scene::Scene;
 
 /// Writes the plan on one line, which is the same on every machine.
 pub fn line(plan: &Plan) -> String {
@@ -34,106 +34,90 @@ pub fn line(plan: &Plan) -> String {
 /// Reports the plan of a scene, with what is to be said of that.
 pub fn report(plan: &Plan, scene: &Scene) -> Report {
     let units = &scene.units;
-    let locking = plan.bodies.iter().filter_map(|body| {
-        let why = body.locking.as_ref()?;
-        Some(format!("NOTE: body {}: {why}; the error of the mesh is not estimated", body.name))
-    });
-    Report::default()
-        .line(line(plan))
-        .notes(scene.adapted().to_vec())
-        .table("What is built", built(plan))
-        .table("Bodies", bodies(&plan.bodies, units))
-        .notes(locking)
-        .table("Load", load(plan, units))
-        .table("What is left out, or could be", left_out(plan))
-}
-
-/// Writes the plan as JSON.
-pub fn json(scene: &Scene, plan: &Plan) -> String {
-    json::line(Some(scene), plan)
-}
-
-fn row(name: &str, value: impl Into<Cell>, why: impl Into<Cell>) -> Vec<Cell> {
-    vec![name.into(), value.into(), why.into()]
-}
-
-fn built(plan: &Plan) -> Table {
-    let equations = plan.equations;
+    let (equations, contact) = (plan.equations, plan.contact.as_ref());
     let solved = match equations.solved == equations.all {
         true => "Km as printed keeps restrained ones, with 1 on the diagonal",
         false => "at most: each node in contact removes its equations",
     };
-    let mut rows = vec![
+    let mut built = vec![
         row("equations", equations.all, "two a node"),
         row("free", equations.free, "not restrained"),
         row("solved", equations.solved, solved),
     ];
-    match &plan.contact {
-        None => rows.push(row("contact", "none", "the scene names no contact surfaces")),
-        Some(contact) => rows.extend(contact_rows(contact)),
+    match contact {
+        None => built.push(row("contact", "none", "the scene names no contact surfaces")),
+        Some(ContactPlan { coupling, candidates: found, .. }) => {
+            let margin = format!(
+                "of {}: nodes in the box of an edge, grown by c_tll + {MARGIN} of its length",
+                found.all(),
+            );
+            built.push(row("coupling", coupling.to_string(), "contact.coupling"));
+            built.push(row("contact candidates", found.pairs, margin));
+            built.push(row("contact nodes near", found.near, format!("of {}", found.nodes)));
+        }
     }
-    rows.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
+    built.push(row("solver", format!("{} in {}", plan.solver, plan.scalar), "--solver, --scalar"));
     let why = if plan.storage == Storage::Dense { "every entry" } else { "entries that are not 0" };
-    rows.push(row("matrix", plan.storage.to_string(), why));
-    Table::new(["", "", "why"], rows)
-}
+    built.push(row("matrix", plan.storage.to_string(), why));
 
-fn contact_rows(contact: &ContactPlan) -> [Vec<Cell>; 3] {
-    let found = &contact.candidates;
-    let margin = format!(
-        "of {}: nodes in the box of an edge, grown by c_tll + {MARGIN} of its length",
-        found.all(),
-    );
-    [
-        row("coupling", contact.coupling.to_string(), "contact.coupling"),
-        row("contact candidates", found.pairs, margin),
-        row("contact nodes near", found.near, format!("of {}", found.nodes)),
-    ]
-}
-
-fn bodies<'a>(bodies: &'a [BodyPlan], units: &Units) -> Table<Vec<&'a BodyPlan>> {
-    Table::from_rows(bodies)
+    let bodies = Table::from_rows(&plan.bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("size", &units.length), |body| body.size.map(six_digits).join(" x "))
         .column("nodes", |body| body.nodes)
         .column("triangles", |body| body.triangles)
         .column("free equations", |body| body.free)
         .column("contact", |body| if body.in_contact { "yes" } else { "no" })
-        .column("moves", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")))
-}
+        .column("moves", |body| body.idle.map_or("yes".into(), |idle| format!("no: {idle}")));
+    let locking = plan.bodies.iter().filter_map(|body| {
+        let why = body.locking.as_ref()?;
+        Some(format!("NOTE: body {}: {why}; the error of the mesh is not estimated", body.name))
+    });
 
-fn load(plan: &Plan, units: &Units) -> Table {
     let total = format!("{} along x and y", quantity("sum of the loads", &units.force));
-    let mut rows = vec![row(&total, plan.load.map(six_digits).join(", "), "with their signs")];
-    rows.extend(plan.nominal_strain.map(|strain| {
+    let mut load = vec![row(&total, plan.load.map(six_digits).join(", "), "with their signs")];
+    load.extend(plan.nominal_strain.map(|strain| {
         let why =
             "largest of a body: its loads, without signs, / (width or height x thickness x E)";
         row("nominal strain", six_digits(strain), why)
     }));
-    Table::new(["", "", "of that"], rows)
-}
 
-fn left_out(plan: &Plan) -> Table {
-    let mut rows = vec![
+    let mut left_out = vec![
         row("orphan nodes", plan.orphans, "in no triangle: dropped"),
-        row("restrained equations", plan.equations.restrained, "known to be 0"),
+        row("restrained equations", equations.restrained, "known to be 0"),
     ];
-    if let Some(contact) = &plan.contact {
+    left_out.extend(contact.map(|contact| {
         let apart = contact.candidates.all() - contact.candidates.pairs;
-        rows.push(row("pairs too far apart", apart, "c_cnt as printed walks them all the same"));
-    }
-    let idle = plan.bodies.iter().filter_map(|body| Some((body, body.idle?)));
-    rows.extend(idle.map(|(body, why)| {
-        row(&format!("equations of body {:?}", body.name), body.free, format!("0: {why}"))
+        row("pairs too far apart", apart, "c_cnt as printed walks them all the same")
     }));
-    let half = match plan.half_would_do() {
-        true => "half the model suffices",
-        false => "but half of it has another answer, for c_cnt as printed is not symmetric",
-    };
-    rows.extend(plan.half.map(|found| {
+    left_out.extend(plan.bodies.iter().filter_map(|body| {
+        let name = format!("equations of body {:?}", body.name);
+        Some(row(&name, body.free, format!("0: {}", body.idle?)))
+    }));
+    left_out.extend(plan.half.map(|found| {
+        let half = match plan.half_would_do() {
+            true => "half the model suffices",
+            false => "but half of it has another answer, for c_cnt as printed is not symmetric",
+        };
         let at = six_digits(found.at);
         let why = format!("the scene is its own mirror image about x = {at}: {half}");
         row("nodes of the other half", plan.nodes - found.nodes, why)
     }));
-    Table::new(["", "", "why"], rows)
+
+    Report::default()
+        .line(line(plan))
+        .notes(scene.adapted().to_vec())
+        .table("What is built", Table::new(["", "", "why"], built))
+        .table("Bodies", bodies)
+        .notes(locking)
+        .table("Load", Table::new(["", "", "of that"], load))
+        .table("What is left out, or could be", Table::new(["", "", "why"], left_out))
+}
+
+fn row(name: &str, value: impl Into<Cell>, why: impl Into<Cell>) -> Vec<Cell> {
+    vec![name.into(), value.into(), why.into()]
+}
+
+/// Writes the plan as JSON.
+pub fn json(scene: &Scene, plan: &Plan) -> String {
+    json::line(Some(scene), plan)
 }

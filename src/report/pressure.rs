@@ -4,7 +4,7 @@ use super::numbers::{figure, quantity};
 use super::picture::{Axis, Series, Style, chart, small_chart};
 use engine::contact::ContactNode;
 use engine::quantities::Value;
-use engine::{Hertz, Quantity, Solution};
+use engine::{Hertz, Solution};
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
@@ -21,72 +21,74 @@ pub fn picture(scene: &Scene, runs: &[&Solution], hertz: Option<&Hertz>) -> Stri
         "Pressure of a node: the reaction of its equations, K u − F, along the target's normal, \
          over the length that the node stands for.",
     )];
-    if let Some(hertz) = hertz {
-        captions.push(format!(
-            "Hertz: half width {}, peak {}, relative radius {}.",
-            figure(hertz.half_width, None),
-            figure(hertz.peak, None),
-            figure(hertz.radius, None)
-        ));
-    }
-    let hertz = hertz.map(|hertz| hertz_curve(hertz, shown(runs)));
-    along_surface(scene, runs, named("pressure"), hertz, &captions)
+    captions.extend(hertz.map(|hertz| {
+        let [width, peak, radius] =
+            [hertz.half_width, hertz.peak, hertz.radius].map(|x| figure(x, None));
+        format!("Hertz: half width {width}, peak {peak}, relative radius {radius}.")
+    }));
+    along_surface(scene, &named(runs), "pressure", hertz, Some(&captions))
 }
 
 /// Draws the pressure of runs under their names, and `hertz`'s, among other pictures.
 pub fn small_picture(scene: &Scene, runs: &[(String, &Solution)], hertz: Option<&Hertz>) -> String {
-    let solutions: Vec<&Solution> = runs.iter().map(|(_, run)| *run).collect();
-    let range = shown(&solutions);
-    let curve = |(name, run): &(String, &Solution)| Series {
-        name: name.clone(),
-        ..curve(run, named("pressure"), range)
-    };
-    let hertz = hertz.map(|hertz| hertz_curve(hertz, range));
-    let series: Vec<Series> = runs.iter().map(curve).chain(hertz).collect();
-    let [x, y] = labels(scene, named("pressure"));
-    small_chart(&y, [axis(&x), axis(&y)], &series)
+    along_surface(scene, runs, "pressure", hertz, None)
 }
 
 /// Draws the shear and the gap of contact nodes in the same way.
 pub fn shear_and_gap(scene: &Scene, runs: &[&Solution]) -> [String; 2] {
-    ["shear", "gap"].map(|name| along_surface(scene, runs, named(name), None, &[]))
+    ["shear", "gap"].map(|drawn| along_surface(scene, &named(runs), drawn, None, Some(&[])))
 }
 
-fn named(name: &str) -> &'static Quantity<ContactNode> {
-    ContactNode::QUANTITIES.iter().find(|quantity| quantity.name == name).expect("it is declared")
+fn named<'a>(runs: &[&'a Solution]) -> Vec<(String, &'a Solution)> {
+    runs.iter().map(|run| (name(run), *run)).collect()
 }
 
-/// Draws a quantity of contact nodes: a curve of each run, and one more.
+/// Draws the quantity of contact nodes that has this name: a curve of each run, and `hertz`'s. A picture without
+/// captions stands among others.
 fn along_surface(
     scene: &Scene,
-    runs: &[&Solution],
-    drawn: &Quantity<ContactNode>,
-    more: Option<Series>,
-    captions: &[String],
+    runs: &[(String, &Solution)],
+    drawn: &str,
+    hertz: Option<&Hertz>,
+    captions: Option<&[String]>,
 ) -> String {
-    let range = shown(runs);
-    let series: Vec<Series> = runs.iter().map(|run| curve(run, drawn, range)).chain(more).collect();
-    let [x, y] = labels(scene, drawn);
-    let title = format!("{}: {}", scene.title, drawn.title);
-    chart(&title, [axis(&x), axis(&y)], &series, captions)
-}
-
-/// Returns what the axes show.
-fn labels(scene: &Scene, drawn: &Quantity<ContactNode>) -> [String; 2] {
-    [
+    let mut quantities = ContactNode::QUANTITIES.iter();
+    let drawn = quantities.find(|quantity| quantity.name == drawn).expect("it is declared");
+    let [from, to] = shown(runs);
+    let mut series = Vec::new();
+    for (name, run) in runs {
+        let mut points = Vec::new();
+        for node in run.contact.iter().filter(|c| from <= c.arc && c.arc <= to) {
+            if let Value::Number(y) = (drawn.value)(node) {
+                points.push([node.arc, y]);
+            }
+        }
+        series.push(Series { name: name.clone(), points, style: Style::Dotted });
+    }
+    series.extend(hertz.map(|hertz| {
+        let from = from.max(hertz.centre - hertz.half_width);
+        let to = to.min(hertz.centre + hertz.half_width);
+        let arc = |k: usize| from + (to - from) * k as f64 / (POINTS - 1) as f64;
+        let points = (0..POINTS).map(|k| [arc(k), hertz.pressure(arc(k))]).collect();
+        Series { name: "Hertz".into(), points, style: Style::Line }
+    }));
+    let labels = [
         quantity("distance along the contact surface", &scene.units.length),
         quantity(drawn.title, drawn.unit.in_scene(&scene.units)),
-    ]
-}
-
-fn axis(label: &str) -> Axis<'_> {
-    Axis { label, logarithmic: false }
+    ];
+    let axes = labels.each_ref().map(|label| Axis { label, logarithmic: false });
+    match captions {
+        Some(captions) => {
+            chart(&format!("{}: {}", scene.title, drawn.title), axes, &series, captions)
+        }
+        None => small_chart(&labels[1], axes, &series),
+    }
 }
 
 /// Returns the stretch of the surface that any run has in contact, with a margin; all of it where
 /// none has. Lengths along the surface.
-fn shown(runs: &[&Solution]) -> [f64; 2] {
-    let nodes = || runs.iter().flat_map(|run| &run.contact);
+fn shown(runs: &[(String, &Solution)]) -> [f64; 2] {
+    let nodes = || runs.iter().flat_map(|(_, run)| &run.contact);
     let extent = |nodes: &mut dyn Iterator<Item = &ContactNode>| {
         nodes.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], c| [a.min(c.arc), b.max(c.arc)])
     };
@@ -99,19 +101,6 @@ fn shown(runs: &[&Solution]) -> [f64; 2] {
     }
 }
 
-fn curve(run: &Solution, drawn: &Quantity<ContactNode>, [from, to]: [f64; 2]) -> Series {
-    let shown = run.contact.iter().filter(|c| from <= c.arc && c.arc <= to);
-    let point = |c: &ContactNode| match (drawn.value)(c) {
-        Value::Number(y) => Some([c.arc, y]),
-        Value::Unknown
-        | Value::Count(_)
-        | Value::Components(_)
-        | Value::State(..)
-        | Value::Words(_) => None,
-    };
-    Series { name: name(run), points: shown.filter_map(point).collect(), style: Style::Dotted }
-}
-
 /// Names the run by its variant, and by how contact was modelled where the variant leaves a choice.
 pub fn name(run: &Solution) -> String {
     let (variant, contact) = (run.request.variant, run.request.contact);
@@ -121,16 +110,5 @@ pub fn name(run: &Solution) -> String {
         Variant::Unilateral => {
             format!("{variant}, {}, friction {}", contact.coupling, contact.friction)
         }
-    }
-}
-
-fn hertz_curve(hertz: &Hertz, [from, to]: [f64; 2]) -> Series {
-    let ends = [hertz.centre - hertz.half_width, hertz.centre + hertz.half_width];
-    let (from, to) = (from.max(ends[0]), to.min(ends[1]));
-    let arc = |k: usize| from + (to - from) * k as f64 / (POINTS - 1) as f64;
-    Series {
-        name: "Hertz".into(),
-        points: (0..POINTS).map(|k| [arc(k), hertz.pressure(arc(k))]).collect(),
-        style: Style::Line,
     }
 }

@@ -64,13 +64,27 @@ pub fn table<'r, 'q, T: 'static>(
         |quantity: &Quantity<T>| rows.iter().any(|row| (quantity.value)(row) != Value::Unknown);
     let mut table = Table::from_rows(rows);
     for quantity in quantities.into_iter().filter(|q| !q.title.is_empty() && is_known(q)) {
-        for (k, title) in titles(quantity).iter().enumerate() {
-            let heading = with_its_unit(title, quantity.unit.in_scene(units));
+        for k in 0..quantity.symbols.len().max(1) {
+            let title = match quantity.symbols {
+                [] | [_] => quantity.title.to_string(),
+                symbols => format!("{} {}", quantity.title, symbols[k]),
+            };
             let numbers = rows.iter().filter_map(|row| (quantity.value)(row).numbers());
             let largest = numbers.map(|numbers| numbers[k].abs()).fold(0.0, f64::max);
-            let digits = (!quantity.is_place()).then(|| Digits::of(largest, error));
-            table =
-                table.column(heading, |row| cell(&(quantity.value)(row), quantity.unit, k, digits));
+            let digits = Digits::of(largest, error);
+            let number = |x: f64| match quantity.is_place() {
+                true => x.into(),
+                false => Cell::of_digits(x, digits),
+            };
+            let heading = with_its_unit(&title, quantity.unit.in_scene(units));
+            table = table.column(heading, |row| match (quantity.value)(row) {
+                Value::Unknown => Cell::Missing(None),
+                Value::Count(n) => n.into(),
+                Value::Number(part) if quantity.unit == Unit::Share => Cell::percent(part),
+                Value::Number(x) => number(x),
+                Value::Components(x) => number(x[k]),
+                Value::State(_, words) | Value::Words(words) => words.into(),
+            });
         }
     }
     table
@@ -89,27 +103,6 @@ pub fn nodes(fields: &NodeFields, units: &Units) -> Table<Vec<usize>> {
     table
 }
 
-/// Returns the title of each component of a quantity.
-fn titles<T>(quantity: &Quantity<T>) -> Vec<String> {
-    match quantity.symbols {
-        [] | [_] => vec![quantity.title.to_string()],
-        symbols => symbols.iter().map(|symbol| format!("{} {symbol}", quantity.title)).collect(),
-    }
-}
-
-/// Returns the cell of component `k` of a value.
-fn cell(value: &Value, unit: Unit, k: usize, digits: Option<Digits>) -> Cell {
-    let number = |x: f64| digits.map_or(x.into(), |digits| Cell::of_digits(x, digits));
-    match value {
-        Value::Unknown => Cell::Missing(None),
-        Value::Count(n) => (*n).into(),
-        Value::Number(part) if unit == Unit::Share => Cell::percent(*part),
-        Value::Number(x) => number(*x),
-        Value::Components(x) => number(x[k]),
-        Value::State(_, words) | Value::Words(words) => words.clone().into(),
-    }
-}
-
 /// Returns the array of a quantity of the triangles; None where it is not known in all of them.
 pub fn triangle_array(
     quantity: &Quantity<TriangleValues>,
@@ -121,15 +114,6 @@ pub fn triangle_array(
     Some(array(quantity, numbers?.concat(), units))
 }
 
-/// Returns the array of a quantity of the nodes.
-pub fn node_array(
-    quantity: &Quantity<NodeFields>,
-    nodes: &NodeFields,
-    units: &Units,
-) -> Option<Array> {
-    Some(array(quantity, (quantity.value)(nodes).numbers()?, units))
-}
-
 /// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is
 /// nowhere known. Of a node where it is not known a number is NaN, and a state -1.
 pub fn contact_array(
@@ -138,22 +122,19 @@ pub fn contact_array(
     count: usize,
     units: &Units,
 ) -> Option<Array> {
-    let known = |node: &ContactNode| Some((node.node, (quantity.value)(node).numbers()?[0]));
-    let known: Vec<_> = contact.iter().filter_map(known).collect();
-    let unknown = match (quantity.value)(contact.first()?) {
-        Value::State(..) => -1.0,
-        Value::Unknown
-        | Value::Count(_)
-        | Value::Number(_)
-        | Value::Components(_)
-        | Value::Words(_) => f64::NAN,
-    };
-    let mut values = vec![unknown; count];
-    known.iter().for_each(|(node, value)| values[node.index()] = *value);
-    (!known.is_empty()).then(|| array(quantity, values, units))
+    let is_state = matches!((quantity.value)(contact.first()?), Value::State(..));
+    let mut values = vec![if is_state { -1.0 } else { f64::NAN }; count];
+    let mut is_known = false;
+    for node in contact {
+        if let Some(numbers) = (quantity.value)(node).numbers() {
+            (values[node.node.index()], is_known) = (numbers[0], true);
+        }
+    }
+    is_known.then(|| array(quantity, values, units))
 }
 
-fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Array {
+/// Returns the array of a quantity with these numbers; a tensor has nine components, by rows.
+pub fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Array {
     let unit = match quantity.unit {
         Unit::One => "1",
         unit => unit.in_scene(units),
@@ -162,17 +143,15 @@ fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Array {
         [_, _, shear, _] => {
             // The tensor has half of an engineering strain.
             let part = if shear.starts_with('γ') { 0.5 } else { 1.0 };
-            let rows = values.as_chunks().0.iter();
-            (9, rows.flat_map(|&[x, y, xy, z]| in_space([x, y, part * xy, z])).collect())
+            let in_space = |&[x, y, xy, z]: &[f64; 4]| {
+                let xy = part * xy;
+                [x, xy, 0.0, xy, y, 0.0, 0.0, 0.0, z]
+            };
+            (9, values.as_chunks().0.iter().flat_map(in_space).collect())
         }
         symbols => (symbols.len().max(1), values),
     };
     Array::new(&quantity.array(), unit, components, values)
-}
-
-/// Returns the nine components of a tensor, by rows.
-fn in_space([xx, yy, xy, zz]: [f64; 4]) -> [f64; 9] {
-    [xx, xy, 0.0, xy, yy, 0.0, 0.0, 0.0, zz]
 }
 
 /// Returns the measured values of a triangle by their fields, without those that are not known.
@@ -200,17 +179,15 @@ pub fn on_pages() -> Json {
 }
 
 fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
-    let shown = quantities.iter().filter(|quantity| !quantity.title.is_empty());
-    shown
-        .map(|quantity| {
-            json!({
-                "name": quantity.name,
-                "title": quantity.title,
-                "symbols": quantity.symbols.iter().map(|s| s.replace('_', "")).collect::<Vec<_>>(),
-                "unit": quantity.unit,
-            })
+    let quantity = |quantity: &Quantity<T>| {
+        json!({
+            "name": quantity.name,
+            "title": quantity.title,
+            "symbols": quantity.symbols.iter().map(|s| s.replace('_', "")).collect::<Vec<_>>(),
+            "unit": quantity.unit,
         })
-        .collect()
+    };
+    quantities.iter().filter(|quantity| !quantity.title.is_empty()).map(quantity).collect()
 }
 
 /// Writes all quantities of a result as a page in Markdown: `golden/quantities.md`.

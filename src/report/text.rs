@@ -162,34 +162,27 @@ impl Table {
     fn records(&self, rows: &[Vec<String>], width: usize) -> String {
         let headings = self.headings.iter().skip(1).map(|heading| length(heading)).max();
         let headings = headings.unwrap_or(0);
-        let beside = self.records_by(rows, width, |heading, cell| {
-            let blanks = " ".repeat(headings - length(heading));
-            let start = format!("    {heading}{blanks}  ");
-            filled(&start, headings + 6, width, cell.split(' '), " ")
-        });
-        if beside.lines().all(|line| length(line) <= width) {
-            return beside;
-        }
-        self.records_by(rows, width, |heading, cell| {
-            let words = format!("{heading}: {cell}");
-            prose(&format!("    {}", words.trim_start_matches(": ")), width)
-        })
-    }
-
-    /// Writes a record for each row: its first cell, then what `line` makes of a heading and another
-    /// cell.
-    fn records_by(
-        &self,
-        rows: &[Vec<String>],
-        width: usize,
-        line: impl Fn(&str, &str) -> String,
-    ) -> String {
-        let record = |row: &Vec<String>| {
-            let first = format!("{} {}", self.headings[0], row[0]);
-            let first = filled("  ", 4, width, first.trim().split(' '), " ");
-            let cells = self.headings.iter().zip(row).skip(1).filter(|(_, cell)| !cell.is_empty());
-            first + &cells.map(|(heading, cell)| line(heading, cell)).collect::<String>()
+        let records = |beside: bool| {
+            let mut text = String::new();
+            for row in rows {
+                let first = format!("{} {}", self.headings[0], row[0]);
+                text += &filled("  ", 4, width, first.trim().split(' '), " ");
+                let cells = self.headings.iter().zip(row).skip(1);
+                for (heading, cell) in cells.filter(|(_, cell)| !cell.is_empty()) {
+                    text += &if beside {
+                        let blanks = " ".repeat(headings - length(heading));
+                        let start = format!("    {heading}{blanks}  ");
+                        filled(&start, headings + 6, width, cell.split(' '), " ")
+                    } else {
+                        let words = format!("{heading}: {cell}");
+                        prose(&format!("    {}", words.trim_start_matches(": ")), width)
+                    };
+                }
+            }
+            text
         };
-        rows.iter().map(record).collect()
+        let beside = records(true);
+        let fits = beside.lines().all(|line| length(line) <= width);
+        if fits { beside } else { records(false) }
     }
 }

@@ -15,7 +15,7 @@ use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
 
 use super::picture::Drawing;
-use super::quantities::{Array, contact_array, node_array, triangle_array};
+use super::quantities::{Array, array, contact_array, triangle_array};
 use base::files::json::VERSION;
 use base::xml::Element;
 use engine::options::Options;
@@ -28,7 +28,7 @@ const TRIANGLE: u8 = 5;
 const BLOCK: usize = 1 << 18;
 
 /// What the file says of itself: a name and a text each.
-type About<'a> = (&'a str, &'a str);
+type About = (&'static str, String);
 
 /// Writes the mesh of `drawing`, the quantities of its nodes, contact nodes and triangles, and the body
 /// of each triangle. Every number reads back to the same bits.
@@ -43,31 +43,27 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     let units = &scene.units;
     let values = TriangleValues::all(solution, assessment.mesh_error().as_deref());
     let triangles = TriangleValues::QUANTITIES.iter();
+    let mut triangles: Vec<Array> =
+        triangles.filter_map(|quantity| triangle_array(quantity, &values, units)).collect();
     let body = drawing.region.iter().map(|region| *region as f64);
-    let body = Array::new("body", "", 1, body.collect());
-    let triangles: Vec<Array> = triangles
-        .filter_map(|quantity| triangle_array(quantity, &values, units))
-        .chain([body])
-        .collect();
+    triangles.push(Array::new("body", "", 1, body.collect()));
     let nodes = NodeFields::new(solution);
     let count = nodes.nodes.len();
     let at_nodes = NodeFields::QUANTITIES.iter().filter(|quantity| !quantity.title.is_empty());
-    let at_nodes = at_nodes.filter_map(|quantity| node_array(quantity, &nodes, units));
+    let at_nodes = at_nodes.filter_map(|q| Some(array(q, (q.value)(&nodes).numbers()?, units)));
     let contact = ContactNode::QUANTITIES.iter();
     let contact = contact.filter_map(|q| contact_array(q, &solution.contact, count, units));
     let points: Vec<Array> = at_nodes.chain(contact).collect();
     let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
-    let program = format!("plane-contact {VERSION}");
-    let run = Options::from_request(&solution.request).name();
-    let about: [About; 5] = [
-        ("program", &program),
-        ("scene", &scene.name),
-        ("scene_sha256", &scene_sha256),
-        ("mesh_sha256", &mesh_sha256),
-        ("run", &run),
+    let mut about: Vec<About> = vec![
+        ("program", format!("plane-contact {VERSION}")),
+        ("scene", scene.name.clone()),
+        ("scene_sha256", scene_sha256),
+        ("mesh_sha256", mesh_sha256),
+        ("run", Options::from_request(&solution.request).name()),
     ];
-    let known: Vec<About> = about.into_iter().filter(|(_, text)| !text.is_empty()).collect();
-    document(&known, &drawing.points, &drawing.triangles, &points, &triangles)
+    about.retain(|(_, text)| !text.is_empty());
+    document(&about, &drawing.points, &drawing.triangles, &points, &triangles)
 }
 
 /// Writes the fields of a solution as a VTU file.
@@ -93,13 +89,26 @@ pub fn document(
         .with(of_triangles)
         .with(places)
         .with(cells);
+    let mut grid = Element::new("UnstructuredGrid");
+    if !about.is_empty() {
+        // Every viewer reads texts as arrays of the bytes of UTF-8; not all read arrays of type `String`.
+        let texts = about.iter().map(|(name, text)| {
+            let bytes: Vec<String> = text.bytes().map(|byte| byte.to_string()).collect();
+            Element::with_text("DataArray", &bytes.join(" "))
+                .set("type", "UInt8")
+                .set("Name", name)
+                .set("NumberOfTuples", text.len().to_string())
+                .set("format", "ascii")
+        });
+        grid.push(Element::new("FieldData").with_all(texts));
+    }
     let text = Element::new("VTKFile")
         .set("type", "UnstructuredGrid")
         .set("version", "1.0")
         .set("byte_order", "LittleEndian")
         .set("header_type", "UInt64")
         .set("compressor", "vtkZLibDataCompressor")
-        .with(Element::new("UnstructuredGrid").with_all(field_data(about)).with(piece))
+        .with(grid.with(piece))
         .with(Element::with_text("AppendedData", "_").set("encoding", "raw"))
         .document();
     let (before, after) = text.rsplit_once('_').expect("the arrays follow it");
@@ -111,20 +120,6 @@ pub fn document(
     file
 }
 
-/// Returns texts as every viewer reads them: arrays of the bytes of UTF-8. Not all read arrays of type
-/// `String`.
-fn field_data(about: &[About]) -> Option<Element> {
-    let array = |(name, text): &About| {
-        let bytes: Vec<String> = text.bytes().map(|byte| byte.to_string()).collect();
-        Element::with_text("DataArray", &bytes.join(" "))
-            .set("type", "UInt8")
-            .set("Name", name)
-            .set("NumberOfTuples", text.len().to_string())
-            .set("format", "ascii")
-    };
-    (!about.is_empty()).then(|| Element::new("FieldData").with_all(about.iter().map(array)))
-}
-
 /// The arrays, one after the other.
 #[derive(Default)]
 struct Arrays {
@@ -133,25 +128,22 @@ struct Arrays {
 
 impl Arrays {
     fn results(&mut self, place: &'static str, data: &[Array], count: usize) -> Element {
+        let mut element = Element::new(place);
         // What a viewer takes first.
         let first = |components: usize| data.iter().find(|array| array.components == components);
         let stress = data.iter().find(|array| array.name == "von_mises_stress");
-        let active = [("Scalars", stress), ("Vectors", first(2)), ("Tensors", first(9))];
-        let element =
-            active.into_iter().fold(Element::new(place), |element, (kind, array)| match array {
-                Some(array) => element.set(kind, array.name.clone()),
-                None => element,
-            });
-        let stored = |array: &Array| {
+        for (kind, array) in [("Scalars", stress), ("Vectors", first(2)), ("Tensors", first(9))] {
+            if let Some(array) = array {
+                element = element.set(kind, &array.name);
+            }
+        }
+        let mut stored = Vec::new();
+        for array in data.iter().rev() {
             let Array { name, components, values, .. } = array;
-            assert_eq!(
-                values.len(),
-                components * count,
-                "{name}: {components} values for each of {count}"
-            );
-            self.floats(array)
-        };
-        let stored: Vec<Element> = data.iter().rev().map(stored).collect();
+            let size = components * count;
+            assert_eq!(values.len(), size, "{name}: {components} values for each of {count}");
+            stored.push(self.floats(array));
+        }
         element.with_all(stored.into_iter().rev())
     }
 
@@ -175,18 +167,23 @@ impl Arrays {
         let third: &[f64] = if *components == 2 { &[0.0] } else { &[] };
         let rows = values.chunks(*components).flat_map(|row| row.iter().chain(third));
         let bytes: Vec<_> = rows.map(|value| value.to_le_bytes()).collect();
-        let key = |unit: &str| {
-            Element::with_text("InformationKey", unit)
-                .set("name", "UNITS_LABEL")
-                .set("location", "vtkDataArray")
-        };
-        self.array("Float64", name, bytes.into_flattened())
-            .set("NumberOfComponents", (components + third.len()).to_string())
-            .with_all((!unit.is_empty()).then(|| key(unit)))
+        let mut element = self
+            .array("Float64", name, bytes.into_flattened())
+            .set("NumberOfComponents", (components + third.len()).to_string());
+        if !unit.is_empty() {
+            let key = Element::with_text("InformationKey", unit).set("name", "UNITS_LABEL");
+            element.push(key.set("location", "vtkDataArray"));
+        }
+        element
     }
 
-    /// Adds an array in compressed blocks.
+    /// Adds an array in compressed blocks: quickly, for most bits of a result are noise to a compressor.
     fn array(&mut self, kind: &str, name: &str, content: Vec<u8>) -> Element {
+        let compressed = |block: &[u8]| {
+            let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+            encoder.write_all(block).expect("memory takes any bytes");
+            encoder.finish().expect("memory takes any bytes")
+        };
         let offset = self.bytes.len();
         let blocks: Vec<Vec<u8>> = content.par_chunks(BLOCK).map(compressed).collect();
         let sizes = blocks.iter().map(Vec::len);
@@ -199,11 +196,4 @@ impl Arrays {
             .set("format", "appended")
             .set("offset", offset.to_string())
     }
-}
-
-/// Compresses a block: quickly, for most bits of a result are noise to a compressor.
-fn compressed(block: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    encoder.write_all(block).expect("memory takes any bytes");
-    encoder.finish().expect("memory takes any bytes")
 }

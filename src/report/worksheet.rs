@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::json;
 use super::model::{Report, Table};
@@ -79,44 +80,14 @@ struct RegionRow<'a> {
     tag: &'a str,
     /// The region in the text notation.
     text: &'a str,
+    /// How the region compares with what Mathcad saved.
     #[serde(flatten)]
-    verdict: VerdictRow<'a>,
+    verdict: Value,
     /// The regions whose saved results went into this one.
     inputs: &'a BTreeSet<String>,
     /// The region's value: a number, words, or a list of rows; absent where there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<Written<'a>>,
-}
-
-/// How a region compares with what Mathcad saved.
-#[derive(Serialize)]
-#[serde(tag = "verdict", rename_all = "lowercase")]
-enum VerdictRow<'a> {
-    #[serde(rename = "nothing saved")]
-    NothingSaved,
-    /// Every number has the saved bits.
-    Same,
-    /// The numbers agree to so many digits.
-    Digits {
-        digits: u32,
-    },
-    /// Both fail.
-    Failure {
-        saved: &'a str,
-        ours: &'a str,
-    },
-    Differs {
-        saved: &'a str,
-        ours: &'a str,
-    },
-    /// The interpreter fails, and nothing was saved.
-    Fails {
-        ours: &'a str,
-    },
-    /// The interpreter does not have this.
-    Unsupported {
-        construct: &'a str,
-    },
 }
 
 /// Writes the regions on one line.
@@ -132,14 +103,20 @@ pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
     json::streamed(&Document { file, regions: regions.collect() })
 }
 
-fn verdict(verdict: &Verdict) -> VerdictRow<'_> {
+fn verdict(verdict: &Verdict) -> Value {
     match verdict {
-        Verdict::NothingSaved => VerdictRow::NothingSaved,
-        Verdict::Same => VerdictRow::Same,
-        Verdict::Digits(digits) => VerdictRow::Digits { digits: *digits },
-        Verdict::SameFailure { saved, ours } => VerdictRow::Failure { saved, ours },
-        Verdict::Differs { saved, ours } => VerdictRow::Differs { saved, ours },
-        Verdict::Fails(ours) => VerdictRow::Fails { ours },
-        Verdict::Unsupported(construct) => VerdictRow::Unsupported { construct },
+        Verdict::NothingSaved => json!({ "verdict": "nothing saved" }),
+        Verdict::Same => json!({ "verdict": "same" }),
+        Verdict::Digits(digits) => json!({ "verdict": "digits", "digits": digits }),
+        Verdict::SameFailure { saved, ours } => {
+            json!({ "verdict": "failure", "saved": saved, "ours": ours })
+        }
+        Verdict::Differs { saved, ours } => {
+            json!({ "verdict": "differs", "saved": saved, "ours": ours })
+        }
+        Verdict::Fails(ours) => json!({ "verdict": "fails", "ours": ours }),
+        Verdict::Unsupported(construct) => {
+            json!({ "verdict": "unsupported", "construct": construct })
+        }
     }
 }

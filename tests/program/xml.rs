@@ -37,7 +37,7 @@ const DISPLACEMENT: [f64; 8] =
 fn written() -> Vec<u8> {
     let of_triangles = [Array::new("a < b", "MPa", 1, vec![6.3, f64::MIN_POSITIVE])];
     let points = [Array::new("displacement", "mm", 2, DISPLACEMENT.to_vec())];
-    document(&[("scene", "fig1 <&>")], &POINTS, &TRIANGLES, &points, &of_triangles)
+    document(&[("scene", "fig1 <&>".into())], &POINTS, &TRIANGLES, &points, &of_triangles)
 }
 
 /// Returns the type, the components and the bytes of an array, as a reader finds them: the XML ends

@@ -78,13 +78,29 @@ const STATES: &str = "states(u) :=
   a
 ";
 
+const INTRODUCTION: &str = "A. M. Filipov, M. V. Khomenko: plane contact by the finite element method. The two listings \
+    of the paper as printed, c_cnt and Km, with the tables of one scene. ORIGIN is 1; 0/0 is an \
+    error; comparisons are exact. What the paper does not print is assumed: Ae, B and D of the \
+    three-node triangle, and the load of all iterations on the initial shape.\n\
+    Written by plane-contact, which executed the same listings: its results stand beside \
+    Mathcad's, with their difference. Nothing here was calculated by Mathcad yet.";
+
+const INTRODUCTION_RU: &str = "А. М. Филипов, М. В. Хоменко: решение плоской контактной задачи методом конечных элементов. \
+    Два листинга статьи как напечатаны, c_cnt и Km, с таблицами одной сцены. ORIGIN равен 1; \
+    0/0 — ошибка; сравнения точные. Чего в статье нет, то принято: Ae, B и D трёхузлового \
+    треугольника и вся нагрузка на начальной форме в каждой итерации.\n\
+    Записано программой plane-contact, которая исполнила те же листинги: её результаты стоят \
+    рядом с результатами Mathcad и разностью. Здесь Mathcad ещё ничего не вычислял.";
+
 /// Above so many equations our matrix does not stand beside Mathcad's.
 const SHOWN_EQUATIONS: usize = 60;
 
 /// Writes the worksheet of an export.
 pub fn worksheet(export: &Export) -> String {
     let mut page = Page::default();
-    introduction(&mut page, export);
+    page.heading(export.title);
+    page.text(INTRODUCTION);
+    page.text(INTRODUCTION_RU);
     scene_tables(&mut page, export.sheet, export.thickness);
     let node_n = Value::from(export.node_n);
     if export.node_n == &export.sheet.node {
@@ -94,7 +110,16 @@ pub fn worksheet(export: &Export) -> String {
     }
     elements(&mut page, export.sheet);
     page.heading("The paper's listings / Листинги статьи");
-    page.text(&readings(export));
+    let given = export.reading.to_string();
+    let given = if given.is_empty() { "all by default" } else { &given };
+    page.text(&format!(
+        "Readings: {given}. R1 where the weights' loop stands, R2 the restraint's index, R3 how Km adds \
+         linked nodes, R5 the shape of the weights are in the text below. R4, how a conjunction is \
+         evaluated, is Mathcad's own: line 18 of c_cnt reads yt below ORIGIN at the first node, before \
+         its own guard, unless a false operand decides.\n\
+         Прочтения: {given}. R4, порядок вычисления конъюнкции, решает сам Mathcad: строка 18 листинга \
+         c_cnt читает yt ниже ORIGIN у первого узла."
+    ));
     for which in Which::ALL {
         page.program(&which.under(export.reading));
     }
@@ -156,40 +181,6 @@ fn elements(page: &mut Page, sheet: &Worksheet<f64>) {
     page.heading("Elements (not printed in the paper) / Элементы (в статье не напечатаны)");
     page.program(&listing(AREAS)).program(&listing(GRADIENTS));
     page.program(&listing(elasticity(sheet.plane)));
-}
-
-fn introduction(page: &mut Page, export: &Export) {
-    page.heading(export.title);
-    page.text(
-        "A. M. Filipov, M. V. Khomenko: plane contact by the finite element method. The two listings \
-         of the paper as printed, c_cnt and Km, with the tables of one scene. ORIGIN is 1; 0/0 is an \
-         error; comparisons are exact. What the paper does not print is assumed: Ae, B and D of the \
-         three-node triangle, and the load of all iterations on the initial shape.\n\
-         Written by plane-contact, which executed the same listings: its results stand beside \
-         Mathcad's, with their difference. Nothing here was calculated by Mathcad yet.",
-    );
-    page.text(
-        "А. М. Филипов, М. В. Хоменко: решение плоской контактной задачи методом конечных элементов. \
-         Два листинга статьи как напечатаны, c_cnt и Km, с таблицами одной сцены. ORIGIN равен 1; \
-         0/0 — ошибка; сравнения точные. Чего в статье нет, то принято: Ae, B и D трёхузлового \
-         треугольника и вся нагрузка на начальной форме в каждой итерации.\n\
-         Записано программой plane-contact, которая исполнила те же листинги: её результаты стоят \
-         рядом с результатами Mathcad и разностью. Здесь Mathcad ещё ничего не вычислял.",
-    );
-}
-
-/// Says which readings the listings below have.
-fn readings(export: &Export) -> String {
-    let given = export.reading.to_string();
-    let given = if given.is_empty() { "all by default".to_string() } else { given };
-    format!(
-        "Readings: {given}. R1 where the weights' loop stands, R2 the restraint's index, R3 how Km adds \
-         linked nodes, R5 the shape of the weights are in the text below. R4, how a conjunction is \
-         evaluated, is Mathcad's own: line 18 of c_cnt reads yt below ORIGIN at the first node, before \
-         its own guard, unless a false operand decides.\n\
-         Прочтения: {given}. R4, порядок вычисления конъюнкции, решает сам Mathcad: строка 18 листинга \
-         c_cnt читает yt ниже ORIGIN у первого узла."
-    )
 }
 
 fn iterations(page: &mut Page, export: &Export, run: &Run) {

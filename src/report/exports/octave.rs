@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::{CorrectedExport, Export};
 use ::mathcad::syntax::{
-    Comparison, Expr, Kind, Operation, Operator, Range, Reference, Slot, Statement, Step,
+    Comparison, Expr, Kind, Operation, Operator, Range, Slot, Statement, Step,
 };
 use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
@@ -90,7 +90,7 @@ end
 
 /// Writes the program of an export.
 pub fn program(export: &Export) -> String {
-    let (globals, tables_text) = definitions(tables(export.sheet));
+    let globals = Globals::new(tables(export.sheet));
     let readings = match export.reading.to_string() {
         given if given.is_empty() => "all by default".into(),
         given => given,
@@ -104,53 +104,48 @@ pub fn program(export: &Export) -> String {
         text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
     }
     text += elasticity(export.sheet.plane);
-    text += &format!("{HELPERS}\n{}{tables_text}", globals.declaration());
+    text += &format!("{HELPERS}\n{}{}", globals.declaration(), globals.definitions);
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
-    let ours = export.run.as_ref().map(|run| &run.pairs);
-    for (name, ours) in [
-        ("ct", ours.map(|pairs| Value::from(&pairs.ct))),
-        ("yt", ours.map(|pairs| Value::from(&pairs.yt))),
-        ("dy", ours.map(|pairs| Value::from(&pairs.dy))),
-        ("k_cnt", ours.map(|pairs| Value::from(&pairs.k_cnt))),
-    ] {
-        text += &shown(name, ours);
+    match &export.run {
+        None => ["ct", "yt", "dy", "k_cnt"]
+            .iter()
+            .for_each(|name| text += &format!("  show('{name}', {name});\n")),
+        Some(run) => {
+            text += &beside("ct", Value::from(&run.pairs.ct));
+            text += &beside("yt", Value::from(&run.pairs.yt));
+            text += &beside("dy", Value::from(&run.pairs.dy));
+            text += &beside("k_cnt", Value::from(&run.pairs.k_cnt));
+        }
     }
     text += "  show('MJS', Km(k_cnt));\n";
     if let Some(run) = &export.run {
-        let force = Value::from(Array::column(run.force.clone()));
         text += &format!(
             "  F = {};\n  x = node;\n  for k = 1:{}\n    U = Km(c_cnt(x)) \\ F;\n    x = node;\n\
              \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n",
-            literal(&force),
+            literal(&Value::from(Array::column(run.force.clone()))),
             run.iterations
         );
-        text += &shown("U", Some(Value::from(Array::column(run.u.clone()))));
+        text += &beside("U", Value::from(Array::column(run.u.clone())));
     }
     text
 }
 
 /// Writes the program of the corrected algorithm.
 pub fn corrected(export: &CorrectedExport) -> String {
-    let of_scene = tables(export.sheet);
     let force = Value::from(Array::column(export.force.clone()));
-    let (globals, definitions) = definitions(
-        of_scene.into_iter().chain([("F", force), ("both", export.bound.both().into())]),
-    );
+    let more = [("F", force), ("both", export.bound.both().into())];
+    let globals = Globals::new(tables(export.sheet).into_iter().chain(more));
     let mut text = head(export.title, "The corrected algorithm of plane-contact.");
     for program in Program::ALL {
         text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
     }
     text += elasticity(export.sheet.plane);
-    text + SOLVER
-        + HELPERS
-        + &format!(
-            "\n{}{definitions}  U = iterate({});\n  U = U(1:{});\n{}",
-            globals.declaration(),
-            export.steps,
-            export.u.len(),
-            shown("U", Some(Value::from(Array::column(export.u.clone()))))
-        )
+    text += SOLVER;
+    text += HELPERS;
+    text += &format!("\n{}{}", globals.declaration(), globals.definitions);
+    text += &format!("  U = iterate({});\n  U = U(1:{});\n", export.steps, export.u.len());
+    text + &beside("U", Value::from(Array::column(export.u.clone())))
 }
 
 /// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
@@ -169,38 +164,35 @@ fn elasticity(plane: Plane) -> &'static str {
     }
 }
 
-/// Returns the names of a worksheet, and the statements that define them.
-fn definitions(tables: impl IntoIterator<Item = (&'static str, Value)>) -> (Globals, String) {
-    let (mut globals, mut text) = (Globals::default(), String::new());
-    for (table, value) in tables {
-        match &value {
-            Value::Number(_) => drop(globals.scalars.insert(table)),
-            Value::Nested(_) => drop(globals.nested.insert(table)),
-            Value::Array(_) | Value::Text(_) => {}
-        }
-        globals.names.insert(table);
-        text += &format!("  {} = {};\n", ascii(table), literal(&value));
-    }
-    (globals, text)
-}
-
 /// Writes the statement that prints a result by its name, and what this program has for it beside.
-fn shown(name: &str, ours: Option<Value>) -> String {
-    match ours {
-        Some(ours) => format!("  beside('{name}', {name}, {});\n", literal(&ours)),
-        None => format!("  show('{name}', {name});\n"),
-    }
+fn beside(name: &str, ours: Value) -> String {
+    format!("  beside('{name}', {name}, {});\n", literal(&ours))
 }
 
-/// The names of the worksheet, and what they stand for.
+/// The names of the worksheet, what they stand for, and the statements that define them.
 #[derive(Default)]
 struct Globals {
     names: BTreeSet<&'static str>,
     scalars: BTreeSet<&'static str>,
     nested: BTreeSet<&'static str>,
+    definitions: String,
 }
 
 impl Globals {
+    fn new(tables: impl IntoIterator<Item = (&'static str, Value)>) -> Self {
+        let mut globals = Globals::default();
+        for (table, value) in tables {
+            match &value {
+                Value::Number(_) => drop(globals.scalars.insert(table)),
+                Value::Nested(_) => drop(globals.nested.insert(table)),
+                Value::Array(_) | Value::Text(_) => {}
+            }
+            globals.names.insert(table);
+            globals.definitions += &format!("  {} = {};\n", ascii(table), literal(&value));
+        }
+        globals
+    }
+
     fn declaration(&self) -> String {
         let names: Vec<_> = self.names.iter().map(|name| ascii(name)).collect();
         format!("  global {}\n", names.join(" "))
@@ -328,8 +320,15 @@ impl Translator<'_> {
                 self.block(body, inner + 1, text);
             }
             Step::Assign { target, value, .. } => {
-                let value = self.expr(value);
-                put(inner, &format!("{} = {value};", self.target(target)));
+                let name = self.name(target.name);
+                let place = match (&target.row, &target.col) {
+                    (Some(row), Some(col)) => {
+                        format!("{name}({}, {})", self.expr(row), self.expr(col))
+                    }
+                    (Some(row), None) => format!("{name}({}, 1)", self.expr(row)),
+                    (None, _) => name,
+                };
+                put(inner, &format!("{place} = {};", self.expr(value)));
             }
             Step::Evaluate { value, .. } => put(inner, &format!("value = {};", self.expr(value))),
             Step::Return { value, .. } => {
@@ -347,32 +346,23 @@ impl Translator<'_> {
         }
     }
 
-    fn target(&self, target: &Reference) -> String {
-        let name = self.name(target.name);
-        match (&target.row, &target.col) {
-            (Some(row), Some(col)) => format!("{name}({}, {})", self.expr(row), self.expr(col)),
-            (Some(row), None) => format!("{name}({}, 1)", self.expr(row)),
-            _ => name,
-        }
-    }
-
     fn expr(&self, expr: &Expr) -> String {
         match &expr.kind {
             Kind::Number(x) => number(*x),
             Kind::Read(reference) => {
                 let name = self.name(reference.name);
-                let subscripts: Vec<_> = reference.subscripts().map(|x| self.expr(x)).collect();
+                let subscripts = self.list(reference.subscripts());
                 let nested = self.globals.nested.contains(self.listing.names.name(reference.name));
-                match (subscripts.is_empty(), nested) {
-                    (true, _) => name,
-                    (false, true) => format!("{name}{{{}}}", subscripts.join(", ")),
-                    (false, false) => format!("{name}({})", subscripts.join(", ")),
+                match (reference.row.is_some(), nested) {
+                    (false, _) => name,
+                    (true, true) => format!("{name}{{{subscripts}}}"),
+                    (true, false) => format!("{name}({subscripts})"),
                 }
             }
             Kind::Group(x) => format!("({})", self.expr(x)),
             Kind::Array { entries, cols } => {
-                let row = |row: &[Expr]| self.list(row);
-                format!("[{}]", entries.chunks(*cols).map(row).collect::<Vec<_>>().join("; "))
+                let rows: Vec<_> = entries.chunks(*cols).map(|row| self.list(row)).collect();
+                format!("[{}]", rows.join("; "))
             }
             Kind::Magnitude(x) if self.is_scalar(x) => format!("abs({})", self.expr(x)),
             Kind::Magnitude(x) => format!("norm({})", self.expr(x)),
@@ -403,7 +393,19 @@ impl Translator<'_> {
                 };
                 format!("{} {sign} {}", self.expr(x), self.expr(y))
             }
-            Kind::All(operands) => self.all(operands),
+            Kind::All(operands) => {
+                let mut operands: Vec<&Expr> = operands.iter().collect();
+                if self.conjunction == Conjunction::Guarded {
+                    operands.sort_by_key(|x| self.can_fail(x));
+                }
+                match self.conjunction {
+                    Conjunction::Eager => format!("all([{}])", self.list(operands)),
+                    Conjunction::Guarded | Conjunction::LeftToRight => {
+                        let operands = operands.into_iter().map(|x| self.expr(x));
+                        operands.collect::<Vec<_>>().join(" && ")
+                    }
+                }
+            }
             Kind::Call(name, arguments) => {
                 format!("{}({})", self.name(*name), self.list(arguments))
             }
@@ -411,21 +413,8 @@ impl Translator<'_> {
         }
     }
 
-    fn list(&self, exprs: &[Expr]) -> String {
-        exprs.iter().map(|x| self.expr(x)).collect::<Vec<_>>().join(", ")
-    }
-
-    fn all(&self, operands: &[Expr]) -> String {
-        let mut operands: Vec<&Expr> = operands.iter().collect();
-        match self.conjunction {
-            Conjunction::Guarded => operands.sort_by_key(|x| self.can_fail(x)),
-            Conjunction::LeftToRight | Conjunction::Eager => (),
-        }
-        let text: Vec<_> = operands.into_iter().map(|x| self.expr(x)).collect();
-        match self.conjunction {
-            Conjunction::Eager => format!("all([{}])", text.join(", ")),
-            Conjunction::Guarded | Conjunction::LeftToRight => text.join(" && "),
-        }
+    fn list<'a>(&self, exprs: impl IntoIterator<Item = &'a Expr>) -> String {
+        exprs.into_iter().map(|x| self.expr(x)).collect::<Vec<_>>().join(", ")
     }
 
     /// Returns whether an expression has subscripts or divides.

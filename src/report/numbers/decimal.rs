@@ -8,9 +8,6 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// The number 1.
-    pub const ONE: Self = Self { digits: 1, place: 0 };
-
     /// Returns the round number (1, 2 or 5 times a power of ten) nearest to `x` > 0 as a ratio.
     pub fn nearest_round(x: f64) -> Self {
         Self::round(x, [2.0, 10.0, 50.0].map(f64::sqrt))

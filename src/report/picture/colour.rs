@@ -60,10 +60,8 @@ impl ColourScale {
 
     /// Writes quantity and unit over the bar, with the power of ten that its numbers leave out.
     pub fn heading(&self, quantity: &str, unit: &str) -> String {
-        let power = match self.exponent() {
-            0 => String::new(),
-            exponent => power_of_ten(exponent),
-        };
+        let exponent = self.exponent();
+        let power = if exponent == 0 { String::new() } else { power_of_ten(exponent) };
         let unit = match unit {
             "" => "unit of the scene",
             "1" => "",
@@ -83,28 +81,30 @@ impl ColourScale {
     }
 
     /// Draws the bar with its ticks, `width` pixels wide, from its upper left corner.
-    pub fn bar(&self, corner: Pixel, width: f64) -> Element {
-        let strip = |step: u32| {
+    pub fn bar(&self, [x, y]: Pixel, width: f64) -> Element {
+        let mut bar = group();
+        for step in 0..BAR_STEPS {
             let start = f64::from(step) / f64::from(BAR_STEPS);
             let middle = start + 0.5 / f64::from(BAR_STEPS);
-            let colour = shade(if self.is_uniform() { 0.5 } else { middle });
             // Each strip reaches under the next: no seam between them.
             let reach = (2.0 / f64::from(BAR_STEPS)).min(1.0 - start);
-            rect([corner[0] + start * width, corner[1]], [reach * width, BAR_HEIGHT]).fill(&colour)
-        };
-        let ticks = self.ticks().into_iter();
-        let ticks = ticks.map(|(fraction, label)| tick(corner, fraction * width, &label));
-        group().with_all((0..BAR_STEPS).map(strip)).with_all(ticks)
-    }
-
-    /// Returns where the ticks stand along the bar (0 to 1), and what they say.
-    pub fn ticks(&self) -> Vec<(f64, String)> {
-        let [low, high] = [self.low, self.high].map(|value| shifted(value, -self.exponent()));
-        if self.is_uniform() {
-            return vec![(0.5, significant(high, 4))];
+            let strip = rect([x + start * width, y], [reach * width, BAR_HEIGHT]);
+            bar.push(strip.fill(&shade(if self.is_uniform() { 0.5 } else { middle })));
         }
-        let place = |(value, label)| ((value - low) / (high - low), label);
-        ticks(low, high).into_iter().map(place).collect()
+        let [low, high] = [self.low, self.high].map(|value| shifted(value, -self.exponent()));
+        let ticks = match self.is_uniform() {
+            true => vec![(0.5, significant(high, 4))],
+            false => ticks(low, high)
+                .into_iter()
+                .map(|(value, label)| ((value - low) / (high - low), label))
+                .collect(),
+        };
+        for (part, label) in ticks {
+            let [x, y] = [x + part * width, y + BAR_HEIGHT];
+            let mark = line([x, y - 5.0], [x, y + 5.0]).stroke(DARK, 1.0);
+            bar.push(group().with(mark).with(text([x, y + 20.0], Anchor::Middle, &label)));
+        }
+        bar
     }
 
     /// Returns the power of ten that the bar's numbers leave out.
@@ -131,12 +131,6 @@ pub fn parts(count: u8) -> Vec<[u8; 3]> {
 /// Writes a number with its unit, which may be `""` or `"1"`: then the number alone.
 pub fn with_unit(number: &str, unit: &str) -> String {
     numbers::with_unit(number, if unit == "1" { "" } else { unit })
-}
-
-fn tick(corner: Pixel, along: f64, label: &str) -> Element {
-    let [x, y] = [corner[0] + along, corner[1] + BAR_HEIGHT];
-    let mark = line([x, y - 5.0], [x, y + 5.0]).stroke(DARK, 1.0);
-    group().with(mark).with(text([x, y + 20.0], Anchor::Middle, label))
 }
 
 fn shade(fraction: f64) -> String {

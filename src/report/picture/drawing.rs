@@ -54,7 +54,14 @@ impl Drawing {
     /// Collects what the pictures of a scene need.
     pub fn new(scene: &Scene, title: &str) -> Self {
         let model = &*scene.model;
-        let (region, region_names) = regions(model);
+        let target = model.target().unwrap_or(&model.bodies[0]);
+        let others = model.bodies.iter().filter(|body| body.name != target.name);
+        let mut region = vec![0; model.triangles.len()];
+        let mut region_names = Vec::new();
+        for (k, body) in std::iter::once(target).chain(others).enumerate() {
+            region_names.push(body.name.clone());
+            body.triangles.iter().for_each(|id| region[id.index()] = k);
+        }
         Drawing {
             title: title.into(),
             points: points(model),
@@ -76,23 +83,19 @@ impl Drawing {
     }
 }
 
-/// Returns the region of each triangle, 0 in the target and then body by body, and their names.
-fn regions(model: &Model) -> (Vec<usize>, Vec<String>) {
-    let target = model.target().unwrap_or(&model.bodies[0]);
-    let others = model.bodies.iter().filter(|body| body.name != target.name);
-    let mut region = vec![0; model.triangles.len()];
-    let mut names = Vec::new();
-    for (k, body) in std::iter::once(target).chain(others).enumerate() {
-        names.push(body.name.clone());
-        body.triangles.iter().for_each(|id| region[id.index()] = k);
-    }
-    (region, names)
-}
-
 /// Returns the points that are drawn: a dropped node, of which nothing is, stands at another one.
 pub fn points(model: &Model) -> Vec<[f64; 2]> {
     let mut points = model.nodes.clone();
     let other = model.triangles[0].nodes[0];
     model.dropped.iter().for_each(|n| points[n.index()] = model.coordinates(other));
     points
+}
+
+/// Returns the edges that belong to one triangle only, rims of holes too, as indices of points.
+pub fn boundary_edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
+    let ring = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let mut edges: Vec<_> =
+        triangles.iter().flat_map(ring).map(|[from, to]| [from.min(to), from.max(to)]).collect();
+    edges.sort_unstable();
+    edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).map(|same| same[0]).collect()
 }

@@ -4,8 +4,7 @@
 //! |---------------|----------------------------------------------------|
 //! | `drawing`     | what the pictures of a mesh draw on                |
 //! | `bodies`      | what the mesh's panels and legend show             |
-//! | `fields`      | what a field's panels and captions show            |
-//! | `deformation` | the deformed mesh and its outline                  |
+//! | `fields`      | a field on the deformed mesh                       |
 //! | `chart`       | curves over one axis                               |
 //! | `page`        | layout: title, panels, legend, captions            |
 //! | `colour`      | values to colours, and the colour bar              |
@@ -17,7 +16,6 @@
 mod bodies;
 mod chart;
 pub mod colour;
-pub mod deformation;
 mod drawing;
 mod fields;
 pub mod page;
@@ -27,12 +25,11 @@ pub mod svg;
 pub mod view;
 
 pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
-pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, points};
+pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, boundary_edges, points};
+pub use self::fields::field;
 
 use self::bodies::{draw_bodies, legend};
 use self::colour::{ColourScale, SHADES, parts};
-use self::deformation::boundary_edges;
-use self::fields::FieldPicture;
 use self::page::Page;
 use self::raster::Raster;
 use self::svg::{Anchor, Coloured, DARK, group, segments, text};
@@ -51,12 +48,11 @@ pub fn mesh(drawing: &Drawing) -> String {
     let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
     put_panels(&mut page, drawing, &drawing.points, |view| {
         let bodies = draw_bodies(drawing, &outline, view);
-        match drawing.points.len() <= search::MOST_NODES {
-            true => group()
-                .with(bodies)
-                .with(search::numbers(&drawing.triangles, &view.all(&drawing.points))),
-            false => bodies,
+        if drawing.points.len() > search::MOST_NODES {
+            return bodies;
         }
+        let numbers = search::numbers(&drawing.triangles, &view.all(&drawing.points));
+        group().with(bodies).with(numbers)
     });
     page.legend(&legend(drawing));
     if let (Some(search), Some(contact)) = (&drawing.search, &drawing.contact) {
@@ -65,21 +61,6 @@ pub fn mesh(drawing: &Drawing) -> String {
     if drawing.is_fine() {
         page.paragraph(raster::CAPTION);
     }
-    page.finish()
-}
-
-/// Draws a field on the deformed mesh, one flat colour per triangle.
-///
-/// # Panics
-///
-/// If there is not one value per triangle and one displacement per point, all finite.
-pub fn field(drawing: &Drawing, field: &Field) -> String {
-    check(drawing, field);
-    let picture = FieldPicture::new(drawing, field);
-    let mut page = Page::new(&format!("{}: {}", drawing.title, field.quantity));
-    put_panels(&mut page, drawing, &picture.deformed, |view| picture.draw(view));
-    page.colour_bar(&picture.scale, field.quantity, field.unit);
-    picture.captions().iter().for_each(|words| page.paragraph(words));
     page.finish()
 }
 
@@ -144,14 +125,4 @@ fn put_panels(
     });
     let zone = zone.filter(|zone| zone.larger_side() < ENLARGED_UP_TO * whole.larger_side());
     page.panels(&whole, zone.as_ref(), &drawing.length_unit, draw);
-}
-
-fn check(drawing: &Drawing, field: &Field) {
-    assert_eq!(field.values.len(), drawing.triangles.len(), "one value per triangle");
-    assert_eq!(field.displacement.len(), drawing.points.len(), "one displacement per point");
-    let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
-    assert!(
-        finite(field.values) && finite(field.displacement.as_flattened()),
-        "a picture needs finite numbers"
-    );
 }

@@ -2,10 +2,10 @@
 
 use super::colour::{ColourScale, with_unit};
 use super::svg::{
-    Anchor, Coloured, DARK, Pixel, TEXT_SIZE, TITLE_SIZE, circle, clip, document, group, line,
-    rect, text, title,
+    Anchor, Coloured, DARK, TEXT_SIZE, TITLE_SIZE, circle, clip, document, group, line, rect, text,
+    text_of_size,
 };
-use super::view::{Bounds, Frame, View, with_ratio};
+use super::view::{Bounds, Frame, View};
 use crate::numbers::{Decimal, significant};
 use base::xml::Element;
 
@@ -58,7 +58,8 @@ impl Page {
             Self { width: WIDTH, foot: MARGIN / 2.0, y: MARGIN - 10.0, ..Page::small(words) };
         for words in wrap(words, TITLE_SIZE, page.inner()) {
             page.y += TITLE_SIZE * 1.3;
-            page.put(title([MARGIN, page.y - 6.0], &words));
+            let title = text_of_size(TITLE_SIZE, [MARGIN, page.y - 6.0], &words);
+            page.put(title.set("font-weight", "bold"));
         }
         page.y += 10.0;
         page
@@ -83,8 +84,8 @@ impl Page {
         self.y += 3.0;
     }
 
-    /// Puts the whole, and beside it the contact zone where that is enlarged; `draw` fills a panel,
-    /// and `unit` is that of lengths.
+    /// Puts the whole, and beside it the contact zone where that is enlarged, grown to the shape of its panel;
+    /// `draw` fills a panel, and `unit` is that of lengths.
     pub fn panels(
         &mut self,
         whole: &Bounds,
@@ -92,18 +93,54 @@ impl Page {
         unit: &str,
         draw: impl Fn(&View) -> Element,
     ) {
-        let views = self.views(whole, zone);
-        if let [whole, enlarged] = views.as_slice() {
-            self.panel_headings(whole, enlarged);
-        }
-        for view in &views {
-            self.panel(view, draw(view));
-            self.put(scale_bar(view, unit));
-        }
-        if let [whole, enlarged] = views.as_slice() {
-            self.put(window(whole, enlarged));
-        }
-        self.y = views[0].frame.corner[1] + views[0].frame.size[1] + 44.0;
+        let (top, inner, [width, height]) = (self.y, self.inner(), whole.size());
+        let frame = |x: f64, y: f64, size: [f64; 2]| Frame { corner: [MARGIN + x, top + y], size };
+        let Some(zone) = zone else {
+            let scale = (inner / width).min(PANEL_HEIGHT[1] / height);
+            let size = [width * scale, height * scale];
+            let view = View::new(whole, frame((inner - size[0]) / 2.0, 6.0, size), false);
+            self.put(draw(&view));
+            return self.scale_bar(&view, unit);
+        };
+        let panel = (inner - GAP) / 2.0;
+        let size = [panel, (panel * (height / width)).clamp(PANEL_HEIGHT[0], PANEL_HEIGHT[1])];
+        let right = frame(panel + GAP, 30.0, size);
+        let whole = View::new(whole, frame(0.0, 30.0, size), false);
+        let enlarged = View::new(&with_ratio(zone, size[0] / size[1]), right, true);
+        let times = enlarged.scale / whole.scale;
+        let words = format!("b: contact zone, enlarged {times:.1} times (the frame in a)");
+        self.put(text([whole.frame.corner[0], top + 18.0], Anchor::Start, "a: the whole"));
+        self.put(text([right.corner[0], top + 18.0], Anchor::Start, &words));
+        self.put(draw(&whole));
+        self.scale_bar(&whole, unit);
+        // The enlargement is cut at the panel's edge and has a frame. The title keeps names apart where several
+        // pictures stand in one web page.
+        let id = format!("clip-{}", self.title.replace(|c: char| !c.is_alphanumeric(), "-"));
+        self.put(clip(&id, right.corner, size));
+        self.put(group().set("clip-path", format!("url(#{id})")).with(draw(&enlarged)));
+        self.put(rect(right.corner, size).fill("none").stroke(DARK, 1.5));
+        self.scale_bar(&enlarged, unit);
+        // The frame in the whole; white under its line stands out from any colour.
+        let ratio = whole.scale / enlarged.scale;
+        let size = size.map(|side| side * ratio);
+        let centre = whole.pixel(enlarged.centre);
+        let corner = [0, 1].map(|axis| centre[axis] - size[axis] / 2.0);
+        let line = |colour, width| rect(corner, size).fill("none").stroke(colour, width);
+        self.put(group().with(line("#ffffff", 3.5)).with(line(DARK, 1.5)));
+    }
+
+    /// Puts a bar of round length under a panel's lower left corner; the next part begins below it.
+    fn scale_bar(&mut self, view: &View, unit: &str) {
+        let Frame { corner: [x, top], size } = view.frame;
+        let length = Decimal::round_at_most(size[0].max(SCALE_BAR) / 4.0 / view.scale).value();
+        let (y, end) = (top + size[1] + 20.0, x + length * view.scale);
+        let upright = |x: f64| line([x, y - 4.0], [x, y + 4.0]);
+        let bar = group().stroke(DARK, 1.5).with(line([x, y], [end, y]));
+        let unit = if unit.is_empty() { "(unit of the scene)" } else { unit };
+        let words = with_unit(&significant(length, 1), unit);
+        let words = text([end + 8.0, y + 5.0], Anchor::Start, &words);
+        self.put(group().with(bar.with(upright(x)).with(upright(end))).with(words));
+        self.y = top + size[1] + 44.0;
     }
 
     /// Draws the colours of a quantity with their values.
@@ -128,7 +165,15 @@ impl Page {
                 x = MARGIN;
                 self.y += 24.0;
             }
-            self.put(draw_sign(sign, [x, self.y + 9.0]));
+            let y = self.y + 9.0;
+            self.put(match sign {
+                Sign::Body(colour) => {
+                    rect([x, y - 7.0], [22.0, 14.0]).fill(colour).stroke(DARK, 0.5)
+                }
+                Sign::Node(colour) => circle([x + 11.0, y], 3.5).fill(colour),
+                Sign::Ring(colour) => circle([x + 11.0, y], 6.0).fill("none").stroke(colour, 1.5),
+                Sign::Edge(colour) => line([x, y], [x + 22.0, y]).stroke(colour, 3.0),
+            });
             self.put(text([x + 30.0, self.y + 14.0], Anchor::Start, words));
             x += width + GAP;
         }
@@ -145,97 +190,26 @@ impl Page {
         self.content.push(element);
     }
 
-    /// Returns the views of the whole and, where there is a contact zone, of that zone grown to the
-    /// shape of its panel.
-    pub fn views(&self, whole: &Bounds, zone: Option<&Bounds>) -> Vec<View> {
-        let [width, height] = whole.size();
-        let frame =
-            |x: f64, y: f64, size: [f64; 2]| Frame { corner: [MARGIN + x, self.y + y], size };
-        let Some(zone) = zone else {
-            let scale = (self.inner() / width).min(PANEL_HEIGHT[1] / height);
-            let size = [width * scale, height * scale];
-            return vec![View::whole(whole, frame((self.inner() - size[0]) / 2.0, 6.0, size))];
-        };
-        let panel = (self.inner() - GAP) / 2.0;
-        let size = [panel, (panel * (height / width)).clamp(PANEL_HEIGHT[0], PANEL_HEIGHT[1])];
-        let right = frame(panel + GAP, 30.0, size);
-        vec![
-            View::whole(whole, frame(0.0, 30.0, size)),
-            View::enlarged(&with_ratio(zone, size[0] / size[1]), right),
-        ]
-    }
-
     /// Returns the views of a whole that stands `count` times side by side, under a line of words.
     pub fn repeated(&self, whole: &Bounds, count: usize) -> Vec<View> {
         let width = (self.inner() - GAP * (count - 1) as f64) / count as f64;
         let [across, high] = whole.size();
         let size = [width, (width * high / across).min(width)];
         let corner = |k: usize| [MARGIN + (width + GAP) * k as f64, self.y + 24.0];
-        (0..count).map(|k| View::whole(whole, Frame { corner: corner(k), size })).collect()
-    }
-
-    fn panel_headings(&mut self, whole: &View, enlarged: &View) {
-        let times = enlarged.scale / whole.scale;
-        let right = format!("b: contact zone, enlarged {times:.1} times (the frame in a)");
-        for (view, words) in [(whole, "a: the whole"), (enlarged, right.as_str())] {
-            self.put(text([view.frame.corner[0], self.y + 18.0], Anchor::Start, words));
-        }
-    }
-
-    /// Puts what is drawn; an enlargement is cut at the panel's edge and has a frame.
-    fn panel(&mut self, view: &View, drawn: Element) {
-        let Frame { corner, size } = view.frame;
-        if !view.enlarged {
-            self.put(drawn);
-            return;
-        }
-        // The title keeps names apart where several pictures stand in one web page.
-        let id = format!("clip-{}", self.title.replace(|c: char| !c.is_alphanumeric(), "-"));
-        self.put(clip(&id, corner, size));
-        self.put(group().set("clip-path", format!("url(#{id})")).with(drawn));
-        self.put(rect(corner, size).fill("none").stroke(DARK, 1.5));
+        (0..count).map(|k| View::new(whole, Frame { corner: corner(k), size }, false)).collect()
     }
 }
 
-/// Draws the frame in the whole that shows where the enlargement is.
-fn window(whole: &View, enlarged: &View) -> Element {
-    let ratio = whole.scale / enlarged.scale;
-    let size = enlarged.frame.size.map(|side| side * ratio);
-    let centre = whole.pixel(enlarged.centre);
-    let corner = [0, 1].map(|axis| centre[axis] - size[axis] / 2.0);
-    let line = |colour, width| rect(corner, size).fill("none").stroke(colour, width);
-    // White under the line: it stands out from any colour.
-    group().with(line("#ffffff", 3.5)).with(line(DARK, 1.5))
-}
-
-/// Draws a bar of round length under the panel's lower left corner.
-fn scale_bar(view: &View, unit: &str) -> Element {
-    let Frame { corner, size } = view.frame;
-    let length = Decimal::round_at_most(size[0].max(SCALE_BAR) / 4.0 / view.scale).value();
-    let [x, y] = [corner[0], corner[1] + size[1] + 20.0];
-    let end = x + length * view.scale;
-    let upright = |x: f64| line([x, y - 4.0], [x, y + 4.0]);
-    let bar = group().stroke(DARK, 1.5).with(line([x, y], [end, y]));
-    let unit = if unit.is_empty() { "(unit of the scene)" } else { unit };
-    let words = with_unit(&significant(length, 1), unit);
-    let words = text([end + 8.0, y + 5.0], Anchor::Start, &words);
-    group().with(bar.with(upright(x)).with(upright(end))).with(words)
-}
-
-/// Draws a sign of the legend; `at` is the left end of its middle line.
-fn draw_sign(sign: &Sign, at: Pixel) -> Element {
-    match sign {
-        Sign::Body(colour) => {
-            rect([at[0], at[1] - 7.0], [22.0, 14.0]).fill(colour).stroke(DARK, 0.5)
-        }
-        Sign::Node(colour) => circle([at[0] + 11.0, at[1]], 3.5).fill(colour),
-        Sign::Ring(colour) => circle([at[0] + 11.0, at[1]], 6.0).fill("none").stroke(colour, 1.5),
-        Sign::Edge(colour) => line(at, [at[0] + 22.0, at[1]]).stroke(colour, 3.0),
-    }
+/// Returns a box grown about its centre until width : height is `ratio`.
+fn with_ratio(bounds: &Bounds, ratio: f64) -> Bounds {
+    let ([width, height], centre) = (bounds.size(), bounds.centre());
+    let size = [width.max(height * ratio), height.max(width / ratio)];
+    let side = |sign: f64| [0, 1].map(|axis| centre[axis] + sign * (size[axis] / 2.0));
+    Bounds { low: side(-1.0), high: side(1.0) }
 }
 
 /// Breaks text at spaces into lines that fit.
-pub fn wrap(words: &str, size: f64, width: f64) -> Vec<String> {
+fn wrap(words: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split(' ') {
         match lines.last_mut() {

@@ -1,7 +1,5 @@
 //! The shapes of SVG that the pictures use, as XML elements. Lengths are in pixels, y downwards.
 
-use std::fmt::Write;
-
 use base::xml::Element;
 
 /// The fonts to look for, in this order.
@@ -83,8 +81,8 @@ pub fn polygon(corners: &[Pixel]) -> Element {
 }
 
 /// Makes one element of many lines, each a run of points.
-pub fn path<'a>(lines: impl IntoIterator<Item = &'a [Pixel]>) -> Element {
-    let runs = lines.into_iter().map(|line| format!("M{}", places(line)));
+pub fn path(lines: impl IntoIterator<Item = impl AsRef<[Pixel]>>) -> Element {
+    let runs = lines.into_iter().map(|line| format!("M{}", places(line.as_ref())));
     Element::new("path").set("d", runs.collect::<String>()).set("fill", "none")
 }
 
@@ -96,8 +94,7 @@ pub fn polygons<const N: usize>(rings: impl IntoIterator<Item = [Pixel; N]>) -> 
 
 /// Makes straight lines with round ends, each between two of `points`.
 pub fn segments(ends: &[[usize; 2]], points: &[Pixel]) -> Element {
-    let lines: Vec<_> = ends.iter().map(|ends| ends.map(|end| points[end])).collect();
-    path(lines.iter().map(<[Pixel; 2]>::as_slice)).set("stroke-linecap", "round")
+    path(ends.iter().map(|ends| ends.map(|end| points[end]))).set("stroke-linecap", "round")
 }
 
 /// Makes a line of text; `at` is on its base line.
@@ -110,12 +107,8 @@ pub fn text(at: Pixel, anchor: Anchor, words: &str) -> Element {
     }
 }
 
-/// Makes a line of the title; `at` is the left end of its base line.
-pub fn title(at: Pixel, words: &str) -> Element {
-    text_of_size(TITLE_SIZE, at, words).set("font-weight", "bold")
-}
-
-fn text_of_size(size: f64, [x, y]: Pixel, words: &str) -> Element {
+/// Makes a line of text from its left end.
+pub fn text_of_size(size: f64, [x, y]: Pixel, words: &str) -> Element {
     let element = Element::with_text("text", words).set("x", number(x)).set("y", number(y));
     element.set("font-size", number(size))
 }
@@ -147,30 +140,13 @@ impl Coloured for Element {
 
 /// Writes a length with at most two decimals, without trailing zeros and never as `-0`.
 fn number(x: f64) -> String {
-    let mut text = String::new();
-    push_number(&mut text, x);
-    text
-}
-
-fn push_number(text: &mut String, x: f64) {
-    let start = text.len();
-    write!(text, "{x:.2}").expect("a string takes what is written");
-    text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
-    if &text[start..] == "-0" {
-        text.replace_range(start.., "0");
-    }
+    let text = format!("{x:.2}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" { "0".into() } else { short.into() }
 }
 
 /// Writes points with a space between two.
 fn places(points: &[Pixel]) -> String {
-    let mut text = String::new();
-    for (i, [x, y]) in points.iter().enumerate() {
-        if i > 0 {
-            text.push(' ');
-        }
-        push_number(&mut text, *x);
-        text.push(',');
-        push_number(&mut text, *y);
-    }
-    text
+    let places = points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y)));
+    places.collect::<Vec<_>>().join(" ")
 }

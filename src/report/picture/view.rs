@@ -3,17 +3,6 @@
 use super::svg::Pixel;
 pub use problem::model::Bounds;
 
-/// Returns a box grown about its centre until width : height is `ratio`.
-pub fn with_ratio(bounds: &Bounds, ratio: f64) -> Bounds {
-    let [width, height] = bounds.size();
-    let size = [width.max(height * ratio), height.max(width / ratio)];
-    let centre = bounds.centre();
-    Bounds {
-        low: [0, 1].map(|axis| centre[axis] - size[axis] / 2.0),
-        high: [0, 1].map(|axis| centre[axis] + size[axis] / 2.0),
-    }
-}
-
 /// A rectangle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -37,16 +26,11 @@ pub struct View {
 }
 
 impl View {
-    /// The view of the whole mesh.
-    pub fn whole(bounds: &Bounds, frame: Frame) -> Self {
+    /// Returns the view of the whole mesh, or of a part of it that is `enlarged`.
+    pub fn new(bounds: &Bounds, frame: Frame, enlarged: bool) -> Self {
         let size = bounds.size();
         let scale = (frame.size[0] / size[0]).min(frame.size[1] / size[1]);
-        Self { frame, scale, enlarged: false, centre: bounds.centre() }
-    }
-
-    /// The view of a part of the mesh, larger.
-    pub fn enlarged(bounds: &Bounds, frame: Frame) -> Self {
-        Self { enlarged: true, ..Self::whole(bounds, frame) }
+        Self { frame, scale, enlarged, centre: bounds.centre() }
     }
 
     /// Returns where a point of the mesh is drawn.

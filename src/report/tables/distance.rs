@@ -3,7 +3,6 @@
 use crate::model::{Cell, Report, Table};
 use crate::numbers::{Digits, figure, percent, quantity, reason};
 use crate::pressure;
-use engine::error::Error;
 use engine::{Assessment, Solution, SolutionDistance};
 
 /// Reports the distance of a run from the reference solution and from the equilibrium under the
@@ -14,22 +13,23 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> Report {
         ("reference solution", &assessment.reference),
         ("equilibrium under the scene's own friction and geometry", &assessment.equilibrium),
     ];
-    let known = others.iter().filter_map(|(what, other)| Some((what, other.as_ref()?)));
-    known.fold(Report::default(), |report, (what, other)| {
-        report.then(distance_from(solution, what, other, error))
-    })
+    let mut report = Report::default();
+    for (what, other) in others {
+        report = match other {
+            None => report,
+            Some(Err(why)) => report.heading(format!("No {what} to compare with: {why}")),
+            Some(Ok(measured)) => report.then(distance_from(solution, what, measured, error)),
+        };
+    }
+    report
 }
 
 fn distance_from(
     solution: &Solution,
     what: &str,
-    other: &Result<SolutionDistance, Error>,
+    measured: &SolutionDistance,
     error: Option<f64>,
 ) -> Report {
-    let measured = match other {
-        Err(why) => return Report::default().heading(format!("No {what} to compare with: {why}")),
-        Ok(measured) => measured,
-    };
     let units = &solution.request.scene.units;
     let (distance, reference) = (&measured.distance, &measured.reference);
     let title = format!(

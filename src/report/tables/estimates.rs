@@ -3,9 +3,7 @@
 use crate::layout::{counted, first_line};
 use crate::model::Report;
 use crate::numbers::{or_dash, percent, six_digits, with_unit};
-use engine::estimates::{
-    BodyEstimates, Certainty, ContactChange, ErrorEstimates, NoLimit, Perturbed,
-};
+use engine::estimates::{BodyEstimates, Certainty, ContactChange, NoLimit, Perturbed};
 use engine::{Assessment, Decision, Solution, locking_of};
 use problem::modelling::Variant;
 use problem::scene::Units;
@@ -37,30 +35,35 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
     let errors = &estimates.errors;
     let units = &solution.request.scene.units;
     let is_bounded = solution.request.variant != Variant::Unilateral;
+    let mesh = match errors.mesh_energy_relative {
+        Some(relative) => format!(
+            "{} in the energy norm, {UNDERESTIMATE}; trade --only mesh measures that of one displacement or stress",
+            percent(relative)
+        ),
+        None => {
+            let why = locking_of(&solution.model);
+            format!("unknown: {}", why.unwrap_or("a body is too small for an estimate".into()))
+        }
+    };
+    let displacement = match errors.displacement_no_limit {
+        Some((node, cause)) => {
+            Some(format!("in the plane it diverges under refinement: at node {node}, {cause}"))
+        }
+        None => moved_by_rounding(errors.displacement_arithmetic, &units.length, is_bounded),
+    };
     let rounding = match is_bounded {
         true => by_rounding(solution, errors.decided_by_rounding.as_deref()).into_iter().collect(),
         false => assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed),
     };
     Report::default()
         .heading("Error estimates")
-        .note(error_of_mesh(solution, errors))
-        .notes(displacement(errors, units, is_bounded))
+        .note(format!("error of the mesh: {mesh}"))
+        .notes(displacement.map(|value| format!("largest |u|: {value}")))
         .notes(errors.bodies.iter().filter_map(|body| stress(body, units, is_bounded)))
         .notes(rounding)
 }
 
-/// Says what there is to say of the largest displacement: that it diverges, or what rounding does to it.
-fn displacement(errors: &ErrorEstimates, units: &Units, is_bounded: bool) -> Option<String> {
-    let value = match errors.displacement_no_limit {
-        Some((node, cause)) => {
-            format!("in the plane it diverges under refinement: at node {node}, {cause}")
-        }
-        None => moved_by_rounding(errors.displacement_arithmetic, &units.length, is_bounded)?,
-    };
-    Some(format!("largest |u|: {value}"))
-}
-
-/// Says the same of a body's largest stress.
+/// Says what there is to say of a body's largest stress: that it diverges, or what rounding does to it.
 fn stress(body: &BodyEstimates, units: &Units, is_bounded: bool) -> Option<String> {
     let rounding = moved_by_rounding(body.arithmetic, &units.stress, is_bounded);
     let value = match &body.no_limit {
@@ -85,20 +88,6 @@ fn moved_by_rounding(by: Option<f64>, unit: &str, is_bounded: bool) -> Option<St
         }
         None => "what rounding does to it is not known".into(),
     })
-}
-
-/// Says the error of the mesh in the energy norm, and what measures that of one number.
-fn error_of_mesh(solution: &Solution, errors: &ErrorEstimates) -> String {
-    let Some(relative) = errors.mesh_energy_relative else {
-        let why =
-            locking_of(&solution.model).unwrap_or("a body is too small for an estimate".into());
-        return format!("error of the mesh: unknown: {why}");
-    };
-    format!(
-        "error of the mesh: {} in the energy norm, {UNDERESTIMATE}; trade --only mesh measures that of one \
-         displacement or stress",
-        percent(relative)
-    )
 }
 
 /// Says what rounding may have decided: the first decision, and how many there are.
@@ -130,19 +119,21 @@ pub fn perturbed(found: &Perturbed) -> Vec<String> {
         ),
     };
     let part = |x: &Option<f64>| x.map_or("unknown".into(), |x| format!("{x:.0e}"));
-    let ended = (failures.len() as u64) < *runs;
-    let changes = ended.then(|| {
-        let (u, stress) = (part(displacement), part(stress));
+    let inputs = format!("rounding: inputs changed in the last digit ({runs} runs)");
+    let mut lines = Vec::new();
+    if (failures.len() as u64) < *runs {
         let steps = match other_steps {
             0 => String::new(),
             n => format!("; {n} of the runs take OTHER STEPS of the load"),
         };
-        format!("{contact}, displacements by {u} of the largest, and stresses by {stress}{steps}")
-    });
-    let inputs = format!("rounding: inputs changed in the last digit ({runs} runs)");
-    let measured = changes.map(|changes| format!("{inputs} {changes}"));
-    let failed = failures.first().map(|why| {
+        lines.push(format!(
+            "{inputs} {contact}, displacements by {} of the largest, and stresses by {}{steps}",
+            part(displacement),
+            part(stress)
+        ));
+    }
+    lines.extend(failures.first().map(|why| {
         format!("{inputs} end {} of the runs WITHOUT A RESULT: {}", failures.len(), first_line(why))
-    });
-    measured.into_iter().chain(failed).collect()
+    }));
+    lines
 }

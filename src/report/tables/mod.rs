@@ -65,7 +65,35 @@ pub fn steps(solution: &Solution, assessment: &Assessment, all: bool) -> Report 
 /// Names the scene, the variant and the sizes, and what differs from an ordinary run.
 fn heading(solution: &Solution) -> Report {
     let (request, model) = (&solution.request, &solution.model);
+    let (units, arithmetic) = (&request.scene.units, request.arithmetic);
+    let ContactModel { coupling, friction, geometry, .. } = request.contact;
+    let is_unilateral = request.variant == Variant::Unilateral && model.has_contact();
+    let contact = is_unilateral
+        .then(|| format!("contact: {coupling}, friction {friction}, {geometry} geometry"));
     let edited = request.edited.iter();
+    let edited =
+        edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place));
+    let in_numbers = (!arithmetic.is_default()).then(|| {
+        let (solver, inputs) = (request.solver(), arithmetic.inputs);
+        format!("in {} by {solver}, inputs {inputs}", arithmetic.scalar)
+    });
+    let bound = solution.error_bound.map(|bound| match bound.is_finite() {
+        true => {
+            let bound = with_unit(&format!("{bound:.1e}"), &units.length);
+            format!("rounding changes no displacement by more than {bound}")
+        }
+        false => "rounding error unknown".into(),
+    });
+    // The paper's example is measured in mm.
+    let is_in_metres = request.reading.r8 == ToleranceUnit::Metre && units.length != "mm";
+    let tolerance = (is_in_metres && model.has_contact()).then(|| {
+        let tolerance = with_unit(&six_digits(model.contact.tolerance), &units.length);
+        let why = match &*units.length {
+            "" => "the scene names no unit of length, and mm is assumed".into(),
+            unit => format!("the scene is measured in {unit}, the paper's example in mm"),
+        };
+        format!("NOTE: R8 = m takes c_tll in metres, which is {tolerance} here: {why}")
+    });
     Report::titled(&request.scene.title)
         .line(format!(
             "scene {}, variant {}: {} load, plane {}; {} nodes, {}; {} factored",
@@ -77,80 +105,23 @@ fn heading(solution: &Solution) -> Report {
             counted(model.triangles.len(), "triangle", "triangles"),
             counted(solution.factored, "matrix", "matrices")
         ))
-        .notes(contact(solution))
-        .notes(edited.map(|edited| format!("with {} as edited in {}", edited.which, edited.place)))
-        .notes(arithmetic(solution))
+        .notes(contact)
+        .notes(edited)
+        .notes(in_numbers)
+        .notes(bound)
         .notes(request.scene.adapted().to_vec())
-        .notes(tolerance_in_metres(solution))
+        .notes(tolerance)
         .notes(dropped(model))
-}
-
-/// Names how contact is modelled under `unilateral`.
-fn contact(solution: &Solution) -> Option<String> {
-    let ContactModel { coupling, friction, geometry, .. } = solution.request.contact;
-    let is_used = solution.request.variant == Variant::Unilateral && solution.model.has_contact();
-    is_used.then(|| format!("contact: {coupling}, friction {friction}, {geometry} geometry"))
-}
-
-/// Says what c_tll is where reading R8 takes it in metres and the scene is not measured in mm, as the paper's example.
-fn tolerance_in_metres(solution: &Solution) -> Option<String> {
-    let (request, model) = (&solution.request, &solution.model);
-    let unit = &*request.scene.units.length;
-    let is_read = request.reading.r8 == ToleranceUnit::Metre && model.has_contact();
-    (is_read && unit != "mm").then(|| {
-        let tolerance = with_unit(&six_digits(model.contact.tolerance), unit);
-        let why = match unit {
-            "" => "the scene names no unit of length, and mm is assumed".into(),
-            unit => format!("the scene is measured in {unit}, the paper's example in mm"),
-        };
-        format!("NOTE: R8 = m takes c_tll in metres, which is {tolerance} here: {why}")
-    })
-}
-
-/// Names the arithmetic, unless it is the default, and its bound on rounding errors.
-fn arithmetic(solution: &Solution) -> Vec<String> {
-    let arithmetic = solution.request.arithmetic;
-    let bound = solution.error_bound.map(|bound| match bound.is_finite() {
-        true => format!(
-            "rounding changes no displacement by more than {}",
-            with_unit(&format!("{bound:.1e}"), &solution.request.scene.units.length)
-        ),
-        false => "rounding error unknown".into(),
-    });
-    let other = (!arithmetic.is_default()).then(|| {
-        let (solver, inputs) = (solution.request.solver(), arithmetic.inputs);
-        format!("in {} by {solver}, inputs {inputs}", arithmetic.scalar)
-    });
-    other.into_iter().chain(bound).collect()
 }
 
 /// Names the nodes that were dropped, by their numbers in the mesh file.
 fn dropped(model: &Model) -> Option<String> {
-    let nodes = listed(&model.dropped);
-    match model.dropped.len() {
-        0 => None,
-        1 => Some(format!(
-            "Dropped: node {nodes} of the mesh belongs to no triangle and has no equation"
-        )),
-        _ => Some(format!(
-            "Dropped: nodes {nodes} of the mesh belong to no triangle and have no equations"
-        )),
-    }
-}
-
-/// Names the nodes in contact at the end.
-fn contact_set(solution: &Solution) -> Report {
-    if solution.model.target().is_none() {
-        return Report::default();
-    }
-    let nodes = match solution.last().contact_set(&solution.model) {
-        nodes if nodes.is_empty() => "no node".into(),
-        nodes => format!("nodes {}", listed(nodes)),
+    let words = match model.dropped.len() {
+        0 => return None,
+        1 => ["node", "belongs to no triangle and has no equation"],
+        _ => ["nodes", "belong to no triangle and have no equations"],
     };
-    let is_printed = solution.request.is_as_printed();
-    let (reading, shape) = (&solution.request.reading, &solution.last().shape);
-    let hidden = is_printed.then(|| direction(&solution.model, reading, shape)).flatten();
-    Report::default().notes(hidden).note(format!("In contact at the end: {nodes}"))
+    Some(format!("Dropped: {} {} of the mesh {}", words[0], listed(&model.dropped), words[1]))
 }
 
 /// Says that no node is in contact because of the direction of the target's edges.
@@ -180,14 +151,12 @@ fn reactions(solution: &Solution) -> Report {
     let load = solution.model.total_load();
     let size = sum.iter().chain(&load).map(|x| x.abs()).fold(0.0, f64::max);
     let digits = Digits::of(size, error);
-    let vector = |[x, y]: [f64; 2]| {
-        with_unit(&format!("{}, {}", digits.write(x), digits.write(y)), &units.force)
-    };
-    Report::default().table("Reactions", table).note(format!(
-        "Sum of the reactions {}; of the loads {}",
-        vector(sum),
-        vector(load)
-    ))
+    let [sum, load] = [sum, load].map(|vector| {
+        let [x, y] = vector.map(|x| digits.write(x));
+        with_unit(&format!("{x}, {y}"), &units.force)
+    });
+    let words = format!("Sum of the reactions {sum}; of the loads {load}");
+    Report::default().table("Reactions", table).note(words)
 }
 
 /// Lists the nodes in contact at the end.

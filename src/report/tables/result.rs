@@ -1,7 +1,7 @@
 //! What a reader asks of a run first.
 
-use super::{contact_set, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
-use crate::layout::counted;
+use super::{direction, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
+use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
 use engine::estimates::{NoLimit, edges};
@@ -22,7 +22,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
         .notes(equilibrium::overlap(solution))
         .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
         .notes(passes_on(solution))
-        .then(contact_set(solution))
+        .notes(in_contact(solution))
         .notes(resultant(solution))
         .notes(peak(solution, error))
         .notes(width(solution))
@@ -101,6 +101,21 @@ fn towards([fx, fy]: [f64; 2]) -> String {
     }
 }
 
+/// Names the nodes in contact at the end, and why there is none where the target's edges have the wrong direction.
+fn in_contact(solution: &Solution) -> Vec<String> {
+    let (request, model, last) = (&solution.request, &solution.model, solution.last());
+    if model.target().is_none() {
+        return Vec::new();
+    }
+    let nodes = match last.contact_set(model) {
+        nodes if nodes.is_empty() => "no node".into(),
+        nodes => format!("nodes {}", listed(nodes)),
+    };
+    let is_printed = request.is_as_printed();
+    let hidden = is_printed.then(|| direction(model, &request.reading, &last.shape)).flatten();
+    hidden.into_iter().chain([format!("In contact at the end: {nodes}")]).collect()
+}
+
 /// Says what contact passes to the target's body, and where. It balances restraints and loads to rounding.
 fn resultant(solution: &Solution) -> Option<String> {
     let Resultant { force, through } = engine::resultant(solution)?;
@@ -120,45 +135,41 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
         solution.in_contact().filter_map(|node| Some((node.pressure?, node))).collect();
     let found = largest(pressed.iter().map(|(pressure, _)| *pressure))?;
     let (pressure, at) = pressed[found.first];
+    if solution.request.variant == Variant::Printed {
+        return None;
+    }
     let units = &solution.request.scene.units;
-    let pressure = with_unit(&figure(pressure, error), &units.stress);
     let gap = with_unit(&figure(at.gap, error), &units.length);
     let is_apart = solution.is_apart(at);
     let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
-    (solution.request.variant != Variant::Printed).then(|| {
-        let (node, caution) = (place(solution, at.node), of_the_mesh(solution, at.node));
-        format!(
-            "Peak contact pressure {pressure} at {node}{}{across}{caution}",
-            others(found.others)
-        )
-    })
-}
-
-/// Says where the mesh decides the pressure of a node: it carries contact alone, or stands at the edge of a body, as
-/// that of a punch.
-fn of_the_mesh(solution: &Solution, node: NodeId) -> &'static str {
-    if solution.in_contact().count() == 1 {
-        return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts";
-    }
-    match edges(solution).iter().any(|[contact, _]| *contact == node) {
-        true => "; contact at the edge of a body: a finer mesh has more, without limit",
-        false => "",
-    }
+    // Where the mesh decides it: the node carries contact alone, or stands at the edge of a body, as that of a punch.
+    let caution = if solution.in_contact().count() == 1 {
+        "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts"
+    } else if edges(solution).iter().any(|[contact, _]| *contact == at.node) {
+        "; contact at the edge of a body: a finer mesh has more, without limit"
+    } else {
+        ""
+    };
+    Some(format!(
+        "Peak contact pressure {} at {}{}{across}{caution}",
+        with_unit(&figure(pressure, error), &units.stress),
+        place(solution, at.node),
+        others(found.others)
+    ))
 }
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error.
 fn width(solution: &Solution) -> Option<String> {
     let nodes: Vec<_> = solution.in_contact().collect();
-    let (first, last) = (nodes.first()?, nodes.last()?);
-    let wide = (last.arc - first.arc).abs();
-    let wide = figure(wide, Some(1.0 / (nodes.len() as f64 - 1.0)).filter(|_| nodes.len() > 1));
-    let wide = with_unit(&wide, &solution.request.scene.units.length);
-    (nodes.len() > 1).then(|| {
-        format!(
-            "Contact width {wide} along the surface, from node {} to node {}",
-            first.node, last.node
-        )
-    })
+    let [first, .., last] = nodes[..] else { return None };
+    let error = 1.0 / (nodes.len() as f64 - 1.0);
+    let wide = figure((last.arc - first.arc).abs(), Some(error));
+    Some(format!(
+        "Contact width {} along the surface, from node {} to node {}",
+        with_unit(&wide, &solution.request.scene.units.length),
+        first.node,
+        last.node
+    ))
 }
 
 /// Names the node that moves farthest.
@@ -175,7 +186,8 @@ fn displacement(solution: &Solution, error: Option<f64>) -> Option<String> {
 fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) -> Vec<String> {
     let units = &solution.request.scene.units;
     let limits = assessment.estimates.as_ref().map(|estimates| &estimates.errors.bodies);
-    let line = |(k, body): (usize, &engine::BodySummary)| {
+    let mut lines = Vec::new();
+    for (k, body) in assessment.bodies.iter().enumerate() {
         let limit = limits.and_then(|bodies| bodies.get(k)?.no_limit.as_ref());
         let diverges = match limit {
             Some(NoLimit { node, cause, is_largest: true }) => {
@@ -183,15 +195,15 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
             }
             Some(NoLimit { is_largest: false, .. }) | None => String::new(),
         };
-        let at = with_unit(&coordinates(body.centre, decimals(solution)), &units.length);
-        format!(
-            "Largest von Mises stress, {}: {} at {at}{}{diverges}",
+        lines.push(format!(
+            "Largest von Mises stress, {}: {} at {}{}{diverges}",
             body.name,
             with_unit(&figure(body.max_von_mises_stress, error), &units.stress),
+            with_unit(&coordinates(body.centre, decimals(solution)), &units.length),
             others(body.as_large)
-        )
-    };
-    assessment.bodies.iter().enumerate().map(line).collect()
+        ));
+    }
+    lines
 }
 
 /// Says that no equilibrium is sought, and whether the contact state came to rest.

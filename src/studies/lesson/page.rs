@@ -23,7 +23,7 @@ use problem::scene::Scene;
 use report::json::document;
 use report::language::{Language, messages, of_interpreter};
 use report::page::{INTERPRETER, Page};
-use report::picture::deformation::boundary_edges;
+use report::picture::boundary_edges;
 use report::tables::figure_numbers;
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.

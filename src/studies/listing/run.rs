@@ -107,7 +107,7 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
         }
     };
     if args.tables.json {
-        return print(&json::line(Some(&scene), &json::Found::from(&call.pairs)));
+        return print(&json::line(Some(&scene), &json::found(&call.pairs)));
     }
     args.tables.print(tables::pairs(&scene, &model, &reading, &call))
 }

@@ -13,17 +13,14 @@ const divisionByZero = (x, y) =>
 
 const complex = (name) => new Cause(`unsupported: complex numbers, of which the result of ${name} is one.`);
 
-function quotient(x, y, settings) {
-  if (y !== 0) return finite(x / y);
-  if (x === 0 && settings.zero_over_zero_is_zero) return 0;
-  throw divisionByZero(x, y);
-}
-
 /** What one of the four operations makes of two numbers. */
 function calculate(sign, x, y, settings) {
   if (sign === "+") return finite(x + y);
   if (sign === "−") return finite(x - y);
-  return sign === "·" ? finite(x * y) : quotient(x, y, settings);
+  if (sign === "·") return finite(x * y);
+  if (y !== 0) return finite(x / y);
+  if (x === 0 && settings.zero_over_zero_is_zero) return 0;
+  throw divisionByZero(x, y);
 }
 
 /** What one of the four operations makes of two values. */
@@ -62,14 +59,19 @@ function product(a, b) {
 
 function negative(value) {
   if (isNumber(value)) return -value;
-  if (!isArrayOfNumbers(value)) throw wrongKind("a number or an array", value);
-  return mapped(value, (x) => -x);
+  return mapped(numbersOf(value), (x) => -x);
 }
 
 function transposed(value) {
   if (isNumber(value)) return value;
   if (!isArray(value)) throw wrongKind("a number or an array", value);
   return value.transposed();
+}
+
+/** An array of numbers, which an operation takes where it takes a number. */
+function numbersOf(value) {
+  if (!isArrayOfNumbers(value)) throw wrongKind("a number or an array", value);
+  return value;
 }
 
 /** The power of a number: by repeated squaring from the last bit of a whole exponent. */
@@ -100,8 +102,7 @@ const ordered = (sign, less, same, greater) =>
 /** The magnitude of a number, the length of a column or the determinant of a matrix. */
 function magnitude(value) {
   if (isNumber(value)) return Math.abs(value);
-  if (!isArrayOfNumbers(value)) throw wrongKind("a number or an array", value);
-  if (value.cols === 1) return finite(Math.sqrt(sum(value.rows, (k) => value.entries[k] * value.entries[k])));
+  if (numbersOf(value).cols === 1) return finite(Math.sqrt(sum(value.rows, (k) => value.entries[k] * value.entries[k])));
   if (value.rows !== value.cols || value.rows === 0) throw wrongKind("a square matrix", value);
   const [a, b, c, d] = value.entries;
   if (value.rows === 2) return finite(a * d - b * c);
@@ -174,9 +175,7 @@ function only(values, count = 1) {
 
 /** The smallest or the largest of all numbers of all arguments. */
 function extreme(values, isBetter) {
-  const wrong = values.find((value) => !isNumber(value) && !isArrayOfNumbers(value));
-  if (wrong !== undefined) throw wrongKind("a number or an array", wrong);
-  const all = values.flatMap((value) => (isNumber(value) ? [value] : value.entries));
+  const all = values.flatMap((value) => (isNumber(value) ? [value] : numbersOf(value).entries));
   if (all.length === 0) throw new Cause("Expected at least one number, found none.");
   return all.reduce((best, x) => (isBetter(x, best) ? x : best));
 }

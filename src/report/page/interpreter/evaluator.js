@@ -79,11 +79,9 @@ class Run {
   block(block) {
     // Whether an `if` was true since the block's last `otherwise`.
     const state = { held: false };
-    for (const statement of block) {
-      const flow = this.statement(statement, state);
-      if (flow !== "next") return flow;
-    }
-    return "next";
+    let flow = "next";
+    for (const statement of block) if ((flow = this.statement(statement, state)) !== "next") break;
+    return flow;
   }
 
   statement(statement, state) {
@@ -92,7 +90,14 @@ class Run {
     this.recorder?.begin(line);
     this.spend();
     if (step === "while") return this.repeatWhile(statement);
-    if (step === "try") return this.attempt(statement);
+    if (step === "try") {
+      try {
+        return this.block(body);
+      } catch (failure) {
+        if (!(failure instanceof Failure) || failure.isLimit) throw failure;
+        return this.block(statement.fallback);
+      }
+    }
     if (step === "otherwise") {
       const skips = state.held;
       state.held = false;
@@ -116,15 +121,6 @@ class Run {
     const truth = this.truth(condition);
     if (this.recorder) this.recorder.on(this.line).held = truth;
     return truth;
-  }
-
-  attempt({ body, fallback }) {
-    try {
-      return this.block(body);
-    } catch (failure) {
-      if (!(failure instanceof Failure) || failure.isLimit) throw failure;
-      return this.block(fallback);
-    }
   }
 
   repeatWhile({ condition, body, line }) {

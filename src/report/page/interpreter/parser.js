@@ -16,20 +16,16 @@ class LineParser {
   node(kind, start, parts) { return { kind, start, end: this.tokens[this.next - 1].end, ...parts }; }
   expect(words) { this.expected.push([this.next, words]); }
 
-  takesToken(type, words) {
-    const isNext = this.token?.type === type;
+  /** Takes the next token where it is the wanted one, which messages call `words`. */
+  take(words, isWanted) {
     this.expect(words);
-    this.next += isNext ? 1 : 0;
-    return isNext;
+    const { token } = this;
+    if (!token || !isWanted(token)) return undefined;
+    this.next += 1;
+    return token;
   }
 
-  takes(sign) {
-    const isNext = isSign(this.token, sign);
-    this.expect(`\`${sign}\``);
-    this.next += isNext ? 1 : 0;
-    return isNext;
-  }
-
+  takes(sign) { return this.take(`\`${sign}\``, (token) => isSign(token, sign)); }
   need(sign) { if (!this.takes(sign)) this.refuse(); }
   end() { if (this.token) this.refuse(); }
 
@@ -41,12 +37,7 @@ class LineParser {
   }
 
   /** Takes a name, or a function. */
-  named(type) {
-    this.expect(`a ${type}`);
-    if (this.token?.type !== type) this.refuse();
-    this.next += 1;
-    return this.tokens[this.next - 1].value;
-  }
+  named(type) { return (this.take(`a ${type}`, (token) => token.type === type) ?? this.refuse()).value; }
 
   /** Reads the first line of a listing. */
   header() {
@@ -67,14 +58,26 @@ class LineParser {
   step() {
     const start = this.start;
     const word = this.token?.type === "sign" && !this.isChoice() ? this.token.value : "";
-    const parse = { for: "loop", while: "block", if: "block", otherwise: "block", try: "block", return: "value", break: "jump", continue: "jump" }[word];
-    if (parse) this.next += 1;
-    const statement = { line: this.line, ...(parse ? this[parse](word) : this.assignment()) };
+    const statement = { line: this.line, ...this.headed(word) };
     if (!statement.body && this.takes("otherwise")) {
       if (statement.condition) throw new Complaint(start, "found `if` and `otherwise` on one line");
       return { line: this.line, step: "otherwise", body: [statement] };
     }
     return statement;
+  }
+
+  /** Reads the statement that begins with a word; one that begins with none is an assignment or a value alone. */
+  headed(word) {
+    if (!["for", "while", "if", "otherwise", "try", "return", "break", "continue"].includes(word)) return this.assignment();
+    this.next += 1;
+    if (word === "return") return { step: word, value: this.expression(), condition: this.guard() };
+    if (word === "break" || word === "continue") return { step: word, condition: this.guard() };
+    if (word === "try") return { step: word, body: [], fallback: [] };
+    if (word === "otherwise") return { step: word, body: [] };
+    if (word !== "for") return { step: word, condition: this.expression(), body: [] };
+    const name = this.named("name");
+    this.need("∈");
+    return { step: word, name, range: this.range(), condition: this.guard(), body: [] };
   }
 
   /** Reads a program within an expression, the bracket of which is taken. */
@@ -91,35 +94,17 @@ class LineParser {
     }
   }
 
-  loop() {
-    const name = this.named("name");
-    this.need("∈");
-    const range = this.range();
-    return { step: "for", name, range, condition: this.guard(), body: [] };
-  }
-  block(word) {
-    const condition = word === "while" || word === "if" ? this.expression() : undefined;
-    return { step: word, condition, body: [], fallback: word === "try" ? [] : undefined };
-  }
-  value() { return { step: "return", value: this.expression(), condition: this.guard() }; }
-  jump(word) { return { step: word, condition: this.guard() }; }
-
   /** Reads an assignment, or a value alone. */
   assignment() {
     const value = this.expression();
     const isName = ({ kind, parts }) => kind === "read" && parts.length === 0;
     const isColumn = value.kind === "column" && isName(value.parts[0]);
     const isSpread = isColumn || (value.kind === "array" && value.parts.every(isName));
-    if (value.kind === "read" || isSpread) {
-      this.expect("`←`");
-      if (isSign(this.token, "←", "<-", ":=")) {
-        this.next += 1;
-        const names = isColumn ? [value.parts[0].name] : value.parts.map((part) => part.name);
-        const to = isSpread ? { step: "spread", names, target: isColumn ? { parts: [value.parts[1]] } : undefined } : { step: "assign", target: value };
-        return { ...to, value: this.expression(), condition: this.guard() };
-      }
-    }
-    return { step: "evaluate", value, condition: this.guard() };
+    const isTarget = value.kind === "read" || isSpread;
+    if (!isTarget || !this.take("`←`", (token) => isSign(token, "←", "<-", ":="))) return { step: "evaluate", value, condition: this.guard() };
+    const names = isColumn ? [value.parts[0].name] : value.parts.map((part) => part.name);
+    const to = isSpread ? { step: "spread", names, target: isColumn ? { parts: [value.parts[1]] } : undefined } : { step: "assign", target: value };
+    return { ...to, value: this.expression(), condition: this.guard() };
   }
 
   guard() { return this.takes("if") ? this.expression() : undefined; }
@@ -173,11 +158,7 @@ class LineParser {
 
   not() {
     const start = this.start;
-    let signs = 0;
-    while (this.takes("¬")) signs += 1;
-    let value = this.comparison();
-    for (; signs > 0; signs -= 1) value = this.node("not", start, { parts: [value] });
-    return value;
+    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.comparison();
   }
 
   /** Reads a comparison, or several of each operand with the next. */
@@ -200,10 +181,7 @@ class LineParser {
 
   /** Takes an operator of a level, if one comes next. */
   operator(level, words) {
-    this.expect(words);
-    const found = OPERATORS.find((row) => row.level === level && isSign(this.token, row.sign));
-    this.next += found ? 1 : 0;
-    return found?.sign;
+    return this.take(words, ({ type, value }) => type === "sign" && OPERATORS.some((row) => row.level === level && row.sign === value))?.value;
   }
 
   power() {
@@ -229,8 +207,13 @@ class LineParser {
     let value = this.atom();
     for (;;) {
       if (this.takes("ᵀ")) value = this.node("transpose", start, { parts: [value] });
-      else if (this.takes("[")) value = this.entry(value, start);
-      else if (this.takes("⟨")) {
+      else if (this.takes("[")) {
+        const subscripts = [this.expression()];
+        if (this.takes(",")) subscripts.push(this.expression());
+        this.need("]");
+        const isName = value.kind === "read" && value.parts.length === 0;
+        value = isName ? this.node("read", start, { name: value.name, parts: subscripts }) : this.node("entry", start, { parts: [value, ...subscripts] });
+      } else if (this.takes("⟨")) {
         const column = this.expression();
         this.need("⟩");
         value = this.node("column", start, { parts: [value, column] });
@@ -238,49 +221,33 @@ class LineParser {
     }
   }
 
-  /** Reads one subscript or two, and the bracket behind them. */
-  entry(value, start) {
-    const subscripts = [this.expression()];
-    if (this.takes(",")) subscripts.push(this.expression());
-    this.need("]");
-    const isName = value.kind === "read" && value.parts.length === 0;
-    return isName ? this.node("read", start, { name: value.name, parts: subscripts }) : this.node("entry", start, { parts: [value, ...subscripts] });
-  }
-
   atom() {
     const { start, token } = this;
     this.expect("an operand");
+    if (!token || !(startsOperand(token) || isSign(token, "transpose"))) this.refuse();
     this.next += 1;
-    if (token?.type === "number" || token?.type === "text") return this.node("constant", start, { value: token.value, parts: [] });
-    if (token?.type === "name") return this.node("read", start, { name: token.value, parts: [] });
-    if (token?.type === "function") return this.call(token.value, start);
-    if (isSign(token, "(")) return this.rows(start);
-    if (isSign(token, "{")) {
+    if (token.type === "number" || token.type === "text") return this.node("constant", start, { value: token.value, parts: [] });
+    if (token.type === "name") return this.node("read", start, { name: token.value, parts: [] });
+    if (token.type === "function") return this.call(token.value, start);
+    if (token.value === "(") return this.rows(start);
+    if (token.value === "if") {
+      const parts = this.inBrackets(() => this.expression());
+      if (parts.length !== 3) throw new Complaint(start, "found `if` without three arguments");
+      return this.node("choice", start, { parts });
+    }
+    if (token.value === "transpose") {
+      const bracket = this.start;
+      this.need("(");
+      const rows = this.rows(bracket);
+      return this.node("transpose", start, { parts: rows.kind === "group" ? rows.parts : [rows] });
+    }
+    if (token.value === "{") {
       const block = this.program();
       return this.node("program", start, { block, parts: block.flatMap(expressionsOf) });
     }
-    if (isSign(token, "if")) return this.choice(start);
-    if (isSign(token, "transpose")) return this.transposed(start);
-    if (isSign(token, "|")) {
-      const inside = this.expression();
-      if (!this.takesToken("bar", "`|`")) this.refuse();
-      return this.node("magnitude", start, { parts: [inside] });
-    }
-    this.next -= 1;
-    return this.refuse();
-  }
-
-  choice(start) {
-    const parts = this.inBrackets(() => this.expression());
-    if (parts.length !== 3) throw new Complaint(start, "found `if` without three arguments");
-    return this.node("choice", start, { parts });
-  }
-
-  transposed(start) {
-    const bracket = this.start;
-    this.need("(");
-    const rows = this.rows(bracket);
-    return this.node("transpose", start, { parts: rows.kind === "group" ? rows.parts : [rows] });
+    const inside = this.expression();
+    if (!this.take("`|`", ({ type }) => type === "bar")) this.refuse();
+    return this.node("magnitude", start, { parts: [inside] });
   }
 
   /** Reads the arguments of a function, or the range and the term of a series. */
@@ -303,7 +270,7 @@ class LineParser {
     const parts = [this.expression()];
     const ends = [];
     while (!this.takes(")")) {
-      if (!this.takesToken("gap", "the space between two elements")) {
+      if (!this.take("the space between two elements", ({ type }) => type === "gap")) {
         this.need(";");
         ends.push(parts.length);
         if (parts.length === 1 && this.takes(")")) return this.node("array", start, { cols: 1, parts });
@@ -393,11 +360,10 @@ class ListingReader {
     const tokens = this.tokens(line);
     this.next = 1;
     const sign = tokens.findIndex((token) => isSign(token, ":="));
-    const behind = sign < 0 ? [] : tokens.slice(sign + 1);
-    const { parameters } = this.on(line, () => new LineParser(sign < 0 ? tokens : tokens.slice(0, sign + 1), 0).header());
-    if (behind.length === 0) return { parameters };
-    const body = this.on(line, () => new LineParser(behind, 0).statement());
-    this.checkDepth(line, body);
+    const behind = sign < 0 ? tokens.length : sign + 1;
+    const { parameters } = this.on(line, () => new LineParser(tokens.slice(0, behind), 0).header());
+    if (behind === tokens.length) return { parameters };
+    const body = this.parsed(line, tokens.slice(behind), 0);
     if (!["assign", "spread", "evaluate", "return"].includes(body.step)) this.refuse(line, 0, "found a block behind `:=`, expected it indented below");
     return { parameters, body };
   }
@@ -416,9 +382,7 @@ class ListingReader {
   }
 
   statement(line) {
-    const tokens = this.tokens(line);
-    const statement = this.on(line, () => new LineParser(tokens, this.next).statement());
-    this.checkDepth(line, statement);
+    const statement = this.parsed(line, this.tokens(line), this.next);
     this.next += 1;
     if (statement.body?.length === 0) statement.body = this.block(line.level + 1);
     if (statement.fallback) {
@@ -438,9 +402,12 @@ class ListingReader {
     return this.on(line, () => tokensOf(line.text, MOST.depth));
   }
 
-  checkDepth(line, statement) {
+  /** The statement that tokens of a line make; its number is `at`. */
+  parsed(line, tokens, at) {
+    const statement = this.on(line, () => new LineParser(tokens, at).statement());
     const depth = ({ parts, block = [] }) => 1 + Math.max(0, ...block.map(levelsOf)) + Math.max(0, ...parts.map(depth));
     const deep = [statement, ...(statement.body ?? [])].flatMap(ownExpressions).find((part) => depth(part) > MOST.depth);
     if (deep) this.refuse(line, deep.start, `found operators and brackets more than ${MOST.depth} deep`);
+    return statement;
   }
 }

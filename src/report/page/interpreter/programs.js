@@ -35,8 +35,8 @@ function executed(listing, worksheet, settings, values, limits = LIMITS, recorde
  * as its value; returns the failure of one that did not. */
 function unexpected(listing, { value, locals }) {
   const failure = (expected, name) => {
-    const last = listing.lines.at(-1);
-    return Object.assign(new Failure(listing.name, last, { start: 0, end: 0 }, new Cause(`Expected ${expected}, found something else in ${name}.`)), { text: name });
+    const cause = new Cause(`Expected ${expected}, found something else in ${name}.`);
+    return Object.assign(new Failure(listing.name, listing.lines.at(-1), { start: 0, end: 0 }, cause), { text: name });
   };
   const names = listing.name === "c_cnt" ? ["ct", "yt", "dy"] : [];
   for (const name of names) {

@@ -24,10 +24,7 @@ class Grid {
     Object.assign(this, { rows, cols, entries });
   }
 
-  transposed() {
-    const { entries } = gridFrom(this.cols, this.rows, (i, j) => this.get(j, i));
-    return gridOf(this.rows, entries);
-  }
+  transposed() { return gridOf(this.rows, gridFrom(this.cols, this.rows, (i, j) => this.get(j, i)).entries); }
 }
 
 /** The array of numbers whose entry in row `i` and column `j`, from 0, is `entry(i, j)`. */

@@ -9,14 +9,11 @@ const packed = ([red, green, blue]) => ((255 << 24) | (blue << 16) | (green << 8
 function fillTriangles(pixels, width, triangles, x, y, colours) {
   const height = pixels.length / width;
   for (let t = 0; t < colours.length; t += 1) {
-    let a = triangles[3 * t];
-    let b = triangles[3 * t + 1];
-    let c = triangles[3 * t + 2];
+    let [a, b, c] = [triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]];
     // An edge is always followed from its upper end, so that its two triangles leave no gap.
-    let other;
-    if (y[b] < y[a]) (other = a), (a = b), (b = other);
-    if (y[c] < y[b]) (other = b), (b = c), (c = other);
-    if (y[b] < y[a]) (other = a), (a = b), (b = other);
+    if (y[b] < y[a]) [a, b] = [b, a];
+    if (y[c] < y[b]) [b, c] = [c, b];
+    if (y[b] < y[a]) [a, b] = [b, a];
     fillSorted(pixels, width, height, x[a], y[a], x[b], y[b], x[c], y[c], colours[t]);
   }
 }

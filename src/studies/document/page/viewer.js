@@ -28,8 +28,8 @@ function compute() {
     panel.values = valuesOf(panel.run, view.field);
     panel.marks = marksOf(panel.run, view.field);
   }
-  const ranges = view.panels.map(rangeOf).filter((known) => known);
-  view.range = ranges.length ? [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))] : [0, 1];
+  const ranges = view.panels.flatMap((panel) => rangeOf(panel) ?? []);
+  view.range = ranges.length ? range(ranges) : [0, 1];
   const plain = packed(/** @type {[any, any, any]} */ ([1, 3, 5].map((at) => parseInt(colour("rule").slice(at, at + 2), 16))));
   const shades = data.colours.map(packed);
   for (const { colours, values } of view.panels) {
@@ -140,19 +140,10 @@ function drawScale() {
 
 /** What a panel shows, in words. */
 function saidOf(panel) {
-  const { run } = panel;
-  const name = view.field.name;
+  const field = { run: panel.run.name, field: view.field.name };
   const known = rangeOf(panel);
-  const field = { run: run.name, field: name };
   if (!known) return t("{run}: {field} is not known", field);
-  const [low, high] = known;
-  return t("{run}: {field} from {low} to {high}", { ...field, low, high: inUnit(inProse(high), view.field) });
-}
-
-/** Which shape is drawn, in words. */
-function drawnShape() {
-  if (view.factor === 0) return t("undeformed");
-  return view.factor === 1 ? t("deformed") : t("displacement scale {factor}", view);
+  return t("{run}: {field} from {low} to {high}", { ...field, low: known[0], high: inUnit(inProse(known[1]), view.field) });
 }
 
 /** Computes and draws everything anew. */
@@ -160,9 +151,10 @@ function showFields() {
   compute();
   drawAll(fine());
   drawScale();
+  const shape = view.factor === 0 ? t("undeformed") : view.factor === 1 ? t("deformed") : t("displacement scale {factor}", view);
   view.panels.forEach((panel, side) => {
     const said = saidOf(panel);
-    byId(`said-${side}`).textContent = `${said}; ${drawnShape()}`;
+    byId(`said-${side}`).textContent = `${said}; ${shape}`;
     panel.canvas.setAttribute("aria-label", said);
   });
   showIterations(view.panels[0].run);
@@ -174,22 +166,16 @@ function pointAt(panel, offsetX, offsetY) {
   return [view.cx + (offsetX - canvas.clientWidth / 2) / view.scale, view.cy - (offsetY - height(canvas) / 2) / view.scale];
 }
 
-/** The contact node with a value that is nearest to a point, from 0, and how far it is. */
-function markAt({ places, marks }, x, y) {
-  const far = (n) => Math.hypot(places[2 * n] - x, places[2 * n + 1] - y);
-  const nearest = [...(marks?.keys() ?? [])].reduce((best, n) => (best === undefined || far(n) < far(best) ? n : best), undefined);
-  return nearest === undefined ? [-1, Infinity] : [nearest, far(nearest)];
-}
-
 /** What there is at a point of a panel's drawn shape: in words, and the value of each panel there. A
  * contact node is found `within` a distance. */
-function foundAt(panel, x, y, within) {
+function foundAt({ places, marks }, x, y, within) {
   if (view.field.contact) {
-    const [n, far] = markAt(panel, x, y);
-    if (far > within) return null;
-    return { at: t("node {n}", { n: n + 1 }), values: view.panels.map(({ marks }) => marks?.get(n) ?? null) };
+    const far = (n) => Math.hypot(places[2 * n] - x, places[2 * n + 1] - y);
+    const nearest = [...(marks?.keys() ?? [])].reduce((best, n) => (best === undefined || far(n) < far(best) ? n : best), undefined);
+    if (nearest === undefined || far(nearest) > within) return null;
+    return { at: t("node {n}", { n: nearest + 1 }), values: view.panels.map(({ marks }) => marks?.get(nearest) ?? null) };
   }
-  const triangle = triangleAt(panel.places, x, y);
+  const triangle = triangleAt(places, x, y);
   if (triangle < 0) return null;
   return { at: t("triangle {n}", { n: triangle + 1 }), body: data.mesh.bodies[mesh.body[triangle]], values: view.panels.map(({ values }) => values?.[triangle] ?? null) };
 }
