@@ -70,10 +70,8 @@ function watchDrag() {
   place.addEventListener("click", ({ target }) => target.dataset.edge && reverseEdge(Number(target.dataset.edge)));
   place.addEventListener("keydown", (event) => {
     if (!event.target.value) return;
-    const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    const by = byArrow(event);
     if (!by) return;
-    event.preventDefault();
-    event.stopPropagation();
     const n = Number(event.target.value);
     const far = event.shiftKey ? FAR_NUDGE : NUDGE;
     moveNode(n, page.view.to(page.mesh.at(n)).map((x, k) => x + far * by[k]));

@@ -127,7 +127,7 @@ function label(context, text, [x, y], ink, align = "center", placed = null) {
   context.fillText(text, x, y);
 }
 
-/** A contact node: filled in contact, open apart, a small dot where its status is not known. @param {any} context @param {any} at @param {any} dy @param {boolean} current */
+/** A contact node: filled in contact, open where it is not, a small dot where its status is not known. @param {any} context @param {any} at @param {any} dy @param {boolean} current */
 function drawStatus(context, [x, y], dy, current) {
   context.beginPath();
   context.arc(x, y, dy === undefined ? 3 : 6, 0, 2 * Math.PI);
@@ -252,7 +252,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     ...(isBoxed ? [t("Dashed box: where lines 5 to 7 search.")] : []),
     ...(seen.arrows ? [run().programs ? t("Arrow: yt, along the normal.") : t("Arrow: Y of line 10.")] : []),
     ...(is(1) ? [t("Filled: in contact.")] : []),
-    ...(is(0) ? [t("Open: apart.")] : []),
+    ...(is(0) ? [t("Open: not in contact.")] : []),
     ...(is(undefined) ? [t("Dot: not decided yet.")] : []),
     ...(seen.links ? [t("Dashed lines: links with their weights.")] : []),
     ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name reverses the edge.")]),
@@ -261,7 +261,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));
 }
 
-const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("apart"));
+const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("not in contact"));
 
 /** Draws the box of lines 5 and 6, while lines 4 to 7 are executed; returns whether there is one. */
 function drawBox(context, to, pairs, boxed) {

@@ -7,9 +7,12 @@ const correctedRun = () => {
   return { ...run(), label: "corrected", programs, c_cnt: programs.c_cnt, Km: programs.Km, settings };
 };
 
+/** Whether the corrected listing can stand beside the one that is shown. */
+const canBeBeside = () => !isIterating() && !run().programs && page.mesh.contact.length > 0;
+
 /** Executes the corrected listing where it is wanted. */
 function openBeside() {
-  const isThere = page.isBeside && !isIterating() && !run().programs && page.mesh.contact.length > 0;
+  const isThere = page.isBeside && canBeBeside();
   byId("beside").hidden = !isThere;
   byId("columns").classList.toggle("with-beside", isThere);
   page.beside = null;
@@ -22,7 +25,7 @@ function openBeside() {
     drawBeside();
   });
   byId("beside").replaceChildren(
-    make("h2", {}, t("{listing}, {state}", { listing: page.which, state: t("corrected") })),
+    make("h2", {}, `${page.which}, ${t("corrected")}`),
     make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("The corrected listing") }, make("ol", {}, ...page.beside.lines.map(({ number, level, text }) => make("li", {}, make("span", { class: "number" }, String(number)), make("code", { style: `--level: ${level}` }, text))))),
     make("p", { class: "answers" }, step(t("back"), ({ at }) => at - 1), step(t("step"), ({ at }) => at + 1), step(t("end of the turn"), endOfTurn), make("span", { id: "beside-said", role: "status" })),
     make("div", { id: "both", class: "scroll", tabindex: 0, role: "region", "aria-label": t("The arrays") }),
@@ -68,6 +71,6 @@ function drawBeside() {
   const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
   byId("both").replaceChildren(
     make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),
-    make("p", { class: "muted" }, t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.")),
+    make("p", { class: "muted" }, mesh.side > 0 ? t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.") : t("yt* is a gap, positive apart; so is the yt of line 10, the target’s height less the node’s, as the target lies above here.")),
   );
 }
