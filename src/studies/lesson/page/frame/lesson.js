@@ -1,6 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map(), atStake: new Set() };
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
@@ -40,7 +40,7 @@ function choose(change) {
   page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, chapter().nodes);
-  page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine, atStake()) : null;
+  page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine, page.atStake) : null;
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("chapter").value = page.chapter;
@@ -244,6 +244,7 @@ function openChapter(k) {
   page.chapter = k;
   page.run = 0;
   page.asked = 0;
+  page.atStake = atStake();
   page.isConcluded = byId("conclusion").open = false;
   Object.assign(score, { right: 0, asked: 0 });
   fillChapter();

@@ -97,8 +97,8 @@ function courseInWords({ steps, failure }, variant) {
 }
 
 /** How many times displacements are drawn: the largest of all iterations comes to an eighth of the scene. */
-function magnification(mesh, steps, size) {
-  const most = steps.reduce((most, { u }) => u.reduce((most, x) => Math.max(most, Math.abs(x)), most), 0);
+function magnification(steps, size) {
+  const most = Math.max(0, ...steps.flatMap(({ u }) => u.map(Math.abs)));
   return most > 0 ? roundAtMost(size / 8 / most) : 1;
 }
 
@@ -106,19 +106,14 @@ function magnification(mesh, steps, size) {
 function drawShape(mesh, { steps, at }) {
   const canvas = byId("shape");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
-  const [low, high] = [Math.min, Math.max].map((end) => [0, 1].map((j) => end(...points.map((p) => p[j]))));
-  const times = magnification(mesh, steps, Math.max(high[0] - low[0], high[1] - low[1]));
+  const times = magnification(steps, Math.max(...[0, 1].map((j) => extentOf(points.map((p) => p[j]))).map(([low, high]) => high - low)));
   const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
   const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
   const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
   const { to } = viewOf([...points, ...corners], width, height, 26, false);
-  const drawn = (at, isInitial) => {
-    const colours = (nodes, body) => (isInitial ? { stroke: colour("rule") } : { stroke: colour(body === mesh.target ? "target-ink" : "stamp-ink"), fill: colour(body === mesh.target ? "target" : "stamp") });
-    for (const [nodes, body] of mesh.triangles) path(context, nodes.map((n) => to(at(n))), { ...colours(nodes, body), width: 0.8, close: true });
-  };
   const [now, inContact] = [moved(steps[at - 1]?.u), steps[at - 1]?.inContact];
-  drawn(mesh.at, true);
-  drawn(now, false);
+  for (const [nodes] of mesh.triangles) path(context, nodes.map((n) => to(mesh.at(n))), { stroke: colour("rule"), width: 0.8, close: true });
+  drawBodies(context, mesh, (n) => to(now(n)));
   for (const n of mesh.contact) {
     drawStatus(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));

@@ -3,7 +3,7 @@
 /** What is shown of a value: of a large array, and of one of arrays, only what it is. */
 function shown(value) {
   if (isNumber(value)) return value;
-  if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value));
+  if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value)).replaceAll(" x ", " × ");
   const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols);
   return value.cols === 1 ? value.entries : Array.from({ length: value.rows }, (_, i) => row(i));
 }

@@ -63,8 +63,8 @@ class MatrixMap {
     canvas.style.maxWidth = size + "px";
     this.context = prepared(canvas, size, size).context;
     this.cell = (size - 22) / count;
-    this.context.fillStyle = colour("paper");
-    this.context.fillRect(22, 22, this.cell * count, this.cell * count);
+    const [low, high] = [22, 22 + this.cell * count];
+    path(this.context, [[low, low], [high, low], [high, high], [low, high]], { fill: colour("paper") });
     const [V, W] = [this.vector("V"), this.vector("W")];
     this.block(V, V, (row, column) => this.square(row, column, "lit"));
     this.block(W, W, (row, column) => this.square(row, column, "written"));
@@ -106,16 +106,14 @@ class MatrixMap {
     }
   }
 
-  square(row, column, ink, weight = 1) {
-    this.context.globalAlpha = weight;
-    this.context.fillStyle = colour(ink);
-    this.context.fillRect(22 + column * this.cell, 22 + row * this.cell, this.cell, this.cell);
-    this.context.globalAlpha = 1;
-  }
+  square(row, column, ink, alpha = 1) { path(this.context, this.corners(row, column), { fill: colour(ink), alpha }); }
 
-  frame(row, column, ink, width, dash = []) {
-    const [x, y] = [22 + column * this.cell, 22 + row * this.cell];
-    path(this.context, [[x, y], [x + this.cell, y], [x + this.cell, y + this.cell], [x, y + this.cell]], { stroke: colour(ink), width, dash, close: true });
+  frame(row, column, ink, width, dash = []) { path(this.context, this.corners(row, column), { stroke: colour(ink), width, dash, close: true }); }
+
+  /** The corners of an entry's square. */
+  corners(row, column) {
+    const [left, top] = [column, row].map((k) => 22 + k * this.cell);
+    return [[left, top], [left + this.cell, top], [left + this.cell, top + this.cell], [left, top + this.cell]];
   }
 
   /** Writes the node's number over each second column and row that has room. */

@@ -53,21 +53,13 @@ function showBeside(turn) {
 /** Shows the step of the corrected listing, and what both have found. */
 function drawBeside() {
   const { beside, machine, mesh } = page;
-  const items = [...byId("beside").querySelectorAll("li")];
-  items.forEach((item, k) => {
-    item.classList.toggle("lit", beside.last?.line === k);
-    item.classList.toggle("next", beside.next?.line === k);
-  });
-  const lit = items[beside.last?.line ?? 0];
-  if (lit) lit.parentElement.parentElement.scrollTop = lit.offsetTop - lit.parentElement.offsetTop - 60;
+  const list = byId("beside").querySelector("ol");
+  list.parentElement.scrollTop = (litIn(list, beside)?.offsetTop ?? 0) - list.offsetTop - 60;
   say("beside-said", `${t("step {at} of {count}", { at: beside.at, count: beside.steps.length })}. ${stepInWords(beside)}`);
   if (page.which === "Km") return byId("both").replaceChildren();
-  const shown = (machine, name) => {
-    const value = machine.get(name);
-    return make("td", value === undefined ? {} : { "data-exact": exact(value) }, value === undefined ? "·" : brief(value));
-  };
   const names = ["ct", "yt", "dy"];
-  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => [shown(machine, `${name}[${k + 1}]`), shown(beside, `${name}[${k + 1}]`)])));
+  const both = (name) => [machine, beside].map((machine) => valueCell(machine.get(name)));
+  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => both(`${name}[${k + 1}]`))));
   const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
   byId("both").replaceChildren(
     make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),

@@ -64,7 +64,7 @@ function showChanges(run, programs) {
   const changed = changes(results(programsOf(before)), results(programs));
   const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
-    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
+    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), valueCell(a), valueCell(b)),
   );
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
   const head = headOf([t("name"), tell(before.label), isChanged() ? t("now") : tell(run.label)]);
@@ -83,23 +83,22 @@ const placeOf = ({ listing, lines }) => (lines.length ? `${listing} ${lines.join
 
 /** What to try in a chapter, each a button. */
 function trials({ lines, listing, edit }, { contact, load }) {
-  const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
   const [line] = lines;
   const runToLine = () => {
     choose({ run: 0, which: listing });
     go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)));
   };
-  const playIterations = (run) => () => {
+  const played = (text, run) => button(text, () => {
     choose({ run, which: "iterations", variant: variantOf(chapter()), isMine: false });
     play(true);
-  };
+  });
   const isStill = load.every((f) => f === 0);
   const isPlayed = contact.length > 0 && !isStill;
   return [
-    ...trial(lines.length, t("run to line {line}", { line }), runToLine),
-    ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
-    ...trial(isPlayed, t("play the iterations"), playIterations(0)),
-    ...trial(isPlayed && !edit.none, t("play them repaired"), playIterations(1)),
+    lines.length ? button(t("run to line {line}", { line }), runToLine) : "",
+    edit.none ? "" : button(t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
+    isPlayed ? played(t("play the iterations"), 0) : "",
+    isPlayed && !edit.none ? played(t("play them repaired"), 1) : "",
     ...(contact.length && isStill ? [t("No load acts on this scene: only the corrected iterations move anything, where they push a node out of the target.")] : []),
   ];
 }
@@ -119,7 +118,7 @@ function showFinding({ finding: row, repairs, runs }) {
     make("summary", {}, make("h2", {}, `${row.id} (${lines})`)),
     described([
       [t("Goal"), goal],
-      [t("Try it"), ...trials(row, data.meshes[runs[0].mesh])],
+      [t("Try it"), ...trials(row, data.meshes[runs[0].mesh]).flatMap((trial) => [trial, " "])],
     ]),
   );
 }
