@@ -52,7 +52,7 @@ function showRemarks(text) {
   const lines = linesOf(text);
   // A corrected listing may call its programs.
   const isKnown = (name) => new Run({}, page.programs.worksheet, {}).has(name) || name in (run().programs ?? {});
-  const remarks = error ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, isKnown);
+  const remarks = error || text === textOf(run()[page.which]) ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, isKnown);
   const open = error && openBracket(error, text);
   const words = open ? t("the bracket that is opened here is not closed.") : error && interpreted(error.message) + ".";
   const wrong = error ? [{ ...error, column: open ?? error.column, length: 1, words }] : remarks;

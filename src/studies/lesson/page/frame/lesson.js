@@ -56,8 +56,8 @@ function choose(change) {
   if (!isIterating() && ["run", "which", "edits", "isMine"].some((name) => name in change)) {
     showText();
     showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
-    byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
-    byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
+    const [turn, title] = page.which === "Km" ? [t("element"), t("Run to the next element (N)")] : [t("node"), t("Run to the next contact node (N)")];
+    Object.assign(byId("turn"), { textContent: turn, title });
   }
   showButtons();
   // Beside the arrays these would take half of a move's time.
@@ -249,11 +249,10 @@ function openChapter(k) {
   Object.assign(score, { right: 0, asked: 0 });
   fillChapter();
   byId("finding").open = isWide();
-  const { contact } = data.meshes[run().mesh];
-  byId("pictures").classList.toggle("alone", contact.length === 0);
-  const inKm = contact.length === 0 || chapter().finding?.listing === "Km";
-  for (const radio of radios()) radio.disabled = (contact.length === 0 && radio.value !== "Km") || (radio.value === "iterations" && !chapter().isIterated);
-  const which = inKm ? "Km" : "c_cnt";
+  const isAlone = data.meshes[run().mesh].contact.length === 0;
+  byId("pictures").classList.toggle("alone", isAlone);
+  for (const radio of radios()) radio.disabled = (isAlone && radio.value !== "Km") || (radio.value === "iterations" && !chapter().isIterated);
+  const which = isAlone || chapter().finding?.listing === "Km" ? "Km" : "c_cnt";
   choose({ run: 0, which, variant: variantOf(chapter()), at: 0, factor: 1, moved: new Map(), turned: new Set(), ...typedBefore() });
 }
 

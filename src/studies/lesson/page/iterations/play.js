@@ -15,22 +15,19 @@ class Played {
 
 /** The iterations of the variant that is chosen. */
 function played() {
-  const made = iterated(equationsOf(run(), page.edits), page.variant, correctedOf(run()));
+  // The corrected programs have the faults that the run puts back.
+  const corrected = { ...data.corrected, programs: new Map(readAt(run().programs ?? data.corrected.programs, page.edits)) };
+  const made = iterated(equationsOf(run(), page.edits), page.variant, corrected);
   // The energy is that of the stiffness as printed, whatever is edited.
   return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
 }
 
+/** The listings of some places, read, as given or as edited. @returns {any} */
+const readAt = (places, edits) => Object.entries(places).map(([name, place]) => [name, listingOf(name, linesAt(place, edits))]);
+
 /** The equations of the scene as it is now, under the listings of a run. */
 function equationsOf(run, edits) {
-  const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => listingOf(name, linesAt(run[name], edits)));
-  return new Equations(run, { c_cnt, Km }, page.mesh.own, page.mesh.stands, page.programs.c_tll);
-}
-
-/** The corrected programs, with the faults that the run puts back, and the settings under which they run. */
-function correctedOf({ programs = data.corrected.programs }) {
-  const read = new Map();
-  for (const [name, place] of Object.entries(programs)) read.set(name, listingOf(name, linesAt(place, page.edits)));
-  return { programs: read, settings: data.corrected.settings };
+  return new Equations(run, Object.fromEntries(readAt({ c_cnt: run.c_cnt, Km: run.Km }, edits)), page.mesh.own, page.mesh.stands, page.programs.c_tll);
 }
 
 /** Whether the reference solution is one of the scene as it is now. */
@@ -42,10 +39,9 @@ const ROUNDING = 1e-10;
 /** How far displacements are from a reference solution's, in the energy norm, and what part of the load they bring to
  * the target. */
 function measuredBy(K, reference) {
-  const whole = energyNorm(K, reference);
   return (u) => {
-    const error = energyNorm(K, u.map((x, e) => x - reference[e]));
-    return { error: error <= ROUNDING * whole ? 0 : error / whole, share: transmitted(K, u) };
+    const error = energyNorm(K, u.map((x, e) => x - reference[e])) / energyNorm(K, reference);
+    return { error: error <= ROUNDING ? 0 : error, share: transmitted(K, u) };
   };
 }
 
@@ -199,7 +195,7 @@ function fillVariants() {
   const isOwn = page.edits.has(run().Km) || isJoined(linesAt(run().Km));
   const names = run().programs ? ["corrected"] : isOwn ? ["printed", "corrected"] : VARIANTS;
   byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, words[name].join(": "))));
-  page.variant = byId("variant").value = names.includes(page.variant) ? page.variant : names[0];
+  page.variant = byId("variant").value = [page.variant, variantOf(chapter())].find((name) => names.includes(name)) ?? names[0];
 }
 
 /** Plays the steps or the iterations to their end, or stops. */
@@ -209,9 +205,8 @@ function play(isOn) {
   byId("play").textContent = isOn ? t("pause") : t("play");
   if (!isOn) return;
   if (page.machine.at === page.machine.steps.length) go(0);
-  const pause = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1500 : 600;
   page.playing = setInterval(() => {
     go(page.machine.at + 1);
     if (page.machine.at === page.machine.steps.length) play(false);
-  }, pause);
+  }, 600);
 }

@@ -32,7 +32,7 @@ function openBeside() {
   );
 }
 
-/** Behind the last step of the turn that the corrected listing is in. */
+/** Behind the last step of the turn that a listing is in. */
 const endOfTurn = ({ turns, steps, at }) => turns.find(({ from }) => from > at)?.from ?? steps.length;
 
 /** Lets the corrected listing follow to the turn of the listing that is shown: to its end once that has gone on, and with it
