@@ -440,14 +440,20 @@ async function deep(browser) {
   assert.equal(await nameOf(), "repaired-c_cnt.txt");
   await page.check("#beside-too");
   await page.selectOption("#run", { label: "as printed" });
-  assert.match(await page.textContent("#both"), /yt\* is a gap, positive apart/);
+  assert.match(await page.textContent("#both"), /so is the yt of line 10, .* as the target lies above here/);
+  assert.match(await page.textContent("#zone-caption"), /Open: not in contact\./);
   assert.equal(await nameOf(), "c_cnt.txt");
   assert.equal(await page.locator("#conclusion dt", { hasText: "Of what" }).count(), 0);
   await page.locator("#tolerance").fill("1");
   assert.match(await page.locator("#conclusion dd").last().textContent(), /as given, not of your changes/);
-  await to("#chapter=C1");
+  await to("#chapter=C1&beside=1");
   await page.locator("#title", { hasText: "C1: c_cnt 5, 6" }).waitFor();
-  assert.match(await page.textContent("#finding"), /No load acts on this scene/);
+  assert.match(await page.textContent("#finding"), /No load acts on this scene: only the corrected iterations/);
+  await page.click("#end");
+  assert.match(await page.textContent("#conclusion"), /costs: C1/);
+  assert.match(await page.locator("#both tbody tr").first().textContent(), /^2\.1 \(4\)010/, "the corrected listing finds what the printed one misses");
+  await to("#chapter=K1&step=999");
+  await page.locator("#conclusion", { hasText: "the target moves by 0, the stamp by 0.05" }).waitFor();
   assert.deepEqual(said, []);
 }
 
