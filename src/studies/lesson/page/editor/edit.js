@@ -33,8 +33,8 @@ function stateOf(name) {
 
 /** The listing that is shown, in words: what is in force, and whether the text that was typed is not, as it has an error. */
 function listingInWords(name) {
-  const stale = page.edits.has(run()[name]) ? t("of the last text without an error") : t("your text has an error and is not run");
-  return [stateOf(name), ...(page.isStale ? [stale] : [])].join(", ");
+  if (!page.isStale) return stateOf(name);
+  return `${stateOf(name)}, ${page.edits.has(run()[name]) ? t("of the last text without an error") : t("your text has an error and is not run")}`;
 }
 
 /** What the controls can do: "reset" takes back tolerance and nodes, "as printed" the listings; what was typed comes back. */
@@ -136,7 +136,6 @@ function readText() {
   page.isMine = page.typed.size > 0;
   keepTyped();
   if (!error || isFirst) return choose({ edits: true });
-  say("listing-title", `${page.which}, ${listingInWords(page.which)}`);
   say("status", placeInWords());
 }
 
@@ -168,11 +167,9 @@ function watchEditor() {
     if (isOpen && page.isStale) return byId("text-error").querySelector("button").click();
     showEditor(!isOpen);
   });
-  const chosen = (change) => {
+  for (const [id, change] of Object.entries({ printed: { run: 0, isMine: false }, mine: { isMine: true } })) byId(id).addEventListener("click", () => {
     choose(change);
     keepTyped();
-  };
-  byId("printed").addEventListener("click", () => chosen({ run: 0, isMine: false }));
-  byId("mine").addEventListener("click", () => chosen({ isMine: true, edits: true }));
+  });
   byId("download").addEventListener("click", download);
 }

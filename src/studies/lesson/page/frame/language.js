@@ -29,7 +29,6 @@ function setLanguage(language) {
 /** Says everything in the other language, where it is. */
 function switchLanguage() {
   setLanguage(speech.language === "ru" ? "en" : "ru");
-  byId("nodes").replaceChildren();
   fillChapters();
   fillChapter();
   choose({ run: page.run });

@@ -141,12 +141,11 @@ function iterated(equations, variant, corrected) {
   const states = [];
   try {
     for (const state of variant === "corrected" ? equations.corrected(corrected) : equations.published(variant)) states.push(state);
+    return { states, failure: null };
   } catch (failure) {
-    if (failure instanceof Cause) return { states, failure: failure.words };
-    if (!(failure instanceof Failure)) throw failure;
-    return { states, failure: String(failure) };
+    if (!(failure instanceof Cause || failure instanceof Failure)) throw failure;
+    return { states, failure: failure instanceof Cause ? failure.words : String(failure) };
   }
-  return { states, failure: null };
 }
 
 /** The energy norm √(uᵀ·K·u). */

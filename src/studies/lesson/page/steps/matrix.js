@@ -10,14 +10,9 @@ const isJoined = (lines) => lines.some(({ text }) => text.startsWith("MJS[V[i],W
 function mappedNodes(mesh, machine) {
   const border = isBordered(machine.lines) ? mesh.contact.length : 0;
   if (mesh.count <= 40) return Array.from({ length: mesh.count + border }, (_, k) => k + 1);
-  const found = new Set();
-  for (const { writes } of machine.steps) {
-    for (const { name } of writes) {
-      const place = /^MJS\[(\d+),(\d+)\]$/.exec(name);
-      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(Number(e) / 2)));
-    }
-  }
-  return [...found].sort((a, b) => a - b);
+  const names = machine.steps.flatMap(({ writes }) => writes.map(({ name }) => name)).filter((name) => name.startsWith("MJS["));
+  const nodes = names.flatMap((name) => name.match(/\d+/g).map((e) => Math.ceil(Number(e) / 2)));
+  return [...new Set(nodes)].sort((a, b) => a - b);
 }
 
 /** The name of a node in the map; behind the last one stand the equations of contact, p1 those of the first contact node. */

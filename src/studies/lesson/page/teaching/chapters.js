@@ -2,15 +2,10 @@
 // listing as printed.
 
 /** The values of a run at its end that are compared: by name. */
-function results(programs) {
-  const found = new Map();
-  for (const program of [programs.c_cnt, programs.Km]) {
-    if (!program) continue;
-    const machine = atEnd(program);
-    for (const [name, value] of machine.values) if (/^(ct|yt|dy|k_cnt|MJS)\[/.test(name)) found.set(name, value);
-    if (machine.failure) found.set("stops", machine.failure);
-  }
-  return found;
+function results({ c_cnt, Km }) {
+  const machines = [c_cnt, Km].map(atEnd);
+  const values = machines.flatMap((machine) => [...machine.values]).filter(([name]) => /^(ct|yt|dy|k_cnt|MJS)\[/.test(name));
+  return new Map(/** @type {any} */ ([...values, ...machines.flatMap(({ failure }) => (failure ? [["stops", failure]] : []))]));
 }
 
 /** A machine at the end of a program. */
