@@ -38,7 +38,7 @@ function underEquation(matrix, rows, load) {
 
 /** A scene's equations under a run's listings, which are given as read; `at(n)` is where node n stands. */
 class Equations {
-  listings; settings; own; plane; readsRestraintOfY; K;
+  listings; settings; own; plane; readsRestraintOfY; stiffness;
   constructor({ plane, settings, readsRestraintOfY }, listings, own, at, c_tll) {
     Object.assign(this, { listings, settings, own, plane, readsRestraintOfY });
     this.tables = (own) => worksheetOf(tablesOf(own, at, c_tll), plane, KNOWN);
@@ -48,9 +48,11 @@ class Equations {
   }
 
   /** The matrix of Km without contact and without restraints. */
-  get stiffness() {
+  get K() {
+    if (this.stiffness) return this.stiffness;
     const free = this.tables({ ...this.own, restrained: this.own.nodes.map(() => [false, false]) });
-    return called(this.listings.Km, free, this.settings, gridFrom(this.count, 4, () => 0)).value;
+    this.stiffness = called(this.listings.Km, free, this.settings, gridFrom(this.count, 4, () => 0)).value;
+    return this.stiffness;
   }
 
   /** What c_cnt finds in the shape that is displaced by `u`: k_cnt, and the contact nodes in contact, each once. */
@@ -69,7 +71,9 @@ class Equations {
     for (const n of this.own.dropped) for (const e of [2 * n - 2, 2 * n - 1]) matrix.write(e, e, 1);
     const bound = inContact.flatMap((n) => [2 * n - 2, 2 * n - 1]).filter((e) => !this.restrained[e]);
     const isEmpty = (e) => load.every((_, j) => e === j || (matrix.get(e, j) === 0 && matrix.get(j, e) === 0));
-    if (bound.length && bound.every(isEmpty)) return underEquation(matrix, this.elimination(k_cnt, inContact), load);
+    // A node that nothing else of its body holds has no other entries as printed too, but its own.
+    const isOther = (e) => matrix.get(e, e) !== this.K.get(e, e);
+    if (bound.every(isEmpty) && bound.some(isOther)) return underEquation(matrix, this.elimination(k_cnt, inContact), load);
     // Under reading R2 = printed, Km takes the restraint of y for that of x.
     const held = (e) => this.restrained[this.readsRestraintOfY ? e | 1 : e];
     return solved(matrix, load.map((f, e) => (held(e) ? 0 : f)));
@@ -79,7 +83,6 @@ class Equations {
   tied({ k_cnt, inContact }, load) {
     const rows = this.elimination(k_cnt, inContact);
     const matrix = gridFrom(rows.length, rows.length, () => 0);
-    this.K ??= this.stiffness;
     rows.forEach((row, i) => rows.forEach((column, j) => {
       const entry = this.K.get(i, j);
       if (entry !== 0) for (const [p, a] of row) for (const [q, b] of column) matrix.entries[p * rows.length + q] += a * entry * b;

@@ -19,7 +19,7 @@ function played() {
   const corrected = { ...data.corrected, programs: new Map(readAt(run().programs ?? data.corrected.programs, page.edits)) };
   const made = iterated(equationsOf(run(), page.edits), page.variant, corrected);
   // The energy is that of the stiffness as printed, whatever is edited.
-  return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
+  return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).K, chapter().reference) : undefined);
 }
 
 /** The listings of some places, read, as given or as edited. @returns {any} */
