@@ -70,10 +70,9 @@ class Equations {
     const matrix = called(this.listings.Km, this.worksheet, this.settings, k_cnt).value.copy();
     for (const n of this.own.dropped) for (const e of [2 * n - 2, 2 * n - 1]) matrix.write(e, e, 1);
     const bound = inContact.flatMap((n) => [2 * n - 2, 2 * n - 1]).filter((e) => !this.restrained[e]);
-    const isEmpty = (e) => load.every((_, j) => e === j || (matrix.get(e, j) === 0 && matrix.get(j, e) === 0));
-    // A node that nothing else of its body holds has no other entries as printed too, but its own.
-    const isOther = (e) => matrix.get(e, e) !== this.K.get(e, e);
-    if (bound.every(isEmpty) && bound.some(isOther)) return underEquation(matrix, this.elimination(k_cnt, inContact), load);
+    // Left without an entry, an equation has the 1 of line 13; one that has its own stiffness may lack others as printed too.
+    const isEmpty = (e) => matrix.get(e, e) === 1 && load.every((_, j) => e === j || (matrix.get(e, j) === 0 && matrix.get(j, e) === 0));
+    if (bound.every(isEmpty) && bound.some((e) => this.K.get(e, e) !== 1)) return underEquation(matrix, this.elimination(k_cnt, inContact), load);
     // Under reading R2 = printed, Km takes the restraint of y for that of x.
     const held = (e) => this.restrained[this.readsRestraintOfY ? e | 1 : e];
     return solved(matrix, load.map((f, e) => (held(e) ? 0 : f)));
