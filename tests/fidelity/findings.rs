@@ -469,6 +469,7 @@ fn constrained(model: &Model) -> DMatrix<f64> {
     }
     for e in (0..free.nrows()).filter(|e| model.is_restrained(Dof::new(*e))) {
         t.column_mut(e).fill(0.0);
+        t.row_mut(e).fill(0.0);
     }
     let mut mjs = t.transpose() * free * t;
     for e in 0..mjs.nrows() {

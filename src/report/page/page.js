@@ -109,7 +109,7 @@ function showExactValues() {
 function roving(container, selector, columns = () => 1) {
   const all = () => [...container.querySelectorAll(selector)];
   all().forEach((item, k) => (item.tabIndex = k === 0 ? 0 : -1));
-  if (container.dataset.roving) return;
+  if ("roving" in container.dataset) return;
   container.dataset.roving = "";
   container.addEventListener("keydown", (event) => {
     const items = all();

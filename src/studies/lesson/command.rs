@@ -7,7 +7,7 @@ use crate::audit::Case;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{Compared, Price};
 use crate::lesson::page::{self as page, Chapter, Measured};
-use crate::lesson::{self as study, Iterations, Repairs, Switch, run as execute, switches};
+use crate::lesson::{self as study, Repairs, Switch, reference, run as execute, switches};
 use base::plain::shown;
 use engine::error::Result;
 use paper::corrected::FAULTS;
@@ -87,7 +87,7 @@ fn lesson(args: &Args) -> Result<String> {
 /// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such way.
 fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
-    let (scene, nodes, (repairs, iterations)) = match found {
+    let (scene, nodes, (repairs, u)) = match found {
         Some(found) => found,
         None => {
             let fig1 = Scene::open("fig1")?;
@@ -98,7 +98,8 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     let printed = Switch::as_printed();
     let model = printed.model(&scene)?;
     let runs = vec![(printed, model)];
-    Ok(Chapter { scene, runs, nodes, finding: None, repairs: Some(repairs), iterations })
+    let repairs = Some(repairs);
+    Ok(Chapter { scene, runs, nodes, finding: None, repairs, reference: Some(u) })
 }
 
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on fig1.
@@ -124,13 +125,13 @@ fn prices(compared: &Compared, finding: &Finding) -> Vec<Price> {
     compared.prices_of(&faults, &|| ()).into_iter().skip(1).collect()
 }
 
-/// Returns a chapter with its iterations, on the model of its first run.
+/// Returns a chapter with its reference solution, on the model of its first run.
 fn opened(
     scene: Scene,
     runs: Vec<(Switch, Arc<Model>)>,
     nodes: Vec<usize>,
     finding: Option<Measured>,
 ) -> Chapter {
-    let iterations = Iterations::new(&scene, &runs[0].1);
-    Chapter { scene, runs, nodes, finding, repairs: None, iterations }
+    let reference = reference(&scene, &runs[0].1);
+    Chapter { scene, runs, nodes, finding, repairs: None, reference }
 }

@@ -22,7 +22,7 @@ use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 use trace::trace;
 
-pub use iterations::{Iterations, Recorded, State, recorded};
+pub use iterations::{MOST_SOLVED, reference};
 pub use repairs::Repairs;
 pub use switches::{Switch, chapter, switches};
 pub use trace::{Product, Step, Trace};

@@ -5,15 +5,16 @@
 
 mod repairs;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+use nalgebra::DVector;
 use serde_json::{Value, json};
 
 use crate::audit::findings::{Evidence, Finding};
 use crate::audit::prices::Price;
 use crate::audit::tables::FindingRow;
-use crate::lesson::{Iterations, Recorded, Repairs, State, Switch};
+use crate::lesson::{MOST_SOLVED, Repairs, Switch};
 use mathcad::unsupported::{FUNCTIONS, UNITS};
 use mathcad::{Listing, Settings};
 use paper::corrected::{Program, program};
@@ -23,7 +24,6 @@ use problem::scene::Scene;
 use report::json::document;
 use report::language::{Language, messages, of_interpreter};
 use report::page::{INTERPRETER, Page};
-use report::picture::boundary_edges;
 use report::tables::figure_numbers;
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
@@ -38,8 +38,8 @@ pub struct Chapter {
     pub finding: Option<Measured>,
     /// The way from the print to the right answer, which the chapter goes.
     pub repairs: Option<Repairs>,
-    /// The iterations of its scene.
-    pub iterations: Iterations,
+    /// The displacements with which the iterations are compared.
+    pub reference: Option<DVector<f64>>,
 }
 
 /// A finding, and what the audit has of it.
@@ -104,7 +104,6 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("page/steps/matrix.js"),
         include_str!("page/steps/tables.js"),
         include_str!("page/iterations/play.js"),
-        include_str!("page/steps/assembly.js"),
         include_str!("page/teaching/tour.js"),
         include_str!("page/teaching/questions.js"),
         include_str!("page/teaching/chapters.js"),
@@ -162,10 +161,6 @@ impl Shared {
             runs.extend(repairs.shown().map(after));
         }
         let finding = chapter.finding.as_ref().map(Measured::json);
-        let Iterations { reference, recorded } = &chapter.iterations;
-        // The errors of what is recorded are recorded too.
-        let reference = reference.as_ref().filter(|_| recorded.is_none());
-        let recorded = recorded.as_deref().map(|runs| of_rims(&chapter.runs[0].1, runs));
         let title = match repairs {
             None => json!(chapter.scene.title),
             Some(repairs) => repairs::title(repairs),
@@ -177,8 +172,9 @@ impl Shared {
             "runs": runs,
             "nodes": chapter.nodes,
             "variant": chapter.scene.variant,
-            "reference": reference.map(|u| u.as_slice()),
-            "recorded": recorded,
+            "sha256": chapter.scene.hashes(),
+            "isIterated": chapter.scene.model.nodes.len() <= MOST_SOLVED,
+            "reference": chapter.reference.as_ref().map(|u| u.as_slice()),
             "finding": finding,
             "repairs": repairs.map(repairs::json),
         })
@@ -216,39 +212,6 @@ impl Shared {
         let programs = Program::ALL.iter();
         programs.map(|own| (own.name(), self.listing(&program(*own, edits)))).collect()
     }
-}
-
-/// Returns the recorded iterations, what repeats once. Of displacements the page draws those of the bodies'
-/// rims, in whole thousandths of the largest, `unit`.
-fn of_rims(model: &Model, runs: &[Recorded]) -> Value {
-    let triangles: Vec<_> =
-        model.triangles.iter().map(|t| t.nodes.map(|node| node.index())).collect();
-    let rim = boundary_edges(&triangles);
-    let nodes: BTreeSet<_> = rim.iter().flatten().copied().collect();
-    let states = || runs.iter().flat_map(|run| &run.states);
-    let unit = states().map(|state| state.u.amax()).fold(0.0, f64::max) / 1000.0;
-    let mut shapes = DistinctValues::default();
-    let mut state = |state: &State| {
-        let components = nodes.iter().flat_map(|n| [2 * n, 2 * n + 1]);
-        let u: Vec<_> = components.map(|e| (state.u[e] / unit).round() as i64).collect();
-        json!({
-            "inContact": state.in_contact,
-            "shape": shapes.index(json!(u)),
-            "error": state.error,
-        })
-    };
-    let mut variants = BTreeMap::new();
-    for run in runs {
-        let states: Vec<_> = run.states.iter().map(&mut state).collect();
-        variants.insert(run.variant.name(), json!({ "states": states, "failure": run.failure }));
-    }
-    json!({
-        "rim": rim.iter().map(|edge| edge.map(|n| n + 1)).collect::<Vec<_>>(),
-        "nodes": nodes.iter().map(|n| n + 1).collect::<Vec<_>>(),
-        "unit": unit,
-        "shapes": shapes.items,
-        "variants": variants,
-    })
 }
 
 /// Returns a model's mesh, from which the page makes the worksheet's tables and draws it; nodes and

@@ -1,8 +1,9 @@
 //! The way from the print to the right answer: the corrected programs with the faults that are left.
 
-use super::iterations::{Iterations, MOST_SOLVED};
+use super::iterations::MOST_SOLVED;
 use crate::audit::Case;
 use crate::audit::prices::{Compared, Price, needed};
+use nalgebra::DVector;
 use paper::corrected::{FAULTS, Fault};
 use problem::scene::Scene;
 
@@ -15,9 +16,9 @@ pub struct Repairs {
 }
 
 impl Repairs {
-    /// Returns the repairs of a scene, and what its iterations are compared with; nothing where no page iterates
+    /// Returns the repairs of a scene, and the solution with which its iterations are compared; nothing where no page iterates
     /// the scene, or where they lead to no solution.
-    pub fn new(scene: &Scene) -> Option<(Self, Iterations)> {
+    pub fn new(scene: &Scene) -> Option<(Self, DVector<f64>)> {
         if scene.model.nodes.len() > MOST_SOLVED {
             return None;
         }
@@ -25,8 +26,7 @@ impl Repairs {
         let compared = Compared::new(&Case::new(scene.clone())).ok()?;
         let rows = compared.repairs(&|| ());
         let needed = needed(&rows)?;
-        let iterations = Iterations { reference: Some(compared.exact.u), recorded: None };
-        Some((Repairs { rows, needed }, iterations))
+        Some((Repairs { rows, needed }, compared.exact.u))
     }
 
     /// Returns the numbers of repairs that a lesson shows: up to the solution, and all.

@@ -32,15 +32,18 @@ run(async (browser) => {
   const russian = await texts();
   await page.click("#language");
   assert.doesNotMatch((await texts()).replace("Русский", ""), /[а-яё]/i, "all is English");
+  const edges = () => page.locator("#nodes button").evaluateAll((all) => all.map((button) => button.getAttribute("aria-label")).join());
+  assert.doesNotMatch(await edges(), /[а-яё]/i);
   await page.click("#language");
+  assert.doesNotMatch(await edges(), /[a-z]/i);
   assert.equal(await texts(), russian, "the switch there and back leaves nothing behind");
   await page.click("#edit");
   const text = await page.inputValue("#text");
   for (const [from, to, words] of [
-    ["|yt[i1]| < c_tll ∧", "|yt[i1]| < ∧", "Строка 16, столбец 30: найдено: `∧`; ожидается: операнд. Вероятно: не хватает операнда или знак стоит дважды."],
+    ["|yt[i1]| < c_tll ∧", "|yt[i1]| < ∧", "Строка 16, позиция 30: встретилось `∧`, а ожидается операнд. Вероятная причина: не хватает операнда или знак стоит дважды."],
     ["yt[i1] ← 0", "yt[i1] ← 0 & 1", "такого знака в записи нет"],
-    ["      trace(ct[i1])", "        trace(ct[i1])", "Строка 20, столбец 9: отступ 8, а должен быть 6."],
-    ["dy[i1] ← 0", "dyy[i1] ← 0", "Имя dyy получает значение, но ни одна строка его не читает. Возможно, dy?"],
+    ["      trace(ct[i1])", "        trace(ct[i1])", "Строка 20, позиция 9: отступ 8, а должен быть 6."],
+    ["dy[i1] ← 0", "dyy[i1] ← 0", "Имени dyy присваивается значение, но ни одна строка его не использует. Может быть, dy?"],
   ]) {
     await page.fill("#text", text.replace(from, to));
     await page.locator("#text-error", { hasText: words }).waitFor();

@@ -22,7 +22,7 @@ function valuesAfter(steps) {
   return values;
 }
 
-const flat = (value) => (Array.isArray(value) ? `(${value.map((row) => [row].flat().join("  ")).join(Array.isArray(value[0]) ? ";  " : "  ")})` : String(value));
+const flat = (value) => (Array.isArray(value) ? `(${value.map((row) => [row].flat().join("  ")).join(Array.isArray(value[0]) ? ";  " : "  ")})` : String(value).replaceAll(" x ", " × "));
 
 /** A function that compares what a page shows of a listing with its trace, and returns how many steps
  * were executed. */

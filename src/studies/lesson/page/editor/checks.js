@@ -12,6 +12,13 @@ function errorIn(name, text) {
   }
 }
 
+/** Where the innermost bracket stands that is still open where a line breaks off; nothing where there is none. */
+function openBracket({ message, fileLine, column }, text) {
+  const open = [];
+  [...text.split("\n")[fileLine - 1]].slice(0, column - 1).forEach((c, k) => ("([".includes(c) ? open.push(k + 1) : ")]".includes(c) && open.pop()));
+  return /^found (the end|`).*expected.*`[\])]`/.test(message) ? open.at(-1) : undefined;
+}
+
 /** The one or two likely causes of an error. */
 function likelyCauses({ message, fileLine, column }, text) {
   const line = text.split("\n")[fileLine - 1] ?? "";

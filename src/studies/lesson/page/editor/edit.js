@@ -13,11 +13,9 @@ function placesAsPrinted(lines, printed) {
   }
   const same = new Set();
   for (let [i, j] = [0, 0]; i < lines.length && j < printed.length; ) {
-    const isSame = lines[i] === printed[j];
-    if (isSame) same.add(i);
-    const [down, across] = [isSame || longest[i + 1][j] >= longest[i][j + 1], isSame || longest[i + 1][j] < longest[i][j + 1]];
-    i += down ? 1 : 0;
-    j += across ? 1 : 0;
+    if (lines[i] === printed[j]) same.add(i), i++, j++;
+    else if (longest[i + 1][j] >= longest[i][j + 1]) i += 1;
+    else j += 1;
   }
   return same;
 }
@@ -33,23 +31,39 @@ function stateOf(name) {
   return isAsPrinted && !isReading ? t("edited") : t("{base}, then edited", { base });
 }
 
-/** What the buttons can do: "reset" takes back tolerance and nodes, "as printed" the listings; what was typed comes back. */
+/** The listing that is shown, in words: what is in force, and whether the text that was typed is not, as it has an error. */
+function listingInWords(name) {
+  if (!page.isStale) return stateOf(name);
+  return `${stateOf(name)}, ${page.edits.has(run()[name]) ? t("of the last text without an error") : t("your text has an error and is not run")}`;
+}
+
+/** What the controls can do: "reset" takes back tolerance and nodes, "as printed" the listings; what was typed comes back. */
 function showButtons() {
   byId("reset").disabled = !isMoved();
   byId("printed").disabled = page.run === 0 && !page.isMine;
   byId("mine").hidden = page.isMine || page.typed.size === 0;
+  byId("ask").disabled = isIterating();
+  byId("beside-too").disabled = !canBeBeside();
 }
 
 /** Shows what is wrong, and how sure it is: an error does not run. */
 function showRemarks(text) {
   const error = errorIn(page.which, text);
   const lines = linesOf(text);
-  const remarks = error ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, (name) => new Run({}, page.programs.worksheet, {}).has(name) || programsOfSheet().has(name));
-  const wrong = error ? [{ ...error, length: 1, words: interpreted(error.message) + "." }] : remarks;
+  // A corrected listing may call its programs.
+  const isKnown = (name) => new Run({}, page.programs.worksheet, {}).has(name) || name in (run().programs ?? {});
+  const remarks = error || text === textOf(run()[page.which]) ? [] : remarksOn(readListing(page.which, lines), page.programs.worksheet, isKnown);
+  const open = error && openBracket(error, text);
+  const words = open ? t("the bracket that is opened here is not closed.") : error && interpreted(error.message) + ".";
+  const wrong = error ? [{ ...error, column: open ?? error.column, length: 1, words }] : remarks;
   const items = wrong.map((at) => {
-    const causes = error ? likelyCauses(error, text) : [];
+    const causes = error && !open ? likelyCauses(error, text) : [];
     const words = t("Line {fileLine}, column {column}: {words}", at) + (causes.length ? ` ${t("Likely: {causes}.", { causes: causes.join(` ${t("or")} `) })}` : "");
-    return make("li", {}, button(words, () => putCaret(at)));
+    const mend = () => {
+      showEditor(true);
+      putCaret(at);
+    };
+    return make("li", {}, button(words, mend));
   });
   byId("text-error").replaceChildren(...items);
   if (error) byId("text-error").append(make("li", {}, t("Until it is mended, the rest of the page stays with the last text that could be read, and “done” leads back to the error; “as printed” takes the text back.")));
@@ -57,11 +71,9 @@ function showRemarks(text) {
   page.isStale = error !== null;
   byId("columns").classList.toggle("stale", page.isStale);
   showMarks(text, wrong);
+  say("listing-title", `${page.which}, ${listingInWords(page.which)}`);
   return error;
 }
-
-/** The programs that a corrected listing may call. */
-const programsOfSheet = () => new Set(run().programs ? Object.keys(run().programs) : []);
 
 /** Draws the numbers of the lines, and the text once more below the letters, with what is wrong underlined. */
 function showMarks(text, wrong) {
@@ -69,13 +81,11 @@ function showMarks(text, wrong) {
   byId("gutter").textContent = lines.map((_, k) => k + 1).join("\n");
   const marked = lines.flatMap((line, k) => {
     const letters = [...line];
-    const here = wrong.filter(({ fileLine }) => fileLine === k + 1).sort((a, b) => a.column - b.column);
     let at = 0;
-    const pieces = here.flatMap(({ column, length }) => {
-      const from = Math.max(at, column - 1);
-      const piece = [letters.slice(at, from).join(""), make("mark", {}, letters.slice(from, from + length).join("") || " ")];
-      at = Math.max(from + length, at);
-      return piece;
+    const pieces = wrong.filter(({ fileLine }) => fileLine === k + 1).sort((a, b) => a.column - b.column).flatMap(({ column, length }) => {
+      const [last, from] = [at, Math.max(at, column - 1)];
+      at = from + length;
+      return [letters.slice(last, from).join(""), make("mark", {}, letters.slice(from, at).join("") || " ")];
     });
     return [...pieces, letters.slice(at).join("") + "\n"];
   });
@@ -99,7 +109,7 @@ function sayCaret() {
 function putCaret({ fileLine, column, length = 0 }) {
   const text = byId("text");
   const lines = text.value.split("\n");
-  const start = lines.slice(0, fileLine - 1).join("\n").length + (fileLine > 1 ? 1 : 0) + [...lines[fileLine - 1]].slice(0, column - 1).join("").length;
+  const start = [...lines.slice(0, fileLine - 1), [...lines[fileLine - 1]].slice(0, column - 1).join("")].join("\n").length;
   text.focus();
   text.setSelectionRange(start, start + length);
   sayCaret();
@@ -108,7 +118,6 @@ function putCaret({ fileLine, column, length = 0 }) {
 /** Shows the text of the listing that is chosen. What is typed stays, so that the caret does. */
 function showText() {
   const text = shownText(run()[page.which]);
-  say("listing-title", t("{listing}, {state}", { listing: page.which, state: stateOf(page.which) }));
   if (byId("text").value !== text) byId("text").value = text;
   showRemarks(text);
   sayCaret();
@@ -126,8 +135,7 @@ function readText() {
   if (text === textOf(place)) page.typed.delete(place);
   page.isMine = page.typed.size > 0;
   keepTyped();
-  if (!error) return choose({ edits: true });
-  showButtons();
+  if (!error || isFirst) return choose({ edits: true });
   say("status", placeInWords());
 }
 
@@ -138,12 +146,9 @@ function showEditor(isOpen) {
   byId("below").classList.toggle("editing", isOpen);
   byId("edit").textContent = isOpen ? t("done") : t("edit");
   if (!isOpen) return lightLine(page.machine);
-  const text = byId("text");
-  text.focus();
-  text.setSelectionRange(0, 0);
-  text.scrollTop = text.scrollLeft = 0;
+  byId("text").scrollTop = byId("text").scrollLeft = 0;
+  putCaret({ fileLine: 1, column: 1 });
   scrollMarks();
-  sayCaret();
 }
 
 function watchEditor() {
@@ -162,11 +167,9 @@ function watchEditor() {
     if (isOpen && page.isStale) return byId("text-error").querySelector("button").click();
     showEditor(!isOpen);
   });
-  const chosen = (change) => {
+  for (const [id, change] of Object.entries({ printed: { run: 0, isMine: false }, mine: { isMine: true } })) byId(id).addEventListener("click", () => {
     choose(change);
     keepTyped();
-  };
-  byId("printed").addEventListener("click", () => chosen({ run: 0, isMine: false }));
-  byId("mine").addEventListener("click", () => chosen({ isMine: true, edits: true }));
+  });
   byId("download").addEventListener("click", download);
 }

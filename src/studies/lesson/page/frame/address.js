@@ -46,11 +46,8 @@ function openAddress() {
   fillChapters();
   openChapter(place(data.scenes, fields.get("chapter")));
   if (!fields.has("chapter")) return;
-  const whiches = page.mesh.contact.length ? ["c_cnt", "Km", "iterations"] : ["Km"];
-  const which = whiches.find((which) => which === fields.get("listing")) ?? (fields.has("listing") ? whiches[0] : page.which);
-  const variants = [...byId("variant").options].map(({ value }) => value);
+  const isThere = ({ value, disabled }) => value === fields.get("listing") && !disabled;
   const chosen = Math.max(0, chapter().runs.findIndex(({ name }) => name === fields.get("run")));
-  const factor = Number(fields.get("tolerance"));
   const nodes = (fields.get("moved") ?? "").split(";").map((text) => text.split(/[:,]/).map(Number));
   const isNode = ([n, ...at]) => Number.isInteger(n) && n >= 1 && n <= page.mesh.count && at.length === 2 && at.every(Number.isFinite);
   const edited = LISTINGS.filter((name) => fields.has(name) && !errorIn(name, fields.get(name)));
@@ -61,10 +58,10 @@ function openAddress() {
   }
   choose({
     run: chosen,
-    which,
-    variant: variants.find((variant) => variant === fields.get("variant")) ?? page.variant,
+    which: radios().find(isThere)?.value ?? page.which,
+    variant: fields.get("variant") ?? page.variant,
     at: Number(fields.get("step")) || 0,
-    factor: factor >= 0.01 && factor <= 100 ? factor : 1,
+    factor: Math.min(100, Math.max(0.01, Number(fields.get("tolerance") ?? 1) || 1)),
     isMine: edited.length > 0,
     isBeside: fields.has("beside"),
     turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),

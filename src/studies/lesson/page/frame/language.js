@@ -24,7 +24,6 @@ function setLanguage(language) {
   for (const [english, write] of FIXED) write(t(english));
   byId("language").textContent = language === "ru" ? "English" : "Русский";
   byId("language").lang = language === "ru" ? "en" : "ru";
-  byId("colophon").textContent = t("plane-contact {version}; scene {name}, SHA-256 {scene_sha256}, mesh {mesh_sha256}.", { ...data, name: data.scenes[0].name });
 }
 
 /** Says everything in the other language, where it is. */

@@ -1,6 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map(), atStake: new Set() };
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
@@ -33,14 +33,14 @@ function choose(change) {
   const at = isEnded ? Infinity : (page.machine?.at ?? 0);
   Object.assign(page, change);
   page.edits = editsInForce();
-  if ("run" in change || "edits" in change) fillVariants();
+  if (["run", "edits", "isMine"].some((name) => name in change)) fillVariants();
   page.mesh = meshOf(run(), page.moved, page.turned);
   page.programs = new Programs(run(), page.mesh, chapter().nodes, page.factor * run().c_tll, page.edits);
   page.pairs = new Machine(page.programs.c_cnt ?? NOTHING);
   page.machine = isIterating() ? played() : page.which === "Km" ? new Machine(page.programs.Km ?? { ...NOTHING, failure: t("c_cnt stopped, so Km is not called") }) : page.pairs;
   if (page.which === "Km") page.pairs.goTo(page.pairs.steps.length);
   page.zone = zoneOf(page.mesh, chapter().nodes);
-  page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine) : null;
+  page.map = page.which === "Km" ? new MatrixMap(page.mesh, page.machine, page.atStake) : null;
   page.machine.goTo(change.at ?? ("which" in change ? 0 : at));
   byId("slider").max = page.machine.steps.length;
   byId("chapter").value = page.chapter;
@@ -56,8 +56,8 @@ function choose(change) {
   if (!isIterating() && ["run", "which", "edits", "isMine"].some((name) => name in change)) {
     showText();
     showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
-    byId("turn").textContent = page.which === "Km" ? t("element") : t("node");
-    byId("turn").title = page.which === "Km" ? t("Run to the next element (N)") : t("Run to the next contact node (N)");
+    const [turn, title] = page.which === "Km" ? [t("element"), t("Run to the next element (N)")] : [t("node"), t("Run to the next contact node (N)")];
+    Object.assign(byId("turn"), { textContent: turn, title });
   }
   showButtons();
   // Beside the arrays these would take half of a move's time.
@@ -80,23 +80,25 @@ function fillTurns() {
   byId("turns").replaceChildren(make("option", { value: 0 }, t("the start")), ...options);
 }
 
-/** Goes to a place; what a button or a key brings into MJS on the way flies. */
-function go(at, isFlying = false) {
+/** Goes to a place; what a button or a key brings into MJS on the way is marked. */
+function go(at) {
   const from = page.machine.at;
   page.machine.goTo(at);
-  if (page.which === "Km") page.map.brought = broughtIn(page.machine, from);
+  if (page.map) page.map.brought = broughtIn(page.machine, from);
   show();
-  if (page.which === "Km") showAssembly(page.map.brought, page.map, isFlying);
 }
 
 /** The place in words: the step, the line that was executed last, whether a decision is next, and what listing it is. */
 function placeInWords() {
   const { at, steps, next, lines, last } = page.machine;
-  if (isIterating()) return t("iteration {at} of {count}", { at, count: steps.length });
+  if (isIterating()) {
+    const states = new Set(LISTINGS.map(stateOf));
+    const listings = states.size === 1 ? [...states] : LISTINGS.map((name) => `${name} ${stateOf(name)}`);
+    return [t("iteration {at} of {count}", { at, count: steps.length }), ...(page.variant === "corrected" ? [] : listings)].join(", ");
+  }
   const place = [t("step {at} of {count}", { at, count: steps.length }), ...(last ? [t("line {line}", { line: lines[last.line].number })] : [])];
   const decision = next && next.held !== null ? [t("before the decision of line {line}", { line: lines[next.line].number })] : [];
-  const stale = page.isStale ? [t("of the last text without an error")] : [];
-  return [...place, stateOf(page.which), ...stale, ...decision].join(", ");
+  return [...place, listingInWords(page.which), ...decision].join(", ");
 }
 
 /** Shows the state after the steps or the iterations that were made. */
@@ -105,6 +107,7 @@ function show() {
   // What it takes of the window the others have not.
   if (at === steps.length && at > 0) unfoldConclusion();
   say("status", placeInWords());
+  say("place", `${byId("about").textContent} ${byId("status").textContent}. ${byId("tolerance-label").textContent}.`);
   byId("columns").hidden = isIterating();
   byId("iterations").hidden = !isIterating();
   if (isIterating()) showIterations();
@@ -135,10 +138,11 @@ function showSteps() {
   drawWhole(mesh, pairs, inKm ? turn : null, linked);
   byId("matrix").hidden = byId("block").hidden = !inKm;
   byId("pictures").classList.toggle("stiffness", inKm);
-  if (inKm) page.map.draw();
+  page.map?.draw();
   showStep(machine);
   showTables(byId("values"), machine, inKm ? stiffnessTables(machine) : contactTables(mesh, machine), inKm ? -1 : turn - 1);
   if (inKm) showTables(byId("block"), machine, [elementTable(machine)], -1);
+  for (const { from } of page.map?.brought ?? []) document.querySelector(`td[data-name="${from}"]`).classList.add("read");
   const ended = machine.at === machine.steps.length;
   say("failure", ended && machine.failure ? t("The listing stops: {failure}", machine) : "");
   ask(machine, mesh);
@@ -160,26 +164,29 @@ const moves = {
 };
 
 /** Steps by a key that nothing else takes: with the focus on a control the arrows, Home, End and the space bar are that
- * control's; letters are a text's and a list's. */
+ * control's (of a button the space bar alone); letters are a text's and a list's. */
 function pressed(event) {
   const { key, ctrlKey, altKey, metaKey, target } = event;
   if (ctrlKey || altKey || metaKey || target.closest("textarea, select, input[type=text]")) return;
   const isLetter = /^[a-z]$/i.test(key);
-  if (!isLetter && target !== document.body) return;
+  const isButton = key !== " " && target.closest("button, summary") && !target.closest("[data-roving], #nodes");
+  if (!isLetter && !isButton && target !== document.body) return;
   if (key === "p" || key === "P") play(!page.playing);
   const wanted = key === " " ? "ArrowRight" : isLetter ? key.toLowerCase() : key;
   const move = Object.values(moves).find(([key]) => key === wanted);
   if (!move || (isLetter && isIterating())) return;
   event.preventDefault();
-  go(move[1](page.machine), true);
+  go(move[1](page.machine));
 }
 
 function watch() {
   const on = (id, event, act) => byId(id).addEventListener(event, ({ target }) => act(target.value));
-  for (const [id, [, to]] of Object.entries(moves)) on(id, "click", () => go(to(page.machine), true));
+  for (const [id, [, to]] of Object.entries(moves)) on(id, "click", () => go(to(page.machine)));
   document.addEventListener("keydown", pressed);
   // A button that the pointer has pressed gives the focus back, so that the keys step.
   document.addEventListener("click", (/** @type {any} */ { target, detail }) => detail && target.closest(".controls button, .heading button") && byId("editor").hidden && target.closest("button").blur());
+  // So does a choice that it has made.
+  document.addEventListener("change", (/** @type {any} */ { target }) => target.matches("select, [type=radio], [type=checkbox]") && !target.matches(":focus-visible") && target.blur());
   on("play", "click", () => play(!page.playing));
   on("variant", "change", (variant) => choose({ variant, at: 0 }));
   on("slider", "input", (at) => go(Number(at)));
@@ -217,6 +224,9 @@ function fillChapter() {
   byId("run").replaceChildren(...chapter().runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
   showTitle();
   showFinding(chapter());
+  const { name, sha256 } = chapter();
+  const [scene, mesh] = sha256 ?? ["-", "-"];
+  say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
 }
 
 /** Shows the chapter's title; that of a finding gives the answer away, and waits for the conclusion. */
@@ -226,20 +236,24 @@ function showTitle() {
   document.title = byId("title").textContent = words;
 }
 
+/** The variant that shows what a chapter is about: of a finding in Km its own matrix. */
+const variantOf = ({ finding, variant }) => (finding?.listing === "Km" ? "printed" : variant);
+
 /** Opens a chapter, with what was typed in it. */
 function openChapter(k) {
   page.chapter = k;
   page.run = 0;
   page.asked = 0;
+  page.atStake = atStake();
   page.isConcluded = byId("conclusion").open = false;
+  Object.assign(score, { right: 0, asked: 0 });
   fillChapter();
   byId("finding").open = isWide();
-  const { contact } = data.meshes[run().mesh];
-  byId("pictures").classList.toggle("alone", contact.length === 0);
-  const inKm = contact.length === 0 || chapter().finding?.listing === "Km";
-  for (const radio of radios()) radio.disabled = contact.length === 0 && radio.value !== "Km";
-  const which = inKm ? "Km" : "c_cnt";
-  choose({ run: 0, which, variant: chapter().variant, at: 0, factor: 1, moved: new Map(), turned: new Set(), ...typedBefore() });
+  const isAlone = data.meshes[run().mesh].contact.length === 0;
+  byId("pictures").classList.toggle("alone", isAlone);
+  for (const radio of radios()) radio.disabled = (isAlone && radio.value !== "Km") || (radio.value === "iterations" && !chapter().isIterated);
+  const which = isAlone || chapter().finding?.listing === "Km" ? "Km" : "c_cnt";
+  choose({ run: 0, which, variant: variantOf(chapter()), at: 0, factor: 1, moved: new Map(), turned: new Set(), ...typedBefore() });
 }
 
 byId("choices").open = window.innerWidth >= 700;

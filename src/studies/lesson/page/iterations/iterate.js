@@ -28,9 +28,17 @@ function solved(matrix, f) {
   return substituted(eliminated, new Grid(n, 1, f)).entries;
 }
 
+/** The displacements T·q of a matrix that has eq. (1) in it. */
+function underEquation(matrix, rows, load) {
+  const f = load.map(() => 0);
+  rows.forEach((row, i) => row.forEach(([p, weight]) => (f[p] += weight * load[i])));
+  const q = solved(matrix, f);
+  return rows.map((row) => row.reduce((sum, [p, weight]) => sum + weight * q[p], 0));
+}
+
 /** A scene's equations under a run's listings, which are given as read; `at(n)` is where node n stands. */
 class Equations {
-  listings; settings; own; plane; readsRestraintOfY; K;
+  listings; settings; own; plane; readsRestraintOfY; stiffness;
   constructor({ plane, settings, readsRestraintOfY }, listings, own, at, c_tll) {
     Object.assign(this, { listings, settings, own, plane, readsRestraintOfY });
     this.tables = (own) => worksheetOf(tablesOf(own, at, c_tll), plane, KNOWN);
@@ -40,9 +48,11 @@ class Equations {
   }
 
   /** The matrix of Km without contact and without restraints. */
-  get stiffness() {
+  get K() {
+    if (this.stiffness) return this.stiffness;
     const free = this.tables({ ...this.own, restrained: this.own.nodes.map(() => [false, false]) });
-    return called(this.listings.Km, free, this.settings, gridFrom(this.count, 4, () => 0)).value;
+    this.stiffness = called(this.listings.Km, free, this.settings, gridFrom(this.count, 4, () => 0)).value;
+    return this.stiffness;
   }
 
   /** What c_cnt finds in the shape that is displaced by `u`: k_cnt, and the contact nodes in contact, each once. */
@@ -54,10 +64,15 @@ class Equations {
     return { k_cnt: value, inContact: [...new Set(this.own.contact.filter((_, k) => dy[k] === 1))] };
   }
 
-  /** The displacements of Km as printed; a node without triangles stays where it is. */
-  printed({ k_cnt }, load) {
+  /** The displacements under MJS as Km gives it; a node without triangles stays where it is. Where MJS has no entry at the
+   * equations of the nodes in contact, eq. (1) is in it, and then in the load and in the displacements too. */
+  printed({ k_cnt, inContact }, load) {
     const matrix = called(this.listings.Km, this.worksheet, this.settings, k_cnt).value.copy();
     for (const n of this.own.dropped) for (const e of [2 * n - 2, 2 * n - 1]) matrix.write(e, e, 1);
+    const bound = inContact.flatMap((n) => [2 * n - 2, 2 * n - 1]).filter((e) => !this.restrained[e]);
+    // Left without an entry, an equation has the 1 of line 13; one that has its own stiffness may lack others as printed too.
+    const isEmpty = (e) => matrix.get(e, e) === 1 && load.every((_, j) => e === j || (matrix.get(e, j) === 0 && matrix.get(j, e) === 0));
+    if (bound.every(isEmpty) && bound.some((e) => this.K.get(e, e) !== 1)) return underEquation(matrix, this.elimination(k_cnt, inContact), load);
     // Under reading R2 = printed, Km takes the restraint of y for that of x.
     const held = (e) => this.restrained[this.readsRestraintOfY ? e | 1 : e];
     return solved(matrix, load.map((f, e) => (held(e) ? 0 : f)));
@@ -65,26 +80,20 @@ class Equations {
 
   /** The displacements under eq. (1), by elimination: u = T·q, Tᵀ·K·T·q = Tᵀ·f. */
   tied({ k_cnt, inContact }, load) {
-    const { rows, size } = this.elimination(k_cnt, inContact);
-    const matrix = gridFrom(size, size, () => 0);
-    const f = Array(size).fill(0);
-    this.K ??= this.stiffness;
-    rows.forEach((row, i) => {
-      for (const [p, weight] of row) f[p] += weight * load[i];
-      rows.forEach((column, j) => {
-        const entry = this.K.get(i, j);
-        if (entry !== 0) for (const [p, a] of row) for (const [q, b] of column) matrix.entries[p * size + q] += a * entry * b;
-      });
-    });
-    const q = solved(matrix, f);
-    return rows.map((row) => row.reduce((sum, [p, weight]) => sum + weight * q[p], 0));
+    const rows = this.elimination(k_cnt, inContact);
+    const matrix = gridFrom(rows.length, rows.length, () => 0);
+    rows.forEach((row, i) => rows.forEach((column, j) => {
+      const entry = this.K.get(i, j);
+      if (entry !== 0) for (const [p, a] of row) for (const [q, b] of column) matrix.entries[p * rows.length + q] += a * entry * b;
+    }));
+    rows.forEach((row, e) => row[0]?.[0] !== e && matrix.write(e, e, 1));
+    return underEquation(matrix, rows, load);
   }
 
-  /** The rows of T, each its equations that remain with their weights. */
+  /** The rows of T, each its equations that remain with their weights: none of what is restrained. */
   elimination(k_cnt, inContact) {
-    let size = 0;
     const isBound = (e) => this.restrained[e] || inContact.includes(Math.floor(e / 2) + 1);
-    const rows = this.restrained.map((_, e) => (isBound(e) ? [] : [[size++, 1]]));
+    const rows = this.restrained.map((_, e) => (isBound(e) ? [] : [[e, 1]]));
     for (const n of inContact) {
       const [a, ka, b, kb] = [0, 1, 2, 3].map((j) => k_cnt.get(n - 1, j));
       for (const d of [-2, -1].filter((d) => !this.restrained[2 * n + d])) {
@@ -94,7 +103,7 @@ class Equations {
         });
       }
     }
-    return { rows, size };
+    return rows;
   }
 
   /** The iterations of one of the paper's variants: each searches in the shape so far, then solves. */
@@ -134,12 +143,11 @@ function iterated(equations, variant, corrected) {
   const states = [];
   try {
     for (const state of variant === "corrected" ? equations.corrected(corrected) : equations.published(variant)) states.push(state);
+    return { states, failure: null };
   } catch (failure) {
-    if (failure instanceof Cause) return { states, failure: failure.words };
-    if (!(failure instanceof Failure)) throw failure;
-    return { states, failure: String(failure) };
+    if (!(failure instanceof Cause || failure instanceof Failure)) throw failure;
+    return { states, failure: failure instanceof Cause ? failure.words : String(failure) };
   }
-  return { states, failure: null };
 }
 
 /** The energy norm √(uᵀ·K·u). */

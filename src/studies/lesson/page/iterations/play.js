@@ -5,7 +5,7 @@ class Played {
   steps; failure; lines; turns; at;
   constructor({ states, failure }, measure) {
     Object.assign(this, { steps: states, failure: failure && interpreted(failure), lines: [], turns: [], at: 0 });
-    this.measures = states.map((state) => measure?.(state.u) ?? { error: state.error });
+    this.measures = states.map(({ u }) => measure?.(u) ?? {});
     this.errors = this.measures.map(({ error }) => error);
     this.over = this.nextDecision = this.nextTurn = () => this.at + 1;
   }
@@ -13,40 +13,25 @@ class Played {
   goTo(at) { this.at = Math.max(0, Math.min(at, this.steps.length)); }
 }
 
-/** The iterations of the variant that is chosen: of a large scene as recorded, else made here. */
+/** The iterations of the variant that is chosen. */
 function played() {
-  const { recorded } = chapter();
-  if (recorded) {
-    const { states, failure } = recorded.variants[page.variant];
-    return new Played({ states: states.map((state) => ({ ...state, u: unpacked(recorded, state) })), failure });
-  }
-  const made = iterated(equationsOf(run(), page.edits), page.variant, correctedOf(run()));
+  // The corrected programs have the faults that the run puts back.
+  const corrected = { ...data.corrected, programs: new Map(readAt(run().programs ?? data.corrected.programs, page.edits)) };
+  const made = iterated(equationsOf(run(), page.edits), page.variant, corrected);
   // The energy is that of the stiffness as printed, whatever is edited.
-  return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).stiffness, chapter().reference) : undefined);
+  return new Played(made, hasReference() ? measuredBy(equationsOf(chapter().runs[0]).K, chapter().reference) : undefined);
 }
+
+/** The listings of some places, read, as given or as edited. @returns {any} */
+const readAt = (places, edits) => Object.entries(places).map(([name, place]) => [name, listingOf(name, linesAt(place, edits))]);
 
 /** The equations of the scene as it is now, under the listings of a run. */
 function equationsOf(run, edits) {
-  const [c_cnt, Km] = ["c_cnt", "Km"].map((name) => listingOf(name, linesAt(run[name], edits)));
-  return new Equations(run, { c_cnt, Km }, page.mesh.own, page.mesh.stands, page.programs.c_tll);
-}
-
-/** The corrected programs, with the faults that the run puts back, and the settings under which they run. */
-function correctedOf({ programs = data.corrected.programs }) {
-  const read = new Map();
-  for (const [name, place] of Object.entries(programs)) read.set(name, listingOf(name, linesAt(place, page.edits)));
-  return { programs: read, settings: data.corrected.settings };
+  return new Equations(run, Object.fromEntries(readAt({ c_cnt: run.c_cnt, Km: run.Km }, edits)), page.mesh.own, page.mesh.stands, page.programs.c_tll);
 }
 
 /** Whether the reference solution is one of the scene as it is now. */
 const hasReference = () => chapter().reference && page.moved.size === 0 && run().mesh === chapter().runs[0].mesh && run().plane === chapter().runs[0].plane;
-
-/** The displacements of a recorded state: those of the bodies' rims. */
-function unpacked({ nodes, shapes, unit }, { shape }) {
-  const u = Array(2 * page.mesh.count).fill(0);
-  nodes.forEach((n, k) => [0, 1].forEach((d) => (u[2 * n - 2 + d] = unit * shapes[shape][2 * k + d])));
-  return u;
-}
 
 /** Errors that are the equations' rounding. */
 const ROUNDING = 1e-10;
@@ -109,8 +94,8 @@ function courseInWords({ steps, failure }, variant) {
 }
 
 /** How many times displacements are drawn: the largest of all iterations comes to an eighth of the scene. */
-function magnification(mesh, steps, size) {
-  const most = steps.reduce((most, { u }) => u.reduce((most, x) => Math.max(most, Math.abs(x)), most), 0);
+function magnification(steps, size) {
+  const most = Math.max(0, ...steps.flatMap(({ u }) => u.map(Math.abs)));
   return most > 0 ? roundAtMost(size / 8 / most) : 1;
 }
 
@@ -118,25 +103,19 @@ function magnification(mesh, steps, size) {
 function drawShape(mesh, { steps, at }) {
   const canvas = byId("shape");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
-  const [low, high] = [Math.min, Math.max].map((end) => [0, 1].map((j) => end(...points.map((p) => p[j]))));
-  const times = magnification(mesh, steps, Math.max(high[0] - low[0], high[1] - low[1]));
+  const times = magnification(steps, Math.max(...[0, 1].map((j) => extentOf(points.map((p) => p[j]))).map(([low, high]) => high - low)));
   const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
   const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
   const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
   const { to } = viewOf([...points, ...corners], width, height, 26, false);
-  const drawn = (at, isInitial) => {
-    const colours = (nodes, body) => (isInitial ? { stroke: colour("rule") } : { stroke: colour(body === mesh.target ? "target-ink" : "stamp-ink"), fill: nodes.length > 2 && colour(body === mesh.target ? "target" : "stamp") });
-    const parts = chapter().recorded?.rim.map((nodes) => [nodes]) ?? mesh.triangles;
-    for (const [nodes, body] of parts) path(context, nodes.map((n) => to(at(n))), { ...colours(nodes, body), width: 0.8, close: true });
-  };
   const [now, inContact] = [moved(steps[at - 1]?.u), steps[at - 1]?.inContact];
-  drawn(mesh.at, true);
-  drawn(now, false);
+  for (const [nodes] of mesh.triangles) path(context, nodes.map((n) => to(mesh.at(n))), { stroke: colour("rule"), width: 0.8, close: true });
+  drawBodies(context, mesh, (n) => to(now(n)));
   for (const n of mesh.contact) {
     drawStatus(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
   }
-  byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: apart.", { times });
+  byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: not in contact.", { times });
   canvas.setAttribute("aria-label", byId("state").textContent);
 }
 
@@ -148,7 +127,7 @@ function statesTable(mesh, { steps, errors, at }) {
   const rows = nodes.map((n) => row(mesh.name(n), steps.map(({ inContact }) => (inContact.includes(n) ? "●" : "○"))));
   const share = (error) => (error === undefined ? "–" : short(Number((100 * error).toPrecision(3))));
   const head = make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("node")), ...steps.map((_, k) => make("th", { scope: "col", "aria-current": k === at - 1 ? "step" : undefined }, String(k + 1)))));
-  const caption = make("caption", {}, t("By iteration: ● in contact, ○ apart"));
+  const caption = make("caption", {}, t("By iteration: ● in contact, ○ not in contact"));
   return make("table", {}, caption, head, make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
 }
 
@@ -190,11 +169,10 @@ function drawCurve(canvas, errors, at, names) {
 function showIterations() {
   const { machine, mesh } = page;
   byId("state").textContent = stateInWords(machine);
-  const isRecorded = chapter().recorded && (isChanged() || page.run > 0);
   byId("course").textContent = [
     courseInWords(machine, page.variant),
-    ...(isRecorded ? [t("Recorded: the listings as printed, on the scene as given.")] : []),
-    ...(isJoined(linesAt(run().Km, page.edits)) ? [t("MJS has eq. (1) in it, so load and displacements have it too, as in tied; the variant printed has no place for it.")] : []),
+    ...(page.variant === "printed" && isJoined(linesAt(run().Km, page.edits)) ? [t("Where MJS has eq. (1) in it, load and displacements have it too.")] : []),
+    besideRepairInWords(),
   ].join(" ");
   drawShape(mesh, machine);
   byId("states").replaceChildren(statesTable(mesh, machine));
@@ -209,16 +187,16 @@ function showIterations() {
 /** Lists the variants that a run can play; the one that was chosen stays where it is one of them. */
 function fillVariants() {
   const words = {
-    printed: t("MJS as Km gives it"),
-    tied: t("eq. (1) on total displacements"),
-    stepped: t("eq. (1) on increments, the load in equal steps"),
-    corrected: run().programs ? tell(run().label) : t("both listings with what the findings ask for"),
+    printed: [t("printed"), t("MJS as Km gives it")],
+    tied: [t("tied"), t("eq. (1) on total displacements")],
+    stepped: [t("stepped"), t("eq. (1) on increments, the load in equal steps")],
+    corrected: [t("corrected programs"), run().programs ? tell(run().label) : t("both listings with what the findings ask for")],
   };
-  const { recorded } = chapter();
-  const isThere = (name) => (recorded ? recorded.variants[name] : name !== "printed" || !isJoined(linesAt(run().Km, page.edits)));
-  const names = VARIANTS.filter((name) => (run().programs ? name === "corrected" : isThere(name)));
-  byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, `${name}: ${words[name]}`)));
-  page.variant = byId("variant").value = [page.variant, "tied"].find((name) => names.includes(name)) ?? names[0];
+  // Around the listings eq. (1) would hide what an edited Km does with its contact.
+  const isOwn = page.edits.has(run().Km) || isJoined(linesAt(run().Km));
+  const names = run().programs ? ["corrected"] : isOwn ? ["printed", "corrected"] : VARIANTS;
+  byId("variant").replaceChildren(...names.map((name) => make("option", { value: name }, words[name].join(": "))));
+  page.variant = byId("variant").value = [page.variant, variantOf(chapter())].find((name) => names.includes(name)) ?? names[0];
 }
 
 /** Plays the steps or the iterations to their end, or stops. */
@@ -228,9 +206,8 @@ function play(isOn) {
   byId("play").textContent = isOn ? t("pause") : t("play");
   if (!isOn) return;
   if (page.machine.at === page.machine.steps.length) go(0);
-  const pause = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1500 : 600;
   page.playing = setInterval(() => {
-    go(page.machine.at + 1, true);
+    go(page.machine.at + 1);
     if (page.machine.at === page.machine.steps.length) play(false);
-  }, pause);
+  }, 600);
 }

@@ -120,24 +120,15 @@ class Programs {
   }
 
   program(name, values) {
-    if (!this.done.has(name)) this.done.set(name, this.execute(name, values()));
-    return this.done.get(name);
-  }
-
-  execute(name, values) {
+    if (this.done.has(name)) return this.done.get(name);
     const lines = linesAt(this.run[name], this.edits);
     const listing = listingOf(name, lines);
-    const recorder = new TurnRecorder(listing, this.turns(name), name === "Km" ? this.mesh.triangles.length : this.mesh.contact.length);
-    const done = executed(listing, this.worksheet, this.run.settings, values, MOST_SHOWN, recorder);
+    const nodesOf = name === "Km" ? this.mesh.triangles.map(([nodes]) => nodes) : this.mesh.contact.map((n) => [n]);
+    const turns = nodesOf.flatMap((nodes, k) => (nodes.some((n) => this.shown.includes(n)) ? [k + 1] : []));
+    const recorder = new TurnRecorder(listing, this.shown.length ? new Set(turns) : null, nodesOf.length);
+    const done = executed(listing, this.worksheet, this.run.settings, values(), MOST_SHOWN, recorder);
     recorder.finish();
-    return { ...done, name, lines, failure: done.failure ?? unexpected(listing, done) };
-  }
-
-  /** The turns that are shown; nothing for all. */
-  turns(name) {
-    if (this.shown.length === 0) return null;
-    const places = this.mesh.contact.flatMap((n, k) => (this.shown.includes(n) ? [k + 1] : []));
-    const triangles = this.mesh.triangles.flatMap(([nodes], k) => (nodes.some((n) => this.shown.includes(n)) ? [k + 1] : []));
-    return new Set(name === "Km" ? triangles : places);
+    this.done.set(name, { ...done, name, lines, failure: done.failure ?? unexpected(listing, done) });
+    return this.done.get(name);
   }
 }

@@ -10,15 +10,15 @@ const [NUDGE, FAR_NUDGE] = [2, 20];
 /** Puts a button over each node that can be dragged, and over the name of each edge. */
 function placeButtons({ nodes, edges }) {
   const place = byId("nodes");
-  const all = page.mesh.count > MOST_DRAGGED ? [] : [...new Set([...nodes, ...edges.flatMap(([, ends]) => ends)])];
-  const numbers = all.length ? edges.map(([number]) => number) : [];
-  const shown = [...place.children].map(({ value, dataset }) => value || `edge ${dataset.edge}`);
-  if (String(shown) !== String([...all, ...numbers.map((number) => `edge ${number}`)])) {
-    place.replaceChildren(
-      ...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })),
-      ...numbers.map((edge) => make("button", { "data-edge": edge, "aria-label": t("reverse edge {edge}", { edge }) })),
-    );
-  }
+  const isDragged = page.mesh.count <= MOST_DRAGGED;
+  const all = isDragged ? [...new Set([...nodes, ...edges.flatMap(([, ends]) => ends)])] : [];
+  const made = [
+    ...all.map((n) => make("button", { value: n, "aria-label": t("node {n}", { n: page.mesh.name(n) }) })),
+    ...(isDragged ? edges : []).map(([edge]) => make("button", { "data-edge": edge, "aria-label": t("reverse edge {edge}", { edge }) })),
+  ];
+  // One that has the focus, or is dragged, stays.
+  const labels = (buttons) => [...buttons].map((button) => button.getAttribute("aria-label")).join();
+  if (labels(place.children) !== labels(made)) place.replaceChildren(...made);
   for (const button of place.children) {
     const [x, y] = button.value ? page.view.to(page.mesh.at(Number(button.value))) : edgeName(Number(button.dataset.edge));
     Object.assign(button.style, { left: `${x}px`, top: `${y}px` });
@@ -60,20 +60,16 @@ function watchDrag() {
     cancelAnimationFrame(frame);
     frame = requestAnimationFrame(() => page.dragged && moveNode(page.dragged, [clientX - left, clientY - top]));
   });
-  for (const name of ["pointerup", "pointercancel"]) {
-    place.addEventListener(name, () => {
-      if (!page.dragged) return;
-      page.dragged = undefined;
-      choose({});
-    });
-  }
+  for (const name of ["pointerup", "pointercancel"]) place.addEventListener(name, () => {
+    if (!page.dragged) return;
+    page.dragged = undefined;
+    choose({});
+  });
   place.addEventListener("click", ({ target }) => target.dataset.edge && reverseEdge(Number(target.dataset.edge)));
   place.addEventListener("keydown", (event) => {
     if (!event.target.value) return;
-    const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    const by = byArrow(event);
     if (!by) return;
-    event.preventDefault();
-    event.stopPropagation();
     const n = Number(event.target.value);
     const far = event.shiftKey ? FAR_NUDGE : NUDGE;
     moveNode(n, page.view.to(page.mesh.at(n)).map((x, k) => x + far * by[k]));

@@ -62,11 +62,11 @@ function contactNodes(mesh, pairs) {
   });
 }
 
+const extentOf = (values) => [Math.min(...values), Math.max(...values)];
+
 /** A view: where a point of the scene is drawn, in pixels. */
 function viewOf(points, width, height, margin, magnify) {
-  const [xs, ys] = [0, 1].map((j) => points.map((p) => p[j]));
-  const range = (values) => [Math.min(...values), Math.max(...values)];
-  const [[left, right], [low, high]] = [range(xs), range(ys)];
+  const [[left, right], [low, high]] = [0, 1].map((j) => extentOf(points.map((p) => p[j])));
   const span = Math.max(right - left, high - low) || 1;
   const fit = (size, room) => room / Math.max(size, 1e-9 * span);
   const [across, up] = [fit(right - left, width - 2 * margin), fit(high - low, height - 2 * margin)];
@@ -80,21 +80,28 @@ function viewOf(points, width, height, margin, magnify) {
 }
 
 /** Draws a path through points. @param {any} context @param {any[]} points @param {any} style */
-function path(context, points, { fill, stroke, width = 1, dash = [], close = false }) {
+function path(context, points, { close = false, ...style }) {
   context.beginPath();
-  points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
+  points.forEach((point) => context.lineTo(...point));
   if (close) context.closePath();
-  if (fill) {
-    context.fillStyle = fill;
-    context.fill();
-  }
-  if (stroke) {
-    context.setLineDash(dash);
-    context.lineWidth = width;
-    context.strokeStyle = stroke;
-    context.stroke();
-    context.setLineDash([]);
-  }
+  inked(context, style);
+}
+
+/** Draws a circle. @param {any} context @param {any[]} middle @param {number} radius @param {any} style */
+function circle(context, middle, radius, style) {
+  context.beginPath();
+  context.arc(...middle, radius, 0, 2 * Math.PI);
+  inked(context, style);
+}
+
+/** Fills and strokes the path that was begun. @param {any} context @param {any} style */
+function inked(context, { fill = null, stroke = null, width = 1, dash = [], alpha = 1 }) {
+  Object.assign(context, { globalAlpha: alpha, fillStyle: fill, strokeStyle: stroke, lineWidth: width });
+  context.setLineDash(dash);
+  if (fill) context.fill();
+  if (stroke) context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
 }
 
 function arrow(context, from, to, stroke) {
@@ -127,30 +134,18 @@ function label(context, text, [x, y], ink, align = "center", placed = null) {
   context.fillText(text, x, y);
 }
 
-/** A contact node: filled in contact, open apart, a small dot where its status is not known. @param {any} context @param {any} at @param {any} dy @param {boolean} current */
-function drawStatus(context, [x, y], dy, current) {
-  context.beginPath();
-  context.arc(x, y, dy === undefined ? 3 : 6, 0, 2 * Math.PI);
-  context.fillStyle = dy === 0 ? colour("paper") : dy === 1 ? colour("accent") : colour("stamp-ink");
-  context.fill();
-  context.lineWidth = 2;
-  context.strokeStyle = dy === undefined ? colour("stamp-ink") : colour("accent");
-  context.stroke();
-  if (current) {
-    context.beginPath();
-    context.arc(x, y, 11, 0, 2 * Math.PI);
-    context.strokeStyle = colour("ink");
-    context.stroke();
-  }
+/** A contact node: filled in contact, open where it is not, a small dot where its status is not known. @param {any} context @param {any} at @param {any} dy @param {boolean} current */
+function drawStatus(context, at, dy, current) {
+  const fill = dy === 0 ? colour("paper") : dy === 1 ? colour("accent") : colour("stamp-ink");
+  circle(context, at, dy === undefined ? 3 : 6, { fill, stroke: dy === undefined ? colour("stamp-ink") : colour("accent"), width: 2 });
+  if (current) circle(context, at, 11, { stroke: colour("ink"), width: 2 });
 }
 
-function drawBodies(context, mesh, to, element) {
+function drawBodies(context, mesh, at, element = null) {
   mesh.triangles.forEach(([nodes, body], k) => {
-    const [fill, stroke] = body === mesh.target ? ["target", "target-ink"] : ["stamp", "stamp-ink"];
-    const lit = k + 1 === element;
-    path(context, nodes.map((n) => to(mesh.at(n))), {
-      fill: colour(lit ? "lit" : fill), stroke: colour(stroke), width: lit ? 2.5 : 0.8, close: true,
-    });
+    const [lit, name] = [k + 1 === element, body === mesh.target ? "target" : "stamp"];
+    const style = { fill: colour(lit ? "lit" : name), stroke: colour(`${name}-ink`), width: lit ? 2.5 : 0.8, close: true };
+    path(context, nodes.map(at), style);
   });
 }
 
@@ -175,13 +170,12 @@ function fromTarget(mesh, n) {
 /** The contact nodes that are drawn, those that were chosen, and the target edges beside them. */
 function zoneOf(mesh, chosen) {
   const nodes = chosen.length ? mesh.contact.filter((n) => chosen.includes(n)) : mesh.contact;
-  const xs = nodes.map((n) => mesh.at(n)[0]);
-  const reach = Math.max(Math.max(...xs) - Math.min(...xs), 0);
-  const near = mesh.edges.filter(([, ends]) => {
-    const [a, b] = ends.map((n) => mesh.at(n)[0]);
-    return Math.max(a, b) >= Math.min(...xs) - reach && Math.min(a, b) <= Math.max(...xs) + reach;
-  });
-  return { nodes, edges: chosen.length ? near : mesh.edges };
+  const [left, right] = extentOf(nodes.map((n) => mesh.at(n)[0]));
+  const isNear = ([, ends]) => {
+    const [from, to] = extentOf(ends.map((n) => mesh.at(n)[0]));
+    return to >= left - (right - left) && from <= right + (right - left);
+  };
+  return { nodes, edges: chosen.length ? mesh.edges.filter(isNear) : mesh.edges };
 }
 
 /** The height of a picture: figure, current line and question have room in one window. */
@@ -199,16 +193,14 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   // While a node is dragged the view stays.
   page.view = page.dragged ? page.view : viewOf(points, width, height, 42, true);
   const { to, factor, sy } = page.view;
-  drawBodies(context, mesh, to);
+  drawBodies(context, mesh, (n) => to(mesh.at(n)));
   const placed = [];
   const labels = [];
   for (const [number, ends] of zone.edges) {
     const [a, b] = ends.map((n) => to(mesh.at(n)));
     const band = Math.min(tolerance * sy, height);
     const corners = [[a[0], a[1] - band], [b[0], b[1] - band], [b[0], b[1] + band], [a[0], a[1] + band]];
-    context.globalAlpha = 0.28;
-    path(context, corners, { fill: colour("band"), close: true });
-    context.globalAlpha = 1;
+    path(context, corners, { fill: colour("band"), alpha: 0.28, close: true });
     const tried = boxed && number === mesh.edges[pairs.get("i2") - 1]?.[0];
     path(context, [a, b], { stroke: colour("target-ink"), width: tried ? 4 : 2 });
     const text = t("edge {edge}", { edge: number });
@@ -252,7 +244,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
     ...(isBoxed ? [t("Dashed box: where lines 5 to 7 search.")] : []),
     ...(seen.arrows ? [run().programs ? t("Arrow: yt, along the normal.") : t("Arrow: Y of line 10.")] : []),
     ...(is(1) ? [t("Filled: in contact.")] : []),
-    ...(is(0) ? [t("Open: apart.")] : []),
+    ...(is(0) ? [t("Open: not in contact.")] : []),
     ...(is(undefined) ? [t("Dot: not decided yet.")] : []),
     ...(seen.links ? [t("Dashed lines: links with their weights.")] : []),
     ...(mesh.count > MOST_DRAGGED ? [] : [t("A node can be dragged, an edge’s name reverses the edge.")]),
@@ -261,13 +253,12 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   canvas.setAttribute("aria-label", t("The contact zone: {nodes}", { nodes: nodes.map((n) => t("node {name} {status}", { name: mesh.name(n.node), status: inWords(n) })).join("; ") }));
 }
 
-const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("apart"));
+const inWords = ({ dy }) => (dy === undefined ? t("not decided") : dy === 1 ? t("in contact") : t("not in contact"));
 
 /** Draws the box of lines 5 and 6, while lines 4 to 7 are executed; returns whether there is one. */
 function drawBox(context, to, pairs, boxed) {
-  const ends = ["ntx[1]", "ntx[2]", "nty[1]", "nty[2]"].map((name) => pairs.get(name));
-  if (!boxed || ends.includes(undefined)) return false;
-  const [x1, x2, y1, y2] = ends;
+  const [x1, x2, y1, y2] = ["ntx[1]", "ntx[2]", "nty[1]", "nty[2]"].map((name) => pairs.get(name));
+  if (!boxed || [x1, x2, y1, y2].includes(undefined)) return false;
   const corners = [[x1, y1], [x2, y1], [x2, y2], [x1, y2]].map(to);
   path(context, corners, { stroke: colour("ink"), width: 2, dash: [6, 4], close: true });
   return true;
@@ -279,18 +270,14 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const { context, width, height } = prepared(canvas, 170, page.width);
   const known = contactNodes(mesh, pairs).filter((n) => zone.nodes.includes(n.node) && n.ct > 0 && n.yt !== undefined);
   const most = Math.max(tolerance, ...known.map(({ yt }) => Math.abs(yt)));
-  const xs = zone.nodes.map((n) => mesh.at(n)[0]);
-  const [left, right] = [Math.min(...xs), Math.max(...xs)];
+  const [left, right] = extentOf(zone.nodes.map((n) => mesh.at(n)[0]));
   const sx = (width - 120) / (right - left || 1);
   const factor = roundAtMost((height / 2 - 28) / (most || 1) / sx);
   const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];
   const band = Math.max(tolerance * sx * factor, 1);
-  context.fillStyle = colour("target");
-  context.fillRect(0, mesh.side > 0 ? height / 2 : 0, width, height / 2);
-  context.globalAlpha = 0.28;
-  context.fillStyle = colour("band");
-  context.fillRect(0, height / 2 - band, width, 2 * band);
-  context.globalAlpha = 1;
+  const strip = (from, to, style) => path(context, [[0, from], [width, from], [width, to], [0, to]], style);
+  strip(height / 2, mesh.side > 0 ? height : 0, { fill: colour("target") });
+  strip(height / 2 - band, height / 2 + band, { fill: colour("band"), alpha: 0.28 });
   path(context, [[0, height / 2], [width, height / 2]], { stroke: colour("target-ink"), width: 3 });
   const placed = known.map(({ node, height: above }) => to(mesh.at(node)[0], above)).map(([x, y]) => [x - 7, y - 7, x + 7, y + 7]);
   for (const { node, place, height: above, dy } of known) {
@@ -313,7 +300,7 @@ function drawWhole(mesh, pairs, element, linked) {
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
   const { context, width, height } = prepared(canvas, pictureHeight(), page.width);
   const { to } = viewOf(points, width, height, 26, false);
-  drawBodies(context, mesh, to, element);
+  drawBodies(context, mesh, (n) => to(mesh.at(n)), element);
   const numbered = mesh.count <= 60;
   mesh.triangles.forEach(([nodes], k) => {
     if (!numbered && k + 1 !== element) return;
@@ -326,12 +313,10 @@ function drawWhole(mesh, pairs, element, linked) {
     const [x, y] = to(mesh.at(n));
     const ringed = own.includes(n) || linked.includes(n);
     if (!numbered && !ringed) continue;
-    context.beginPath();
-    context.arc(x, y, ringed ? 6 : 2.5, 0, 2 * Math.PI);
-    context.fillStyle = linked.includes(n) ? colour("accent") : colour("ink");
-    ringed ? ((context.lineWidth = 2.5), (context.strokeStyle = context.fillStyle), context.stroke()) : context.fill();
+    const ink = colour(linked.includes(n) ? "accent" : "ink");
+    circle(context, [x, y], ringed ? 6 : 2.5, ringed ? { stroke: ink, width: 2.5 } : { fill: ink });
     const up = mesh.contact.includes(n) || y < height / 2 ? -9 : 19;
-    label(context, String(n), [x, y + up], colour(linked.includes(n) ? "accent" : "ink"));
+    label(context, String(n), [x, y + up], ink);
   }
   const fixed = mesh.restrained.flatMap(([x, y], k) => (x || y ? [`${k + 1} (${[x && "x", y && "y"].filter(Boolean).join(", ")})`] : []));
   const restrained = fixed.slice(0, 12).join(", ");

@@ -28,22 +28,22 @@ function showLegend(machine) {
   );
 }
 
+/** Lights the line of a list that was executed last, which is returned, and marks the next. */
+function litIn(list, { last, next }) {
+  [...list.children].forEach((item, k) => {
+    k === last?.line ? item.setAttribute("aria-current", "step") : item.removeAttribute("aria-current");
+    item.classList.toggle("next", k === next?.line);
+  });
+  return list.children[last?.line];
+}
+
 /** Lights the line that was executed last and marks the next; keeps them in sight. */
 function lightLine(machine) {
-  const items = byId("listing").children;
-  for (const item of items) {
-    item.removeAttribute("aria-current");
-    item.classList.remove("next");
-  }
-  if (machine.next) items[machine.next.line].classList.add("next");
-  const lit = machine.last && items[machine.last.line];
-  lit?.setAttribute("aria-current", "step");
+  const lit = litIn(byId("listing"), machine);
   showLegend(machine);
-  const seen = lit ?? items[0];
-  if (!seen) return;
   const box = byId("listing-box");
-  const top = seen.offsetTop - box.offsetTop;
-  if (top < box.scrollTop || top + seen.offsetHeight > box.scrollTop + box.clientHeight) { box.scrollTop = top - box.clientHeight / 3; }
+  const top = lit ? lit.offsetTop - box.offsetTop : 0;
+  if (top < box.scrollTop || top + (lit?.offsetHeight ?? 0) > box.scrollTop + box.clientHeight) box.scrollTop = top - box.clientHeight / 3;
 }
 
 /** Writes accesses, each with its exact value at hand. */
@@ -67,16 +67,13 @@ function stepInWords({ lines, last }) {
 function showStep(machine) {
   const step = machine.last;
   say("said", stepInWords(machine));
-  const rows = [];
-  const row = (term, ...content) => rows.push(make("dt", {}, term), make("dd", {}, ...content));
-  if (!step) {
-    byId("step").replaceChildren(make("p", { class: "muted" }, t("Nothing is executed yet.")));
-    return;
-  }
-  row(t("line"), String(machine.lines[step.line].number));
-  if (step.reads.length) row(t("reads"), ...accesses(step.reads, "="));
-  for (const [text, held] of step.operands) row("∧", make("code", {}, text), ` ${t("is")} `, truth(held));
-  if (step.held !== null) row(t("decision"), t("the condition is") + " ", truth(step.held));
-  if (step.writes.length) row(t("writes"), ...accesses(step.writes, "←"));
-  byId("step").replaceChildren(make("dl", {}, ...rows));
+  if (!step) return byId("step").replaceChildren(make("p", { class: "muted" }, t("Nothing is executed yet.")));
+  const rows = [
+    [t("line"), String(machine.lines[step.line].number)],
+    ...(step.reads.length ? [[t("reads"), ...accesses(step.reads, "=")]] : []),
+    ...step.operands.map(([text, held]) => ["∧", make("code", {}, text), ` ${t("is")} `, truth(held)]),
+    ...(step.held === null ? [] : [[t("decision"), t("the condition is") + " ", truth(step.held)]]),
+    ...(step.writes.length ? [[t("writes"), ...accesses(step.writes, "←")]] : []),
+  ];
+  byId("step").replaceChildren(described(rows));
 }

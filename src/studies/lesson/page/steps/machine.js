@@ -3,7 +3,7 @@
 /** What is shown of a value: of a large array, and of one of arrays, only what it is. */
 function shown(value) {
   if (isNumber(value)) return value;
-  if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value));
+  if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value)).replaceAll(" x ", " × ");
   const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols);
   return value.cols === 1 ? value.entries : Array.from({ length: value.rows }, (_, i) => row(i));
 }
@@ -34,48 +34,24 @@ class Machine {
     this.failure = failure && interpreted(String(failure));
     this.at = 0;
     this.values = new Map();
-    this.replaced = [];
   }
 
-  /** Goes to the state after `at` steps. */
+  /** Goes to the state after `at` steps; backwards from the start. */
   goTo(at) {
     const wanted = Math.max(0, Math.min(at, this.steps.length));
-    while (this.at < wanted) this.forward();
-    while (this.at > wanted) this.back();
-  }
-
-  forward() {
-    const old = [];
-    for (const { name, value } of this.steps[this.at].writes) this.write(name, value, old);
-    this.replaced[this.at] = old;
-    this.at += 1;
-  }
-
-  back() {
-    this.at -= 1;
-    for (const [name, value] of this.replaced[this.at].reverse()) {
-      if (value === undefined) this.values.delete(name);
-      else this.values.set(name, value);
-    }
+    if (wanted < this.at) [this.at, this.values] = [0, new Map()];
+    for (; this.at < wanted; this.at += 1) for (const { name, value } of this.steps[this.at].writes) this.write(name, value);
   }
 
   /** Writes a value to a name or an entry; a whole array takes the place of all its entries. */
-  write(name, value, old) {
-    const set = (name, value) => {
-      old.push([name, this.values.get(name)]);
-      if (value === undefined) this.values.delete(name);
-      else this.values.set(name, value);
-    };
-    if (typeof value !== "number") {
-      [...this.values.keys()].filter((other) => other.startsWith(name + "[")).forEach((other) => set(other, undefined));
-    }
-    set(name, value);
-    if (Array.isArray(value)) {
-      value.forEach((row, i) => {
-        if (Array.isArray(row)) row.forEach((entry, j) => set(`${name}[${i + 1},${j + 1}]`, entry));
-        else set(`${name}[${i + 1}]`, row);
-      });
-    }
+  write(name, value) {
+    if (typeof value !== "number") for (const other of this.values.keys()) if (other.startsWith(name + "[")) this.values.delete(other);
+    this.values.set(name, value);
+    if (!Array.isArray(value)) return;
+    value.forEach((row, i) => {
+      if (Array.isArray(row)) row.forEach((entry, j) => this.values.set(`${name}[${i + 1},${j + 1}]`, entry));
+      else this.values.set(`${name}[${i + 1}]`, row);
+    });
   }
 
   get(name) { return this.values.get(name); }
@@ -85,20 +61,13 @@ class Machine {
   get next() { return this.steps[this.at]; }
 
   /** The turn of the outer loop that step `k` belongs to; null outside, and before the first. */
-  turnAt(k) {
-    let found = null;
-    for (const { from, turn } of this.turns) {
-      if (from > k) break;
-      found = turn;
-    }
-    return k < 0 ? null : found;
-  }
+  turnAt(k) { return this.turns.findLast(({ from }) => from <= k)?.turn ?? null; }
 
   /** The next place, in steps, behind the place now at which `is` holds of the step before or
    * behind it; the end where there is none. */
   after(is) {
-    for (let at = this.at + 1; at < this.steps.length; at += 1) if (is(at)) return at;
-    return this.steps.length;
+    const found = this.steps.findIndex((_, at) => at > this.at && is(at));
+    return found < 0 ? this.steps.length : found;
   }
 
   /** Where "over" leads: behind the body of the line that was executed last. */

@@ -10,29 +10,32 @@ const isJoined = (lines) => lines.some(({ text }) => text.startsWith("MJS[V[i],W
 function mappedNodes(mesh, machine) {
   const border = isBordered(machine.lines) ? mesh.contact.length : 0;
   if (mesh.count <= 40) return Array.from({ length: mesh.count + border }, (_, k) => k + 1);
-  const found = new Set();
-  for (const { writes } of machine.steps) {
-    for (const { name } of writes) {
-      const place = /^MJS\[(\d+),(\d+)\]$/.exec(name);
-      if (place) [place[1], place[2]].forEach((e) => found.add(Math.ceil(Number(e) / 2)));
-    }
-  }
-  return [...found].sort((a, b) => a - b);
+  const names = machine.steps.flatMap(({ writes }) => writes.map(({ name }) => name)).filter((name) => name.startsWith("MJS["));
+  const nodes = names.flatMap((name) => name.match(/\d+/g).map((e) => Math.ceil(Number(e) / 2)));
+  return [...new Set(nodes)].sort((a, b) => a - b);
 }
 
 /** The name of a node in the map; behind the last one stand the equations of contact, p1 those of the first contact node. */
 const nodeInMap = (mesh, n) => (n > mesh.count ? `p${n - mesh.count}` : String(n));
 const equationInWords = (mesh, e) => t("{axis} of node {n}", { axis: e % 2 ? "x" : "y", n: nodeInMap(mesh, Math.ceil(e / 2)) });
 
+/** What the steps from `from` on brought into MJS of the last element: each entry with its cell of K. */
+function broughtIn(machine, from) {
+  const brought = machine.steps.slice(from, machine.at).flatMap(({ turn, all, writes }) => {
+    const [source, place] = [all.find(({ name }) => name === "K"), writes.find(({ name }) => name.startsWith("MJS["))];
+    return source && place ? [{ turn, from: `K[${source.subscripts}]`, to: place.name }] : [];
+  });
+  return brought.filter(({ turn }) => turn === brought.at(-1).turn);
+}
+
 class MatrixMap {
-  mesh; machine; border; cell;
-  constructor(mesh, machine) {
-    Object.assign(this, { mesh, machine, border: isBordered(machine.lines) });
+  mesh; machine; atStake; border; cell; context; brought; cursor;
+  /** `atStake` has the names of the entries that the chapter's repair changes. */
+  constructor(mesh, machine, atStake) {
+    Object.assign(this, { mesh, machine, atStake, border: isBordered(machine.lines), cursor: [0, 0], brought: [] });
     this.equations = mappedNodes(mesh, machine).flatMap((n) => [2 * n - 1, 2 * n]);
-    this.cursor = [0, 0];
     this.joins = this.border || isJoined(machine.lines);
     this.places = new Map(this.equations.map((e, k) => [e, k]));
-    this.brought = [];
     const bodies = new Map(mesh.triangles.flatMap(([nodes, body]) => nodes.map((n) => [n, body])));
     this.body = this.equations.map((e) => bodies.get(Math.ceil(e / 2)));
   }
@@ -40,18 +43,7 @@ class MatrixMap {
   /** Whether the entry in a row and a column of the map would join the two bodies; those of contact are of both. */
   isJoint(row, column) { return this.body[row] !== this.body[column] && [row, column].every((k) => this.equations[k] <= 2 * this.mesh.count); }
 
-  /** Where the middle of an entry, such as `MJS[3,4]`, is in the window; nothing for one that is not shown. */
-  placeOf(name) {
-    const [row, column] = name.match(/\d+/g).map((e) => this.places.get(Number(e)));
-    const { left, top } = byId("mjs").getBoundingClientRect();
-    return row === undefined || column === undefined ? undefined : [left + 22 + (column + 0.5) * this.cell, top + 22 + (row + 0.5) * this.cell];
-  }
-
-  entry(i, j) {
-    return this.machine.get("MJS") === undefined && this.machine.get(`MJS[${i},${j}]`) === undefined
-      ? undefined
-      : (this.machine.get(`MJS[${i},${j}]`) ?? 0);
-  }
+  entry(i, j) { return this.machine.get(`MJS[${i},${j}]`) ?? (this.machine.get("MJS") === undefined ? undefined : 0); }
 
   /** The equations of a vector; W of the corrected listing has nodes. */
   vector(name) {
@@ -64,87 +56,74 @@ class MatrixMap {
     const count = this.equations.length;
     const size = Math.min(canvas.parentElement.clientWidth, 460, Math.max(240, 0.32 * window.innerHeight));
     canvas.style.maxWidth = size + "px";
-    const { context } = prepared(canvas, size, size);
+    this.context = prepared(canvas, size, size).context;
     this.cell = (size - 22) / count;
-    context.fillStyle = colour("paper");
-    context.fillRect(22, 22, this.cell * count, this.cell * count);
-    this.tint("V", "V", "lit");
-    if (this.vector("W").length) this.tint("W", "W", "written");
+    const [low, high] = [22, 22 + this.cell * count];
+    path(this.context, [[low, low], [high, low], [high, high], [low, high]], { fill: colour("paper") });
+    const [V, W] = [this.vector("V"), this.vector("W")];
+    this.block(V, V, (row, column) => this.square(row, column, "lit"));
+    this.block(W, W, (row, column) => this.square(row, column, "written"));
     const written = new Set([...(this.machine.last?.writes ?? []).map(({ name }) => name), ...this.brought.map(({ to }) => to)]);
-    const joints = { all: 0, filled: 0 };
-    let most = 1;
-    for (const i of this.equations) for (const j of this.equations) most = Math.max(most, Math.abs(this.entry(i, j) ?? 0));
-    this.equations.forEach((i, row) =>
-      this.equations.forEach((j, column) => {
-        const value = this.entry(i, j);
-        const now = written.has(`MJS[${i},${j}]`);
-        if (this.isJoint(row, column)) {
-          joints.all += 1;
-          joints.filled += value ? 1 : 0;
-          context.fillStyle = colour("joint");
-          context.fillRect(22 + column * this.cell, 22 + row * this.cell, this.cell, this.cell);
-        }
-        if (!value && !now) return;
-        const weight = value ? 0.25 + 0.75 * Math.max(0, 1 + Math.log10(Math.abs(value) / most) / 6) : 0;
-        context.globalAlpha = weight;
-        context.fillStyle = colour(value < 0 ? "negative" : "positive");
-        context.fillRect(22 + column * this.cell + 0.5, 22 + row * this.cell + 0.5, this.cell - 1, this.cell - 1);
-        context.globalAlpha = 1;
-        if (now) this.frame(context, row, column, "ink", 3);
-        else if (value && this.isJoint(row, column)) this.frame(context, row, column, "ink", 1);
-      }),
-    );
-    if (!this.joins) this.neverAdded(context);
-    this.numbers(context);
-    if (document.activeElement === canvas) this.frame(context, ...this.cursor, "accent", 2);
+    const joints = { all: 0, filled: 0, atStake: 0 };
+    const most = Math.max(1, ...this.equations.flatMap((i) => this.equations.map((j) => Math.abs(this.entry(i, j) ?? 0))));
+    this.block(this.equations, this.equations, (row, column, name, value) => {
+      const [now, isJoint] = [written.has(name), this.isJoint(row, column)];
+      if (isJoint) {
+        joints.all += 1;
+        joints.filled += value ? 1 : 0;
+        this.square(row, column, "joint");
+      }
+      // The darker the larger, by powers of ten.
+      if (value) this.square(row, column, value < 0 ? "negative" : "positive", 0.25 + 0.75 * Math.max(0, 1 + Math.log10(Math.abs(value) / most) / 6));
+      if (now || (value && isJoint)) this.frame(row, column, "ink", now ? 3 : 1);
+      if (!isJoint || !this.atStake.has(name)) return;
+      joints.atStake += 1;
+      this.frame(row, column, "accent", 2);
+    });
+    if (!this.joins) for (const [rows, columns] of [[V, W], [W, V]]) this.block(rows, columns, (row, column) => this.frame(row, column, "accent", 1, [2, 2]));
+    this.numbers();
+    if (document.activeElement === canvas) this.frame(...this.cursor, "accent", 2);
     byId("matrix-caption").textContent = [
       t("Blue: above 0, red: below 0, the darker the larger. Yellow: the rows and columns of V; pink: of W."),
       this.border ? t("The rows and columns p1, p2, ... join the two bodies: the equations of contact.") : this.joins ? t("V and W have the equations of the target's nodes in place of the contact node's, as eq. (1) says: their blocks join the two bodies.") : t("Dashed: the block (V, W), which would join the two bodies and is never added (K1)."),
       joints.all ? t("Grey: the entries between the two bodies, {filled} of {all} filled; these are framed.", joints) : "",
+      joints.atStake ? t("Framed red: the {atStake} entries at stake, which join the bodies once Km is repaired.", joints) : "",
     ].join(" ");
     canvas.setAttribute("aria-label", t("MJS, {count} by {count} entries; arrow keys go from entry to entry", { count }));
     this.say();
   }
 
-  /** Tints the block of two vectors' equations. */
-  tint(rows, columns, ground) {
-    const context = byId("mjs").getContext("2d");
-    context.fillStyle = colour(ground);
-    for (const i of this.vector(rows)) for (const j of this.vector(columns)) {
-      if (!this.places.has(i) || !this.places.has(j)) continue;
-      context.fillRect(22 + this.places.get(j) * this.cell, 22 + this.places.get(i) * this.cell, this.cell, this.cell);
+  /** Does something with each entry in the rows and columns of two lists of equations that the map shows. */
+  block(rows, columns, act) {
+    for (const i of rows) for (const j of columns) {
+      const [row, column] = [this.places.get(i), this.places.get(j)];
+      if (row !== undefined && column !== undefined) act(row, column, `MJS[${i},${j}]`, this.entry(i, j));
     }
   }
 
-  neverAdded(context) {
-    for (const [rows, columns] of [["V", "W"], ["W", "V"]]) {
-      for (const i of this.vector(rows)) for (const j of this.vector(columns)) {
-        if (this.places.has(i) && this.places.has(j)) this.frame(context, this.places.get(i), this.places.get(j), "accent", 1, [2, 2]);
-      }
-    }
-  }
+  square(row, column, ink, alpha = 1) { path(this.context, this.corners(row, column), { fill: colour(ink), alpha }); }
 
-  frame(context, row, column, ink, width, dash = []) {
-    context.setLineDash(dash);
-    context.lineWidth = width;
-    context.strokeStyle = colour(ink);
-    context.strokeRect(22 + column * this.cell, 22 + row * this.cell, this.cell, this.cell);
-    context.setLineDash([]);
+  frame(row, column, ink, width, dash = []) { path(this.context, this.corners(row, column), { stroke: colour(ink), width, dash, close: true }); }
+
+  /** The corners of an entry's square. */
+  corners(row, column) {
+    const [left, top] = [column, row].map((k) => 22 + k * this.cell);
+    return [[left, top], [left + this.cell, top], [left + this.cell, top + this.cell], [left, top + this.cell]];
   }
 
   /** Writes the node's number over each second column and row that has room. */
-  numbers(context) {
+  numbers() {
     const every = Math.ceil(14 / (2 * this.cell));
-    context.font = "11px system-ui, sans-serif";
-    context.fillStyle = colour("muted");
+    this.context.font = "11px system-ui, sans-serif";
+    this.context.fillStyle = colour("muted");
     this.equations.filter((e) => e % 2 === 1).forEach((e, k) => {
       if (k % every) return;
       const along = 22 + (2 * k + 1) * this.cell;
-      context.textAlign = "center";
       const name = nodeInMap(this.mesh, (e + 1) / 2);
-      context.fillText(name, along, 14);
-      context.textAlign = "right";
-      context.fillText(name, 18, along + 4);
+      this.context.textAlign = "center";
+      this.context.fillText(name, along, 14);
+      this.context.textAlign = "right";
+      this.context.fillText(name, 18, along + 4);
     });
   }
 
@@ -156,10 +135,16 @@ class MatrixMap {
   }
 
   /** Moves the cursor to a place on the canvas, or by a step. */
-  moveTo(row, column) {
-    const last = this.equations.length - 1;
-    this.cursor = [row, column].map((k) => Math.max(0, Math.min(last, k)));
-  }
+  moveTo(row, column) { this.cursor = [row, column].map((k) => Math.max(0, Math.min(this.equations.length - 1, k))); }
+}
+
+/** The way of an arrow key, right and down, which is then taken; nothing of another key. */
+function byArrow(event) {
+  const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+  if (!by) return null;
+  event.preventDefault();
+  event.stopPropagation();
+  return by;
 }
 
 /** Lets the pointer and the arrow keys choose an entry of the map that `map()` returns. */
@@ -171,12 +156,10 @@ function watchMatrix(map) {
     map().say();
   });
   canvas.addEventListener("keydown", (event) => {
-    const by = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
+    const by = byArrow(event);
     if (!by) return;
-    event.preventDefault();
-    event.stopPropagation();
     const [row, column] = map().cursor;
-    map().moveTo(row + by[0], column + by[1]);
+    map().moveTo(row + by[1], column + by[0]);
     map().draw();
   });
   for (const name of ["focus", "blur"]) canvas.addEventListener(name, () => map().draw());

@@ -25,6 +25,9 @@ function fill(cell, machine, marked) {
   if (cell.className !== mark) cell.className = mark;
 }
 
+/** A cell of a value that does not change. */
+const valueCell = (value) => (value === undefined ? make("td", {}, "·") : make("td", { "data-exact": exact(value) }, brief(value)));
+
 /** A table of entries with a heading a column; each row has its heading and its names. */
 function table(caption, heads, rows) {
   const cell = (name) => make("td", { "data-name": name, "aria-describedby": "meaning" });

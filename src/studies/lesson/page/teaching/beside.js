@@ -7,9 +7,12 @@ const correctedRun = () => {
   return { ...run(), label: "corrected", programs, c_cnt: programs.c_cnt, Km: programs.Km, settings };
 };
 
+/** Whether the corrected listing can stand beside the one that is shown. */
+const canBeBeside = () => !isIterating() && !run().programs && page.mesh.contact.length > 0;
+
 /** Executes the corrected listing where it is wanted. */
 function openBeside() {
-  const isThere = page.isBeside && !isIterating() && !run().programs && page.mesh.contact.length > 0;
+  const isThere = page.isBeside && canBeBeside();
   byId("beside").hidden = !isThere;
   byId("columns").classList.toggle("with-beside", isThere);
   page.beside = null;
@@ -22,14 +25,14 @@ function openBeside() {
     drawBeside();
   });
   byId("beside").replaceChildren(
-    make("h2", {}, t("{listing}, {state}", { listing: page.which, state: t("corrected") })),
+    make("h2", {}, `${page.which}, ${t("corrected")}`),
     make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("The corrected listing") }, make("ol", {}, ...page.beside.lines.map(({ number, level, text }) => make("li", {}, make("span", { class: "number" }, String(number)), make("code", { style: `--level: ${level}` }, text))))),
     make("p", { class: "answers" }, step(t("back"), ({ at }) => at - 1), step(t("step"), ({ at }) => at + 1), step(t("end of the turn"), endOfTurn), make("span", { id: "beside-said", role: "status" })),
     make("div", { id: "both", class: "scroll", tabindex: 0, role: "region", "aria-label": t("The arrays") }),
   );
 }
 
-/** Behind the last step of the turn that the corrected listing is in. */
+/** Behind the last step of the turn that a listing is in. */
 const endOfTurn = ({ turns, steps, at }) => turns.find(({ from }) => from > at)?.from ?? steps.length;
 
 /** Lets the corrected listing follow to the turn of the listing that is shown: to its end once that has gone on, and with it
@@ -50,24 +53,16 @@ function showBeside(turn) {
 /** Shows the step of the corrected listing, and what both have found. */
 function drawBeside() {
   const { beside, machine, mesh } = page;
-  const items = [...byId("beside").querySelectorAll("li")];
-  items.forEach((item, k) => {
-    item.classList.toggle("lit", beside.last?.line === k);
-    item.classList.toggle("next", beside.next?.line === k);
-  });
-  const lit = items[beside.last?.line ?? 0];
-  if (lit) lit.parentElement.parentElement.scrollTop = lit.offsetTop - lit.parentElement.offsetTop - 60;
+  const list = byId("beside").querySelector("ol");
+  list.parentElement.scrollTop = (litIn(list, beside)?.offsetTop ?? 0) - list.offsetTop - 60;
   say("beside-said", `${t("step {at} of {count}", { at: beside.at, count: beside.steps.length })}. ${stepInWords(beside)}`);
   if (page.which === "Km") return byId("both").replaceChildren();
-  const shown = (machine, name) => {
-    const value = machine.get(name);
-    return make("td", value === undefined ? {} : { "data-exact": exact(value) }, value === undefined ? "·" : brief(value));
-  };
   const names = ["ct", "yt", "dy"];
-  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => [shown(machine, `${name}[${k + 1}]`), shown(beside, `${name}[${k + 1}]`)])));
+  const both = (name) => [machine, beside].map((machine) => valueCell(machine.get(name)));
+  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => both(`${name}[${k + 1}]`))));
   const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
   byId("both").replaceChildren(
     make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),
-    make("p", { class: "muted" }, t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.")),
+    make("p", { class: "muted" }, mesh.side > 0 ? t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.") : t("yt* is a gap, positive apart; so is the yt of line 10, the target’s height less the node’s, as the target lies above here.")),
   );
 }

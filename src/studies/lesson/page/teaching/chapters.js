@@ -2,15 +2,10 @@
 // listing as printed.
 
 /** The values of a run at its end that are compared: by name. */
-function results(programs) {
-  const found = new Map();
-  for (const program of [programs.c_cnt, programs.Km]) {
-    if (!program) continue;
-    const machine = atEnd(program);
-    for (const [name, value] of machine.values) if (/^(ct|yt|dy|k_cnt|MJS)\[/.test(name)) found.set(name, value);
-    if (machine.failure) found.set("stops", machine.failure);
-  }
-  return found;
+function results({ c_cnt, Km }) {
+  const machines = [c_cnt, Km].map(atEnd);
+  const values = machines.flatMap((machine) => [...machine.values]).filter(([name]) => /^(ct|yt|dy|k_cnt|MJS)\[/.test(name));
+  return new Map(/** @type {any} */ ([...values, ...machines.flatMap(({ failure }) => (failure ? [["stops", failure]] : []))]));
 }
 
 /** A machine at the end of a program. */
@@ -33,6 +28,24 @@ function changes(before, after) {
   return names.map((name) => [name, value(before, name), value(after, name)]).filter(([, a, b]) => isOther(a, b));
 }
 
+/** The run of a finding's chapter under its repair. */
+const repairedRun = () => chapter().finding && chapter().runs[1];
+
+/** The names of what the repair of a chapter on Km changes, on its scene as given. */
+function atStake() {
+  if (chapter().finding?.listing !== "Km" || !repairedRun()) return new Set();
+  const [before, after] = chapter().runs.map((run) => results(programsOf(run)));
+  return new Set(changes(before, after).map(([name]) => name));
+}
+
+/** Whether an edited listing does what the repaired one does, by their results on the scene as it is. */
+function besideRepairInWords() {
+  if (!repairedRun() || !isEdited()) return "";
+  const repaired = new Programs(repairedRun(), page.mesh, chapter().nodes, page.programs.c_tll);
+  const count = changes(results(repaired), results(page.programs)).length;
+  return count ? t("Your edit is another one than the chapter's repair: {count} values differ from those of the repaired listing.", { count }) : t("Your edit does what the chapter's repair does: all values are those of the repaired listing, to rounding.");
+}
+
 const MOST_CHANGES = 12;
 
 /** Shows what the run changes against the one before, on the scene as it was given. */
@@ -46,7 +59,7 @@ function showChanges(run, programs) {
   const changed = changes(results(programsOf(before)), results(programs));
   const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
   const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
-    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), make("td", { "data-exact": exact(a) }, brief(a)), make("td", { "data-exact": exact(b) }, brief(b))),
+    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), valueCell(a), valueCell(b)),
   );
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
   const head = headOf([t("name"), tell(before.label), isChanged() ? t("now") : tell(run.label)]);
@@ -55,6 +68,7 @@ function showChanges(run, programs) {
   place.replaceChildren(
     make("h3", {}, t("At the end, {what} beside {before}", { what, before: tell(before.label) })),
     ...(changed.length ? [make("div", { class: "scroll" }, make("table", {}, head, make("tbody", {}, ...rows))), make("p", { class: "muted" }, count)] : [make("p", {}, t("Nothing changes on this scene."))]),
+    make("p", {}, besideRepairInWords()),
   );
   roving(place, "td", () => 2);
 }
@@ -64,24 +78,23 @@ const placeOf = ({ listing, lines }) => (lines.length ? `${listing} ${lines.join
 
 /** What to try in a chapter, each a button. */
 function trials({ lines, listing, edit }, { contact, load }) {
-  const trial = (isThere, text, act) => (isThere ? [button(text, act), " "] : []);
   const [line] = lines;
   const runToLine = () => {
     choose({ run: 0, which: listing });
-    go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)), true);
+    go(page.machine.runTo(page.machine.lines.findIndex(({ number }) => number === line)));
   };
-  const playIterations = (run) => () => {
-    choose({ run, which: "iterations" });
+  const played = (text, run) => button(text, () => {
+    choose({ run, which: "iterations", variant: variantOf(chapter()), isMine: false });
     play(true);
-  };
+  });
   const isStill = load.every((f) => f === 0);
   const isPlayed = contact.length > 0 && !isStill;
   return [
-    ...trial(lines.length, t("run to line {line}", { line }), runToLine),
-    ...trial(!edit.none, t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
-    ...trial(isPlayed, t("play the iterations"), playIterations(0)),
-    ...trial(isPlayed && !edit.none, t("play them repaired"), playIterations(1)),
-    ...(contact.length && isStill ? [t("No load acts on this scene: nothing moves in its iterations.")] : []),
+    lines.length ? button(t("run to line {line}", { line }), runToLine) : "",
+    edit.none ? "" : button(t("run the repaired listing"), () => choose({ run: 1, isMine: false, at: Infinity })),
+    isPlayed ? played(t("play the iterations"), 0) : "",
+    isPlayed && !edit.none ? played(t("play them repaired"), 1) : "",
+    ...(contact.length && isStill ? [t("No load acts on this scene: only the corrected iterations move anything, where they push a node out of the target.")] : []),
   ];
 }
 
@@ -100,7 +113,7 @@ function showFinding({ finding: row, repairs, runs }) {
     make("summary", {}, make("h2", {}, `${row.id} (${lines})`)),
     described([
       [t("Goal"), goal],
-      [t("Try it"), ...trials(row, data.meshes[runs[0].mesh])],
+      [t("Try it"), ...trials(row, data.meshes[runs[0].mesh]).flatMap((trial) => [trial, " "])],
     ]),
   );
 }
@@ -110,6 +123,7 @@ function showConclusion() {
   const { finding, repairs } = chapter();
   const parts = finding ? ofFinding(finding) : repairs ? ofRepairs(repairs) : ofScene();
   if (parts && isChanged()) parts.push([t("Of what"), finding || repairs ? t("This is of the chapter's scene and listings as given, not of your changes.") : t("What the listing did and what is wrong is of the scene as you changed it; what it costs is of the scene as given.")]);
+  if (parts && score.asked) parts.push([t("Your answers"), t("{right} of {asked} right", score)]);
   page.concluded = parts;
   byId("conclusion").hidden = !parts || !page.isConcluded;
   if (parts) byId("conclusion").replaceChildren(make("summary", {}, make("h2", {}, t("Conclusion"))), described(parts));
@@ -119,7 +133,7 @@ function showConclusion() {
 function unfoldConclusion() {
   if (page.isConcluded || !page.concluded) return;
   page.isConcluded = true;
-  byId("conclusion").hidden = false;
+  showConclusion();
   showTitle();
   if (!isWide() || chapter().repairs) return;
   byId("finding").open = false;
@@ -129,7 +143,7 @@ function unfoldConclusion() {
 /** What a fault costs, put back alone into the corrected algorithm on a scene. */
 function priceInWords({ scene, name, weight, error }) {
   const effect = {
-    fatal: () => t("the run stops, or the load does not pass"),
+    fatal: () => t("the run stops, or contact presses no node"),
     shifts: () => t("an error of {error} in energy", { error: percent(error) }),
     free: () => t("nothing"),
     "decided by rounding": () => t("a result that rounding decides"),
@@ -138,13 +152,19 @@ function priceInWords({ scene, name, weight, error }) {
   return t("{name} on {scene}: {effect}", { name: t(name), scene, effect });
 }
 
+/** A text of the audit with its numbers as one writes them: 0.05 for 5.000e-2, 9·10⁻¹⁵ for 9e-15. */
+function inPlainNumbers(text) {
+  const raised = (power) => [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
+  return text.replace(/-?\d+(\.\d+)?e-?\d+/g, (x) => short(Number(x)).replace(/[.,]?0*e\+?(.*)$/, (_, power) => `·10${raised(power.replace("−", "-"))}`));
+}
+
 function ofFinding(row) {
   const { runs } = chapter();
   const figure = `${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}.`;
   const prices = row.prices.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: row.prices.map(priceInWords).join("; ") })}` : "";
   const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
-    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), interpreted(t(row.detail))].join(": ") })],
+    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), inPlainNumbers(interpreted(t(row.detail)))].join(": ") })],
     [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],
     [t("What it costs"), figure + prices],
     [t("What repairs it"), `${t(row.repair)}; ${repaired}`],

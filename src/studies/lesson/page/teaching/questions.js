@@ -41,7 +41,7 @@ function reasonOf({ operands, reads, held }) {
 
 /** Which target edge the search of a turn ends with, and which boxes had the node. */
 function edgeQuestion(machine, mesh, turn) {
-  const end = machine.turns.find(({ from }) => from > machine.at)?.from ?? machine.steps.length;
+  const end = endOfTurn(machine);
   const name = `ct[${turn}]`;
   const writes = machine.steps.slice(machine.at, end).flatMap((step) => step.writes.filter((write) => write.name === name));
   const hits = writes.map(({ value }) => value).filter((edge) => edge !== 0);
@@ -79,7 +79,8 @@ function pose(asked, place) {
     score.asked += 1;
     score.right += isRight ? 1 : 0;
     for (const other of place.querySelectorAll(".answer")) other.disabled = true;
-    verdict.textContent = `${isRight ? t("Right.") : t("No: the answer is {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}`;
+    verdict.textContent = `${isRight ? t("Right.") : t("No: the answer is {right}.", asked)} ${asked.reason} ${t("({right} of {asked} right)", score)}${asked.isLast ? ` ${t("That was the last node. Now step through the listing and see why.")}` : ""}`;
+    showConclusion();
     if (asked.next) verdict.append(" ", button(t("next"), asked.next));
     lightLine(page.machine);
     // The button that had the focus is disabled.
@@ -123,6 +124,7 @@ function nodeQuestion(mesh, k) {
     answers: [t("yes"), t("no")],
     right: node.dy === 1 ? t("yes") : t("no"),
     reason: end.failure ? t("The listing stops: {failure}", end) : whyOf(mesh, end, node),
+    isLast: k + 1 === mesh.contact.length,
     next: () => {
       page.asked = k + 1;
       show();

@@ -2,7 +2,7 @@
 
 /** The steps of the tour: what is looked at, and what is said of it. */
 const tourSteps = () => [
-  ["#pictures", t("The stamp stands above the target, heights magnified. The green band reaches c_tll above and below each edge. Which nodes touch?")],
+  ["#pictures", t("Blue is the stamp, brown the target; heights are magnified. The green band reaches c_tll to both sides of each edge. Which nodes touch?")],
   ["#listing-box", t("c_cnt answers line by line, as the paper prints it. The key → makes a step, ← takes it back, N runs to the next node.")],
   ["#values", t("What the lines write stands here: ct, yt, dy, k_cnt. Pointer or focus on a value says what its array is.")],
   ["#tolerance", t("Change something: move c_tll, drag a node, choose a reading, edit the listing. Everything follows at once.")],
