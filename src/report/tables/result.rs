@@ -1,10 +1,12 @@
 //! What a reader asks of a run first.
 
+use std::collections::BTreeSet;
+
 use super::{contact_set, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
-use crate::layout::counted;
+use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
-use engine::estimates::{NoLimit, edges};
+use engine::estimates::{Cause, NoLimit, contact_ends};
 use engine::{Assessment, Cycle, Resultant, Solution, locking_of};
 use numbers::largest::largest;
 use problem::model::NodeId;
@@ -18,6 +20,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
         .heading("Result")
         .notes(equilibrium::overlap(solution))
         .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
+        .notes(group_ends(solution))
         .notes(passes_on(solution))
         .then(contact_set(solution))
         .notes(resultant(solution))
@@ -101,16 +104,36 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
     })
 }
 
-/// Says where the mesh decides the pressure of a node: it carries contact alone, or stands at the edge of a body, as
-/// that of a punch.
-fn of_the_mesh(solution: &Solution, node: NodeId) -> &'static str {
+/// Says that contact reaches the end of a contact group where the bodies go on, unless they are known to enter each
+/// other there.
+fn group_ends(solution: &Solution) -> Option<String> {
+    let ends = contact_ends(solution).into_iter().filter(|(cause, _)| *cause == Cause::Group);
+    let nodes: BTreeSet<NodeId> = ends.map(|(_, [node, _])| node).collect();
+    (!nodes.is_empty() && solution.overlap.is_none()).then(|| {
+        format!(
+            "NOTE: contact reaches the end of a contact group though the bodies go on, at {}: beyond it nothing keeps \
+             them apart, so that pressures and stresses may be far off; extend both contact groups until nodes at their \
+             ends are open, or to a corner of a body",
+            listed(nodes.into_iter().map(|node| place(solution, node)))
+        )
+    })
+}
+
+/// Says where the mesh, or a contact group, decides the pressure of a node: it carries contact alone, or stands at the
+/// edge of a body, as that of a punch, or at the end of a group, or in the next place.
+fn of_the_mesh(solution: &Solution, node: NodeId) -> String {
     if solution.in_contact().count() == 1 {
-        return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts";
+        return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts".into();
     }
-    match edges(solution).iter().any(|[contact, _]| *contact == node) {
-        true => "; contact at the edge of a body: a finer mesh has more, without limit",
-        false => "",
-    }
+    let is_beside = |end: NodeId| {
+        solution.model.triangles.iter().any(|t| [end, node].iter().all(|n| t.nodes.contains(n)))
+    };
+    let cause = contact_ends(solution)
+        .into_iter()
+        .find(|(cause, [end, _])| *end == node || *cause == Cause::Group && is_beside(*end));
+    cause.map_or(String::new(), |(cause, _)| {
+        format!("; {}: a finer mesh has more, without limit", cause.name())
+    })
 }
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error.
