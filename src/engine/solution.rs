@@ -445,8 +445,8 @@ pub struct Equilibrium {
     /// model's size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
-    /// The height of the arcs over the edges of curved surfaces, and the deepest overlap or the least gap before
-    /// any load, length; None where the height is a small part of this.
+    /// The height of the arcs over the edges of curved surfaces in contact, and how far the gaps there differ before
+    /// any load, from each other and overlaps from none, length; None where the height is a small part of this.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape

@@ -77,10 +77,12 @@ fn a_cylinder_on_another() {
     assert_near("Hertz's own", number(&result, "/hertz/peak"), peak, peak, &GMSH);
 }
 
-/// Up to Poisson's ratio 0.48 the peak is Hertz's within a few per cent; nearer to 0.5 linear triangles lock.
+/// Up to Poisson's ratio 0.45 the peak is Hertz's within a few per cent; nearer to 0.5 linear triangles lock.
 #[test]
 fn a_cylinder_that_is_nearly_incompressible() {
-    for (nu, is_said, least, most) in [(0.48_f64, false, 0.95, 1.07), (0.499, true, 1.08, 9.0)] {
+    for (nu, is_said, least, most) in
+        [(0.45_f64, false, 0.95, 1.03), (0.49, true, 1.02, 1.2), (0.499, true, 1.08, 9.0)]
+    {
         let edit = |scene: String| scene.replace("0.3 }", &format!("{nu} }}"));
         let Some((status, result)) = solved("hertz", edit) else { return };
         assert_eq!((status, result["locking"].is_string()), (Some(0), is_said), "{nu}");

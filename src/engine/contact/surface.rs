@@ -82,29 +82,23 @@ impl Surface {
     /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
     /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
     pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        let Some([a, b]) = self.meeting(node, shape) else { return 0.0 };
-        let cosine = dot(a.normal, b.normal);
-        if cosine > BEND { cosine.min(1.0).acos() * a.length.max(b.length) / 8.0 } else { 0.0 }
+        self.bend_at(node, shape).map_or(0.0, |[angle, length]| angle * length / 8.0)
     }
 
-    /// Returns whether the surface ends at a node, or turns round a convex corner of the body there.
-    fn has_edge_at(&self, node: NodeId, shape: &[Vector]) -> bool {
-        match self.meeting(node, shape) {
-            Some([a, b]) => dot(a.normal, b.normal) <= BEND && dot(a.normal, b.tangent) < 0.0,
-            None => self.at.contains_key(&node),
-        }
+    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface, rad, and the
+    /// length of the longer; None where they meet in no bend.
+    fn bend_at(&self, node: NodeId, shape: &[Vector]) -> Option<[f64; 2]> {
+        let [a, b] = self.meeting(node, shape)?;
+        let angle = dot(a.tangent, b.normal).abs().atan2(dot(a.normal, b.normal));
+        (dot(a.normal, b.normal) > BEND).then_some([angle, a.length.max(b.length)])
     }
 
-    /// Returns whether the surface goes on smoothly at its node that is nearest to a point in a shape.
-    fn goes_on_beside(&self, p: Vector, shape: &[Vector]) -> bool {
-        let distance = |node: &NodeId| {
-            let [x, y] = minus(shape[node.index()], p);
-            x.hypot(y)
-        };
-        let nearest =
-            self.at.keys().min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
-        let meeting = nearest.and_then(|node| self.meeting(*node, shape));
-        meeting.is_some_and(|[a, b]| dot(a.normal, b.normal) > BEND)
+    /// Returns the nodes at which the surface ends, ascending.
+    fn ends(&self) -> Vec<NodeId> {
+        let ends = self.at.iter().filter(|(_, edges)| edges.len() == 1);
+        let mut ends: Vec<NodeId> = ends.map(|(node, _)| *node).collect();
+        ends.sort();
+        ends
     }
 }
 
@@ -178,24 +172,19 @@ impl Surfaces {
         placed.map(|(nodes, edge)| (nodes, edge.normal, edge.length)).collect()
     }
 
-    /// Returns whether a body ends in contact while the other goes on, as at the edge of a punch, where contact node
-    /// and target node, which carries most of it, lie on each other in the undeformed shape.
-    pub fn is_edge(&self, model: &Model, [contact, target]: [NodeId; 2]) -> bool {
-        let held = model.held_directions();
-        let ends = |own: &Surface, node: NodeId, other: &Surface| {
-            // An end that a restraint holds may be one of symmetry.
-            own.has_edge_at(node, &model.nodes)
-                && held[node.index()] == 0
-                && other.goes_on_beside(model.coordinates(node), &model.nodes)
-        };
-        ends(&self.contact, contact, &self.target) || ends(&self.target, target, &self.contact)
+    /// Returns the nodes at which the contact surface ends, and those at which the target surface does.
+    pub fn ends(&self) -> [Vec<NodeId>; 2] {
+        [&self.contact, &self.target].map(Surface::ends)
     }
 
-    /// Returns the largest height of an arc over an edge of either surface in a shape, length.
-    pub fn facet_height(&self, shape: &[Vector]) -> f64 {
-        let surfaces = [&self.contact, &self.target].into_iter();
-        let heights = surfaces.flat_map(|s| s.at.keys().map(|node| s.height_at(*node, shape)));
-        heights.fold(0.0, f64::max)
+    /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length; 0 where
+    /// edges meet at less than an angle, rad.
+    pub fn facet_height(&self, nodes: &[NodeId], shape: &[Vector], least: f64) -> f64 {
+        let bend = |node: &NodeId| {
+            self.contact.bend_at(*node, shape).or_else(|| self.target.bend_at(*node, shape))
+        };
+        let bends = nodes.iter().filter_map(bend).filter(|[angle, _]| *angle > least);
+        bends.map(|[angle, length]| angle * length / 8.0).fold(0.0, f64::max)
     }
 
     /// Returns the entries of the contact surface, in order.

@@ -26,7 +26,7 @@ pub use perturbed::{
     ContactChange, Perturbed, RUNS, equivalent, moves, perturbed, perturbed_requests,
 };
 use problem::model::{Body, NodeId};
-pub use singular::{Cause, Singular, edges, singular};
+pub use singular::{Cause, Singular, contact_ends, singular};
 
 /// The estimates of a run: its errors, and the field of the mesh's error.
 #[derive(Clone, Debug)]

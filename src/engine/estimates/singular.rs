@@ -4,7 +4,7 @@
 //!   held alike, at sin²ω = (κ + 1) / 4 between a fixed and a free one, with κ = 3 − 4ν in plane strain and
 //!   (3 − ν) / (1 + ν) in plane stress. (Sides on rollers count as free.)
 //! - Under a force on a single node, of the load or of a restraint, it goes like r^(−1).
-//! - Where contact ends and sticks, and at the edge of a punch, it goes like r^(−1/2) or nearly so.
+//! - Where contact ends and sticks, and at the edge of a punch or of a contact group, it goes like r^(−1/2) or nearly so.
 //!
 //! Source: M. L. Williams, "Stress singularities resulting from various boundary conditions in
 //! angular corners of plates in extension", J. Appl. Mech. 19 (1952) 526-528.
@@ -27,6 +27,9 @@ const CHORD: f64 = PI / 6.0;
 /// only keeps the body from moving as a whole.
 const IDLE: f64 = 1e-6;
 
+/// What is left by rounding of α (α − 2 β) of like materials.
+const UNLIKE: f64 = 1e-12;
+
 choices! {
     /// Why the stress at a point has no limit.
     Cause {
@@ -38,6 +41,8 @@ choices! {
         Sticking = "the end of sticking contact",
         /// A body ends in contact, and the other goes on, as at the edge of a punch.
         Edge = "contact at the edge of a body",
+        /// A contact group ends in contact, and both bodies go on.
+        Group = "the end of a contact group on a surface that goes on",
     }
 }
 
@@ -65,10 +70,8 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
     let model = &*solution.model;
     let corners = corners(model).into_iter().map(|node| (Cause::Corner, [node, node]));
     let forces = forces(solution).into_iter().map(|node| (Cause::Force, [node, node]));
-    let ends = ends(solution).into_iter().map(|nodes| (Cause::Sticking, nodes));
-    let edges = edges(solution).into_iter().map(|nodes| (Cause::Edge, nodes));
     let mut found: Vec<(Cause, [NodeId; 2])> =
-        corners.chain(forces).chain(ends).chain(edges).collect();
+        corners.chain(forces).chain(contact_ends(solution)).collect();
     found.sort_by_key(|(_, nodes)| nodes[0]);
     found.dedup_by_key(|(_, nodes)| nodes[0]);
     let point = |(cause, nodes): (Cause, [NodeId; 2])| {
@@ -78,33 +81,64 @@ pub fn singular(solution: &Solution) -> Vec<Singular> {
     found.into_iter().map(point).collect()
 }
 
-/// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
-/// stress has a limit.
-fn corners(model: &Model) -> Vec<NodeId> {
+/// Two sides of an outline that meet at a node.
+struct Turn {
+    /// The side that ends there and the one that starts, with the body on the left.
+    sides: [TriangleSide; 2],
+    /// The angle of the body between them, rad.
+    angle: f64,
+}
+
+impl Turn {
+    fn is_smooth(&self) -> bool {
+        (self.angle - PI).abs() < CHORD
+    }
+
+    fn is_convex(&self) -> bool {
+        self.angle <= PI - CHORD
+    }
+}
+
+/// Returns how the outline turns at each of its nodes.
+fn turns(model: &Model) -> BTreeMap<NodeId, Turn> {
     let outline: Vec<TriangleSide> = model.sides.outline().collect();
     let going: BTreeMap<NodeId, TriangleSide> =
         outline.iter().map(|side| (side.nodes[0], *side)).collect();
-    let held = model.held_directions();
-    let is_fixed = |side: TriangleSide| side.nodes.iter().all(|node| held[node.index()] == 2);
-    let corner = |coming: &TriangleSide| {
+    let turn = |coming: &TriangleSide| {
         let [before, node] = coming.nodes;
         let after = *going.get(&node)?;
         let [x, y] = model.coordinates(node);
         let ([ax, ay], [bx, by]) = (model.coordinates(after.nodes[1]), model.coordinates(before));
         let ([ax, ay], [bx, by]) = ([ax - x, ay - y], [bx - x, by - y]);
         let angle = (ax * by - ay * bx).atan2(ax * bx + ay * by).rem_euclid(TAU);
-        let nu = model.triangle(coming.triangle).material.nu;
-        let kappa = match model.plane {
-            Plane::Strain => 3.0 - 4.0 * nu,
-            Plane::Stress => (3.0 - nu) / (1.0 + nu),
-        };
-        let widest = match is_fixed(*coming) == is_fixed(after) {
+        Some((node, Turn { sides: [*coming, after], angle }))
+    };
+    outline.iter().filter_map(turn).collect()
+}
+
+/// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
+/// stress has a limit.
+fn corners(model: &Model) -> Vec<NodeId> {
+    let held = model.held_directions();
+    let is_fixed = |side: TriangleSide| side.nodes.iter().all(|node| held[node.index()] == 2);
+    let is_corner = |turn: &Turn| {
+        let [coming, after] = turn.sides;
+        let kappa = kappa(model.plane, model.triangle(coming.triangle).material.nu);
+        let widest = match is_fixed(coming) == is_fixed(after) {
             true => PI + CHORD,
             false => ((kappa + 1.0) / 4.0).sqrt().min(1.0).asin(),
         };
-        (angle > widest).then_some(node)
+        turn.angle > widest
     };
-    outline.iter().filter_map(corner).collect()
+    turns(model).into_iter().filter(|(_, turn)| is_corner(turn)).map(|(node, _)| node).collect()
+}
+
+/// Returns Kolosov's constant κ.
+fn kappa(plane: Plane, nu: f64) -> f64 {
+    match plane {
+        Plane::Strain => 3.0 - 4.0 * nu,
+        Plane::Stress => (3.0 - nu) / (1.0 + nu),
+    }
 }
 
 /// What acts along a degree of freedom.
@@ -150,10 +184,11 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     model.node_ids().filter(|node| node.dofs().into_iter().any(acts_alone)).collect()
 }
 
-/// Returns the nodes of the contact surface at which contact that sticks ends beside an open node, each with
-/// the target node that carries most of it.
+/// Returns the nodes of the contact surface at which contact that sticks ends, each with a target node: beside an open
+/// node that which carries most of it, and where both bodies end in corners of unlike materials the target's.
 fn ends(solution: &Solution) -> Vec<[NodeId; 2]> {
-    let (nodes, last) = (&solution.model.contact.nodes, solution.last());
+    let (model, last, turns) = (&*solution.model, solution.last(), turns(&solution.model));
+    let (nodes, held) = (&model.contact.nodes, model.held_directions());
     let closed = last.statuses();
     let sticks = |k: usize| match &last.detail {
         Detail::Unilateral(own) => own.statuses[k] == Status::Stick,
@@ -163,18 +198,82 @@ fn ends(solution: &Solution) -> Vec<[NodeId; 2]> {
         |k: usize| [k.wrapping_sub(1), k + 1].iter().any(|k| closed.get(*k) == Some(&false));
     let end = |k: usize| {
         let constraint = last.constraints.iter().find(|constraint| constraint.node == nodes[k])?;
-        Some([nodes[k], carrier(constraint)?])
+        let unlike = || {
+            // A corner that a restraint holds may be one of symmetry.
+            let own = turns.get(&nodes[k]).filter(|_| held[nodes[k].index()] == 0)?;
+            let mut masters = constraint.masters.iter().map(|(master, _)| *master);
+            masters.find(|master| {
+                turns.get(master).is_some_and(|other| are_unlike_corners(model, [own, other]))
+            })
+        };
+        let other = if opens(k) { carrier(constraint) } else { unlike() };
+        Some([nodes[k], other?])
     };
-    (0..nodes.len()).filter(|k| sticks(*k) && opens(*k)).filter_map(end).collect()
+    (0..nodes.len()).filter(|k| sticks(*k)).filter_map(end).collect()
 }
 
-/// Returns the nodes in contact at which a body ends while the other goes on, each with the target node that carries
-/// most of it.
-pub fn edges(solution: &Solution) -> Vec<[NodeId; 2]> {
-    let Ok(surfaces) = Surfaces::new(&solution.model) else { return Vec::new() };
-    let pairs = solution.last().constraints.iter();
-    let pairs = pairs.filter_map(|constraint| Some([constraint.node, carrier(constraint)?]));
-    pairs.filter(|pair| surfaces.is_edge(&solution.model, *pair)).collect()
+/// Returns whether bodies that are bonded at the corners of both make a point without a limit there. Where their
+/// sides are flush and at right angles to the bond, that is where Dundurs' α (α − 2 β) > 0.
+///
+/// Source: D. B. Bogy, "Two edge-bonded elastic wedges of different materials and wedge angles under surface
+/// tractions", J. Appl. Mech. 38 (1971) 377-386.
+fn are_unlike_corners(model: &Model, corners: [&Turn; 2]) -> bool {
+    let [(m, k), (n, l)] = corners.map(|turn| {
+        let material = model.triangle(turn.sides[0].triangle).material;
+        (material.e / (1.0 + material.nu), kappa(model.plane, material.nu))
+    });
+    let sum = m * (l + 1.0) + n * (k + 1.0);
+    let alpha = (m * (l + 1.0) - n * (k + 1.0)) / sum;
+    let beta = (m * (l - 1.0) - n * (k - 1.0)) / sum;
+    let is_flush = corners.iter().map(|turn| turn.angle).sum::<f64>() > PI - CHORD;
+    corners.iter().all(|turn| turn.is_convex()) && is_flush && alpha * (alpha - 2.0 * beta) > UNLIKE
+}
+
+/// Returns the nodes at which contact ends in a point without a limit, each with the cause and a target node there.
+pub fn contact_ends(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
+    let sticking = ends(solution).into_iter().map(|nodes| (Cause::Sticking, nodes));
+    edges(solution).into_iter().chain(sticking).collect()
+}
+
+/// Returns the nodes in contact at which a body ends while the other goes on, or a contact group while both do, each
+/// with the target node there. A body that goes on past the end of a group may enter the other unseen.
+fn edges(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
+    let model = &*solution.model;
+    let Ok(surfaces) = Surfaces::new(model) else { return Vec::new() };
+    let turns = turns(model);
+    let is = |node: NodeId, test: fn(&Turn) -> bool| turns.get(&node).is_some_and(test);
+    let constraints = &solution.last().constraints;
+    let pairs = constraints.iter().filter_map(|own| Some([own.node, carrier(own)?]));
+    let pairs: Vec<[NodeId; 2]> = pairs.collect();
+    let distance = |a: NodeId, b: NodeId| {
+        let ([ax, ay], [bx, by]) = (model.coordinates(a), model.coordinates(b));
+        (ax - bx).hypot(ay - by)
+    };
+    let goes_on_beside = |node: NodeId, other: NodeId| {
+        let body = model.bodies.iter().find(|body| body.has(other));
+        let outline =
+            turns.iter().filter(|(at, _)| **at != node && body.is_some_and(|b| b.has(**at)));
+        let nearest = outline.min_by(|a, b| distance(node, *a.0).total_cmp(&distance(node, *b.0)));
+        nearest.is_some_and(|(_, turn)| turn.is_smooth())
+    };
+    let is_edge = |pair: &&[NodeId; 2]| {
+        let ends =
+            |own: usize| is(pair[own], Turn::is_convex) && goes_on_beside(pair[own], pair[1 - own]);
+        ends(0) || ends(1)
+    };
+    let [of_contact, of_target] = surfaces.ends();
+    let at_end = |end: NodeId| {
+        let weight = |own: &Constraint| {
+            own.masters.iter().filter(|(node, _)| *node == end).map(|(_, w)| w.abs()).sum::<f64>()
+        };
+        let most = constraints.iter().max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
+        (weight(most) > 0.0).then_some([most.node, end])
+    };
+    let of_contact = pairs.iter().filter(|pair| of_contact.contains(&pair[0])).copied();
+    let groups = of_contact.chain(of_target.into_iter().filter_map(at_end));
+    let groups = groups.filter(|pair| pair.iter().all(|node| is(*node, Turn::is_smooth)));
+    let edges = pairs.iter().filter(is_edge).map(|pair| (Cause::Edge, *pair));
+    groups.map(|pair| (Cause::Group, pair)).chain(edges).collect()
 }
 
 /// Returns the target node that carries most of a contact node.

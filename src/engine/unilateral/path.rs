@@ -370,7 +370,9 @@ impl<'a> Run<'a> {
         let setting = setting(problem, taken.last().expect("a path has a step"));
         let nearest = problem.search(&end.config, &setting).nearest_decision(&end.last);
         let Equilibrium { config, last, shape_change, springs, .. } = end;
-        let facets = problem.coarse_facets();
+        let elements = problem.stiffness.states(&last.solution.u);
+        let strain = elements.iter().map(|state| state.von_mises_strain).fold(0.0, f64::max);
+        let facets = problem.coarse_facets(&last, strain);
         let found = problem.inside(&config, &last);
         let deepest = |watched: Watched| {
             let deepest = found.iter().find(|inside| inside.watched == watched)?;
@@ -384,7 +386,7 @@ impl<'a> Run<'a> {
             model: problem.model.clone(),
             contact: contact(problem, &config, &last),
             reactions: reactions(problem.model, problem.model.restraints(), force),
-            elements: problem.stiffness.states(&last.solution.u),
+            elements,
             factored,
             steps,
             digits: None,

@@ -40,8 +40,9 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
             false => "less than that, so that the mesh decides it".into(),
         };
         format!(
-            "NOTE: the edges of a curved surface are facets, up to {} off its arc; before any load the deepest \
-             overlap, or else the least gap, is {}, {part}; no error estimate counts it; refine the surfaces",
+            "NOTE: the edges of a curved surface in contact are facets, up to {} off its arc; the gaps or overlaps that \
+             contact closes differ by {} before any load, {part}; peak pressures may be far off, and no error estimate \
+             counts it; refine the surfaces",
             length(height),
             length(least)
         )

@@ -1,10 +1,12 @@
 //! What a reader asks of a run first.
 
+use std::collections::BTreeSet;
+
 use super::{direction, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
-use engine::estimates::{NoLimit, edges};
+use engine::estimates::{Cause, NoLimit, contact_ends};
 use engine::{Assessment, Cycle, Resultant, Solution, locking_of, share_of_load};
 use numbers::largest::largest;
 use problem::model::NodeId;
@@ -21,6 +23,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
         .heading("Result")
         .notes(equilibrium::overlap(solution))
         .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
+        .notes(group_ends(solution))
         .notes(passes_on(solution))
         .notes(in_contact(solution))
         .notes(resultant(solution))
@@ -142,20 +145,45 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
     let gap = with_unit(&figure(at.gap, error), &units.length);
     let is_apart = solution.is_apart(at);
     let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
-    // Where the mesh decides it: the node carries contact alone, or stands at the edge of a body, as that of a punch.
-    let caution = if solution.in_contact().count() == 1 {
-        "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts"
-    } else if edges(solution).iter().any(|[contact, _]| *contact == at.node) {
-        "; contact at the edge of a body: a finer mesh has more, without limit"
-    } else {
-        ""
-    };
+    let caution = of_the_mesh(solution, at.node);
     Some(format!(
         "Peak contact pressure {} at {}{}{across}{caution}",
         with_unit(&figure(pressure, error), &units.stress),
         place(solution, at.node),
         others(found.others)
     ))
+}
+
+/// Says that contact reaches the end of a contact group where the bodies go on, unless they are known to enter each
+/// other there.
+fn group_ends(solution: &Solution) -> Option<String> {
+    let ends = contact_ends(solution).into_iter().filter(|(cause, _)| *cause == Cause::Group);
+    let nodes: BTreeSet<NodeId> = ends.map(|(_, [node, _])| node).collect();
+    (!nodes.is_empty() && solution.overlap.is_none()).then(|| {
+        format!(
+            "NOTE: contact reaches the end of a contact group though the bodies go on, at {}: beyond it nothing keeps \
+             them apart, so that pressures and stresses may be far off; extend both contact groups until nodes at their \
+             ends are open, or to a corner of a body",
+            listed(nodes.into_iter().map(|node| place(solution, node)))
+        )
+    })
+}
+
+/// Says where the mesh, or a contact group, decides the pressure of a node: it carries contact alone, or stands at the
+/// edge of a body, as that of a punch, or at the end of a group, or in the next place.
+fn of_the_mesh(solution: &Solution, node: NodeId) -> String {
+    if solution.in_contact().count() == 1 {
+        return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts".into();
+    }
+    let is_beside = |end: NodeId| {
+        solution.model.triangles.iter().any(|t| [end, node].iter().all(|n| t.nodes.contains(n)))
+    };
+    let cause = contact_ends(solution)
+        .into_iter()
+        .find(|(cause, [end, _])| *end == node || *cause == Cause::Group && is_beside(*end));
+    cause.map_or(String::new(), |(cause, _)| {
+        format!("; {}: a finer mesh has more, without limit", cause.name())
+    })
 }
 
 /// Says how wide the contact is: from its first node to its last, whose edges leave the error.
