@@ -309,7 +309,8 @@ impl Compared {
             let worksheet = Worksheet::new(model, Bound::Normal);
             runs.iter().map(|edits| self.run(&worksheet, edits)).collect()
         };
-        let outcomes = repeated(own, &self.equivalents.par_iter().map(on).collect::<Vec<_>>());
+        let others: Vec<_> = self.equivalents.par_iter().map(on).collect();
+        let outcomes = repeated(own, &others);
         // What is left when a fault is repaired is what was there before it was put back.
         let faults = put_back.iter().map(|k| Some(&FAULTS[*k])).chain([None]);
         let prices = faults.zip(outcomes).map(|(fault, outcome)| self.price(fault, outcome));
