@@ -466,7 +466,7 @@ fn interpreter() -> Table {
     let reading = Reading::default();
     let sheet = door::worksheet(&Scene::open("strand").expect("embedded").model, |x| x);
     let (listing, settings) = (Which::CCnt.under(&reading), settings(&reading));
-    let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, &mut ());
+    let interpreted = || listings::c_cnt(&listing, &settings, &sheet, &sheet.node, None);
     let mirrored = || c_cnt(&sheet, &reading, &sheet.node);
     assert_eq!(interpreted().expect("it runs").0, mirrored().expect("it runs"));
     let listing = 1e3 * least(200, || drop(black_box(interpreted())));

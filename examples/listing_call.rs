@@ -12,7 +12,7 @@ pub fn main() -> Result<(), Error> {
     let mirror = Call::c_cnt(&scene.model, &reading, &scene.model.nodes)?;
     let (sheet, listing) = (&mirror.sheet, Which::CCnt.under(&reading));
     let settings = listings::settings(&reading);
-    let (text, _) = listings::c_cnt(&listing, &settings, sheet, &sheet.node, &mut ())?;
+    let (text, _) = listings::c_cnt(&listing, &settings, sheet, &sheet.node, None)?;
     assert_eq!(text, mirror.pairs, "the text and its mirror agree to the last bit");
     for status in &mirror.statuses {
         let edge = status.edge.map_or(0, |edge| scene.model.edge(edge).number);

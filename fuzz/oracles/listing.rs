@@ -145,9 +145,9 @@ fn executed(
     };
     let (listing, settings) = (edited.listing(), settings(reading));
     let run = match which {
-        Which::CCnt => listings::c_cnt(&listing, &settings, sheet, node_n, &mut ())
+        Which::CCnt => listings::c_cnt(&listing, &settings, sheet, node_n, None)
             .map(|(pairs, _)| [bits(pairs.yt.as_slice()), bits(pairs.k_cnt.as_matrix())].concat()),
-        Which::Km => listings::km(&listing, &settings, sheet, k_cnt, &mut ())
+        Which::Km => listings::km(&listing, &settings, sheet, k_cnt, None)
             .map(|(matrix, _)| bits(matrix.entries())),
     };
     match run {
@@ -179,12 +179,12 @@ fn is_mirrored(sheet: &Worksheet<f64>, node_n: &Table<f64>, reading: &Reading) -
     let settings = settings(reading);
     let mirror = c_cnt(sheet, reading, node_n);
     let listing = printed(Which::CCnt, reading);
-    let executed = listings::c_cnt(&listing, &settings, sheet, node_n, &mut ());
+    let executed = listings::c_cnt(&listing, &settings, sheet, node_n, None);
     let of_mirror = mirror.as_ref().map(pair_bits).map_err(stop);
     assert_eq!(of_mirror, executed.map(|(p, _)| pair_bits(&p)).map_err(|f| printed_stop(&f)));
     let k_cnt = mirror.map_or_else(|_| Table::filled(sheet.R(), 4, 0.0), |pairs| pairs.k_cnt);
     let mirror = Km(sheet, reading, &k_cnt).map(|m| m.to_table());
-    let executed = listings::km(&printed(Which::Km, reading), &settings, sheet, &k_cnt, &mut ());
+    let executed = listings::km(&printed(Which::Km, reading), &settings, sheet, &k_cnt, None);
     let flat = |table: &Table<f64>| bits(table.as_matrix());
     let table = |array| Table::try_from(&Value::Array(array)).expect("numbers");
     assert_eq!(

@@ -16,23 +16,15 @@ pub fn finite(result: f64) -> Result<f64, Cause> {
     if result.is_finite() { Ok(result) } else { Err(Cause::Overflow { result }) }
 }
 
-/// Returns `x / y` under the worksheet's `zero-over-zero`.
-fn quotient(x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
-    if y != 0.0 {
-        finite(x / y)
-    } else if x == 0.0 && settings.zero_over_zero_is_zero {
-        Ok(0.0)
-    } else {
-        Err(Cause::Singularity { numerator: x, denominator: y })
-    }
-}
-
+/// Returns what an operation makes of two numbers; 0/0 is as the worksheet's `zero-over-zero` says.
 pub fn calculate(operation: Operation, x: f64, y: f64, settings: &Settings) -> Result<f64, Cause> {
     match operation {
         Operation::Add => finite(x + y),
         Operation::Subtract => finite(x - y),
         Operation::Multiply => finite(x * y),
-        Operation::Divide => quotient(x, y, settings),
+        Operation::Divide if y != 0.0 => finite(x / y),
+        Operation::Divide if x == 0.0 && settings.zero_over_zero_is_zero => Ok(0.0),
+        Operation::Divide => Err(Cause::Singularity { numerator: x, denominator: y }),
     }
 }
 
@@ -120,7 +112,15 @@ pub fn operate(
         (_, Value::Number(x), Value::Array(a)) => map(a, |y| of(x, y)),
         (_, Value::Array(a), Value::Number(y)) => map(a, |x| of(x, y)),
         (Operation::Multiply, Value::Array(a), Value::Array(b)) => product(&a, &b),
-        (_, Value::Array(a), Value::Array(b)) => zip(operation, a, &b, of),
+        (_, Value::Array(a), Value::Array(b)) if a.size() != b.size() => {
+            Err(Cause::sizes(operation.sign(), a.size(), b.size()))
+        }
+        (_, Value::Array(mut a), Value::Array(b)) => {
+            for (x, y) in Rc::make_mut(&mut a).entries_mut().zip(b.entries()) {
+                *x = of(*x, *y)?;
+            }
+            Ok(Value::Array(a))
+        }
         (_, Value::Number(_) | Value::Array(_), other) | (_, other, _) => {
             Err(kind("a number or an array", &other))
         }
@@ -138,21 +138,6 @@ pub fn map(mut array: Rc<Array>, f: impl Fn(f64) -> Result<f64, Cause>) -> Resul
         *x = f(*x)?;
     }
     Ok(Value::Array(array))
-}
-
-fn zip(
-    operation: Operation,
-    mut a: Rc<Array>,
-    b: &Array,
-    f: impl Fn(f64, f64) -> Result<f64, Cause>,
-) -> Result<Value, Cause> {
-    if a.size() != b.size() {
-        return Err(Cause::sizes(operation.sign(), a.size(), b.size()));
-    }
-    for (x, y) in Rc::make_mut(&mut a).entries_mut().zip(b.entries()) {
-        *x = f(*x, *y)?;
-    }
-    Ok(Value::Array(a))
 }
 
 /// Returns the matrix product; of two columns of one length, the scalar product. What has one entry
@@ -208,10 +193,6 @@ pub fn transpose(value: Value) -> Result<Value, Cause> {
         Value::Nested(v) => Ok(Value::grid(v.grid().transposed())),
         other => Err(kind("a number or an array", &other)),
     }
-}
-
-pub fn identity(n: usize) -> Value {
-    Array::from_fn(n, n, |i, j| if i == j { 1.0 } else { 0.0 }).into()
 }
 
 /// Combines all numbers of the values by `f`, one after another: Mathcad's `min` and `max` flatten

@@ -71,9 +71,11 @@ impl Edit {
         } else {
             let change = self.changes.last_mut().filter(|change| !change.deeper);
             let change = change.ok_or("`c_cnt lines 14-30:` above the first line")?;
-            change.lines.push(
-                parse_line(line, in_file).ok_or("a printed number, two spaces, and the line")?,
-            );
+            // The printed number, two spaces, and the line with its indentation.
+            let numbered = line.trim_start().split_once("  ");
+            let line = numbered
+                .and_then(|(number, line)| Some(Line::new(number.parse().ok()?, in_file, line)));
+            change.lines.push(line.ok_or("a printed number, two spaces, and the line")?);
         }
         Ok(())
     }
@@ -102,40 +104,28 @@ impl Edit {
     /// read.
     pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
         let mut lines = listing.lines().to_vec();
-        for change in &self.changes {
-            let range =
-                change.find(listing.name(), &lines).ok_or_else(|| change.misfit(listing))?;
-            if change.deeper {
+        for Change { listing: wanted, first, last, deeper, lines: own } in &self.changes {
+            // Where the lines to be replaced stand, if they are there, all and in order.
+            let start = lines.iter().position(|line| line.printed == *first);
+            let range = start
+                .zip(last.checked_sub(*first))
+                .and_then(|(start, more)| Some(start..start.checked_add(more)?.checked_add(1)?));
+            let ordered = |found: &[Line]| found.iter().zip(*first..).all(|(l, n)| l.printed == n);
+            let range = range.filter(|range| {
+                wanted == listing.name() && lines.get(range.clone()).is_some_and(ordered)
+            });
+            let Some(range) = range else {
+                let (listing, wanted) = (listing.name().into(), wanted.clone());
+                let (first, last) = (*first, *last);
+                return Err(EditError::NoSuchLines { listing, wanted, first, last });
+            };
+            if *deeper {
                 lines[range].iter_mut().for_each(|line| line.level += 1);
             } else {
-                lines.splice(range, change.lines.iter().cloned());
+                lines.splice(range, own.iter().cloned());
             }
         }
         Ok(Listing::from_lines(listing.name(), lines, &Limits::default())?)
-    }
-}
-
-impl Change {
-    /// Returns where the lines to be replaced stand, if they are there, all and in order.
-    fn find(&self, listing: &str, lines: &[Line]) -> Option<std::ops::Range<usize>> {
-        if self.listing != listing {
-            return None;
-        }
-        let start = lines.iter().position(|line| line.printed == self.first)?;
-        let end = start.checked_add(self.last.checked_sub(self.first)?)?.checked_add(1)?;
-        let range = lines.get(start..end)?;
-        let ordered = range.iter().zip(self.first..).all(|(line, number)| line.printed == number);
-        ordered.then_some(start..end)
-    }
-
-    fn misfit(&self, listing: &Listing) -> EditError {
-        let (first, last) = (self.first, self.last);
-        EditError::NoSuchLines {
-            listing: listing.name().into(),
-            wanted: self.listing.clone(),
-            first,
-            last,
-        }
     }
 }
 
@@ -153,10 +143,4 @@ fn parse_range(text: &str) -> Option<Change> {
         deeper: replaced.is_some(),
         lines: vec![],
     })
-}
-
-/// Reads the printed number, two spaces, and the line with its indentation.
-fn parse_line(text: &str, in_file: usize) -> Option<Line> {
-    let (number, line) = text.trim_start().split_once("  ")?;
-    Some(Line::new(number.parse().ok()?, in_file, line))
 }

@@ -5,9 +5,8 @@
 
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function, Meaning, each, real};
+use super::function::{Builtin, FUNCTION, Function, Meaning, each, exactly, real};
 use super::matrices;
-use super::observe::Observer;
 use super::settings::Conjunction;
 use super::sheet::Sheet;
 use super::sheet::{Defined, Numbers};
@@ -62,7 +61,7 @@ impl Turns {
     }
 }
 
-impl<O: Observer> Run<'_, '_, O> {
+impl Run<'_, '_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
     pub fn run(mut self, arguments: &[Value]) -> Fallible<Outcome> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
@@ -150,8 +149,8 @@ impl<O: Observer> Run<'_, '_, O> {
 
     fn statement(&mut self, statement: &Statement, held: &mut bool) -> Fallible<Flow> {
         self.line = statement.line;
-        if O::ACTIVE {
-            self.observer.statement(&self.listing.lines[self.line]);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.begin(&self.listing.lines[self.line]);
         }
         self.spend(1)?;
         match &statement.step {
@@ -216,9 +215,8 @@ impl<O: Observer> Run<'_, '_, O> {
 
     fn condition(&mut self, condition: &Expr) -> Fallible<bool> {
         let truth = self.truth(condition)?;
-        if O::ACTIVE {
-            let place = self.place(&condition.span);
-            self.observer.condition(place, truth);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.on(&self.listing.lines[self.line]).held = Some(truth);
         }
         Ok(truth)
     }
@@ -365,7 +363,7 @@ impl<O: Observer> Run<'_, '_, O> {
                 let value = self.eval(of)?;
                 let row = self.number(&subscripts[0])?;
                 let col = subscripts.get(1).map(|col| self.number(col)).transpose()?;
-                let name = || self.place(&of.span).text.into();
+                let name = || self.text(&of.span).into();
                 let origin = self.settings.origin;
                 Ok(matrices::entry(&value, Subscripts { row, col }, origin, &name)?)
             }
@@ -431,8 +429,8 @@ impl<O: Observer> Run<'_, '_, O> {
                 self.compared(*comparison, (x, &left), y).map(|(truth, _)| truth_value(truth))
             }
             Kind::Chain(x, rest) => self.chain(x, rest).map(truth_value),
-            Kind::All(operands) => self.decide(operands, false, Some(&expr.span)),
-            Kind::Any(operands) => self.decide(operands, true, None),
+            Kind::All(operands) => self.decide(operands, false),
+            Kind::Any(operands) => self.decide(operands, true),
             Kind::Program(block) => self.inner(block),
             Kind::Call(name, arguments) => match (&self.functions[*name], arguments.as_slice()) {
                 (None, _) => Err(self.undefined(*name, true).into()),
@@ -668,7 +666,7 @@ impl<O: Observer> Run<'_, '_, O> {
             | Kind::If(_)
             | Kind::Series { .. }
             | Kind::Program(_) => {
-                let construct = format!("vectorize of `{}`", self.place(&expr.span).text);
+                let construct = format!("vectorize of `{}`", self.text(&expr.span));
                 return Err(Cause::Unsupported { construct }.into());
             }
         }
@@ -710,7 +708,7 @@ impl<O: Observer> Run<'_, '_, O> {
     }
 
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
-    /// evaluating `∧`: one that is `decisive` decides alone. An `∧` has its `span` for the observer.
+    /// evaluating `∧`: one that is `decisive` decides alone.
     /// ```
     /// use plane_contact_mathcad::{Conjunction, Limits, Listing, Settings};
     /// let listing = Listing::parse("f", "f(v) :=\n  v[1] > 1 ∧ v[0] > 1").unwrap();
@@ -723,12 +721,7 @@ impl<O: Observer> Run<'_, '_, O> {
     /// let methods = [Conjunction::Guarded, Conjunction::LeftToRight, Conjunction::Eager];
     /// assert_eq!(methods.map(under), [true, true, false]);
     /// ```
-    fn decide(
-        &mut self,
-        operands: &[Expr],
-        decisive: bool,
-        span: Option<&Span>,
-    ) -> Fallible<Value> {
+    fn decide(&mut self, operands: &[Expr], decisive: bool) -> Fallible<Value> {
         let method = self.settings.conjunction;
         let (mut decided, mut failure, mut seen) = (false, None, vec![]);
         for operand in operands {
@@ -749,17 +742,15 @@ impl<O: Observer> Run<'_, '_, O> {
                 ) => return Err(error),
             };
             decided |= truth == Some(decisive);
-            if O::ACTIVE {
+            if self.recorder.is_some() {
                 seen.push(truth);
             }
         }
-        if O::ACTIVE
-            && let Some(span) = span
-        {
+        let line = &self.listing.lines[self.line];
+        if let (Some(recorder), false) = (&mut self.recorder, decisive) {
             let seen = seen.into_iter().chain(std::iter::repeat(None));
-            let operands = operands.iter().map(|x| self.place(&x.span).text);
-            let operands: Vec<_> = operands.zip(seen).collect();
-            self.observer.conjunction(self.place(span), &operands);
+            let operands = operands.iter().map(|x| line.text[x.span.clone()].into());
+            recorder.on(line).operands = operands.zip(seen).collect();
         }
         match failure {
             Some(failure) if !decided => Err(failure),
@@ -789,6 +780,8 @@ impl<O: Observer> Run<'_, '_, O> {
         Ok(match builtin.meaning {
             Meaning::Elementary(function) => each(arguments, |x| real(function(x), x, name))?,
             Meaning::Numbers(function) => Value::Number(function(arguments, name)?),
+            Meaning::One(function) => exactly(arguments).and_then(|[x]| function(x))?,
+            Meaning::Two(function) => exactly(arguments).and_then(|[x, y]| function(x, y))?,
             Meaning::Values(function) => function(arguments)?,
             Meaning::Subscripts(function) => function(arguments, self.settings.origin)?,
             Meaning::Vectorize => {
@@ -832,7 +825,7 @@ impl<O: Observer> Run<'_, '_, O> {
             limits: self.limits,
             cells,
             functions: &mut functions,
-            observer: &mut (),
+            recorder: None,
             line: 0,
             spent: self.spent,
             begun: sheet.map(Sheet::begun),

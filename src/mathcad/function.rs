@@ -1,7 +1,7 @@
 //! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
 //! that the caller defines.
 
-use super::arithmetic::{finite, fold, identity, kind, map, sum};
+use super::arithmetic::{finite, fold, kind, map, sum};
 use super::failure::Cause;
 use super::matrices;
 use super::sheet::{Defined, Sheet};
@@ -33,6 +33,9 @@ pub enum Meaning {
     Elementary(fn(f64) -> f64),
     /// A number of its arguments, which are numbers, and of its own name for messages.
     Numbers(fn(&[Value], &'static str) -> Result<f64, Cause>),
+    /// A value of its one argument, or of two.
+    One(fn(&Value) -> Result<Value, Cause>),
+    Two(fn(&Value, &Value) -> Result<Value, Cause>),
     /// A value of its arguments.
     Values(fn(&[Value]) -> Result<Value, Cause>),
     /// A value of its arguments and `ORIGIN`.
@@ -89,11 +92,11 @@ static BUILTINS: [Builtin; 46] = {
         // So many products, at most.
         row("factorial", |_| (0, 50), Numbers(factorial)),
         // identity(n), the n x n matrix.
-        row("identity", square, Values(|n| exactly(n).and_then(|[n]| whole(n)).map(identity))),
+        row("identity", square, One(|n| whole(n).map(identity))),
         // The numbers of rows and of columns; 0 for what is no array.
-        row("rows", free, Values(|v| exactly(v).map(|[v]| extent(v).0.into()))),
-        row("cols", free, Values(|v| exactly(v).map(|[v]| extent(v).1.into()))),
-        row("length", free, Values(|v| exactly(v).map(|[v]| extent(v).0.into()))),
+        row("rows", free, One(|v| Ok(extent(v).0.into()))),
+        row("cols", free, One(|v| Ok(extent(v).1.into()))),
+        row("length", free, One(|v| Ok(extent(v).0.into()))),
         // The subscript of the last entry of a column.
         row("last", free, Subscripts(last)),
         // Of all the numbers of all arguments.
@@ -101,7 +104,7 @@ static BUILTINS: [Builtin; 46] = {
         row("min", read, Values(|xs| fold(xs, <f64 as Scalar>::min))),
         row("max", read, Values(|xs| fold(xs, <f64 as Scalar>::max))),
         // A column in ascending order.
-        row("sort", sorting, Values(sort)),
+        row("sort", sorting, One(sort)),
         // round(x), or round(x, n) to n decimal places.
         row("round", copied, Values(round)),
         // Arrays side by side, or one below the other.
@@ -110,18 +113,10 @@ static BUILTINS: [Builtin; 46] = {
         // submatrix(x, row, last row, column, last column).
         row("submatrix", copied, Subscripts(submatrix)),
         // lsolve(m, v), the solution of m·x = v.
-        row(
-            "lsolve",
-            eliminated,
-            Values(|mv| exactly(mv).and_then(|[m, v]| matrices::lsolve(m, v))),
-        ),
-        row(
-            "determinant",
-            eliminated,
-            Values(|m| exactly(m).and_then(|[m]| matrices::determinant(m))),
-        ),
+        row("lsolve", eliminated, Two(matrices::lsolve)),
+        row("determinant", eliminated, One(matrices::determinant)),
         // Of a column; over a range they are series.
-        row("∑", copied, Values(|v| exactly(v).and_then(|[v]| total(v)))),
+        row("∑", copied, One(total)),
         row(
             "∏",
             copied,
@@ -131,10 +126,10 @@ static BUILTINS: [Builtin; 46] = {
             }),
         ),
         // ×(a, b), of columns of three.
-        row("×", free, Values(|ab| exactly(ab).and_then(|[a, b]| matrices::cross(a, b)))),
+        row("×", free, Two(matrices::cross)),
         // Of a matrix whose eigenvalues are real, in ascending order.
-        row("eigenvals", eigen, Values(|m| exactly(m).and_then(|[m]| matrices::eigenvals(m)))),
-        row("eigenvecs", vectors, Values(|m| exactly(m).and_then(|[m]| matrices::eigenvecs(m)))),
+        row("eigenvals", eigen, One(matrices::eigenvals)),
+        row("eigenvecs", vectors, One(matrices::eigenvecs)),
         row("→", free, Vectorize),
         row("trace", written, Trace),
     ]
@@ -217,7 +212,7 @@ fn size(values: &[Value]) -> usize {
 }
 
 /// Returns the arguments, which must be so many.
-fn exactly<const N: usize>(arguments: &[Value]) -> Result<&[Value; N], Cause> {
+pub fn exactly<const N: usize>(arguments: &[Value]) -> Result<&[Value; N], Cause> {
     let found = arguments.len();
     arguments.try_into().map_err(|_| Cause::Arguments { expected: N, found })
 }
@@ -290,8 +285,11 @@ fn mean(arguments: &[Value]) -> Result<Value, Cause> {
     mean.map_or(Ok(total), |mean| finite(mean).map(Value::Number))
 }
 
-fn sort(arguments: &[Value]) -> Result<Value, Cause> {
-    let [value] = exactly(arguments)?;
+fn identity(n: usize) -> Value {
+    Array::from_fn(n, n, |i, j| f64::from(i == j)).into()
+}
+
+fn sort(value: &Value) -> Result<Value, Cause> {
     match value {
         Value::Array(column) if column.cols() == 1 => {
             let mut entries: Vec<f64> = column.entries().copied().collect();
@@ -304,12 +302,11 @@ fn sort(arguments: &[Value]) -> Result<Value, Cause> {
 
 /// Rounds a number, or each number of an array, halves away from 0, to so many decimal places.
 fn round(arguments: &[Value]) -> Result<Value, Cause> {
-    let (x, places) = match arguments {
-        [_] => (arguments, 0.0),
+    let (x, [places]) = match arguments {
+        [_] => (arguments, [0.0]),
         _ => {
             exactly::<2>(arguments)?;
-            let [places] = numbers(&arguments[1..])?;
-            (&arguments[..1], places)
+            (&arguments[..1], numbers(&arguments[1..])?)
         }
     };
     let scale = 10_f64.powf(places);

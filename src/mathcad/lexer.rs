@@ -132,93 +132,55 @@ pub type Complaint = (usize, String);
 /// Names a character or number that the notation does not know, or brackets more than
 /// `depth` deep.
 pub fn tokens(text: &str, names: &mut Names, depth: usize) -> Result<Vec<Spanned>, Complaint> {
-    let mut lexer = Lexer { text, names, found: vec![], open: vec![], depth };
-    let mut at = 0;
+    let mut found: Vec<Spanned> = vec![];
+    let mut open: Vec<&'static str> = vec![];
+    let mut end = 0;
     loop {
-        let spaces = text[at..].len() - text[at..].trim_start_matches(' ').len();
-        at += spaces;
-        if text[at..].is_empty() || text[at..].starts_with('#') {
-            return Ok(lexer.found);
+        let rest = text[end..].trim_start_matches(' ');
+        if rest.is_empty() || rest.starts_with('#') {
+            return Ok(found);
         }
-        let (token, length) = lexer.token(at)?;
-        lexer.push(lexer.closing(token), at..at + length, spaces)?;
-        at += length;
-    }
-}
-
-struct Lexer<'a> {
-    text: &'a str,
-    names: &'a mut Names,
-    found: Vec<Spanned>,
-    open: Vec<&'static str>,
-    depth: usize,
-}
-
-impl Lexer<'_> {
-    /// Returns the token at `at`, and its length in bytes.
-    fn token(&mut self, at: usize) -> Result<(Token, usize), Complaint> {
-        let rest = &self.text[at..];
-        if let Some(sign) = sign(rest) {
-            let behind_less = matches!(self.found.last(), Some((Token::Sign("<"), _)));
-            if sign == "-" && behind_less {
+        let (at, last) = (text.len() - rest.len(), found.last().map(|(last, _)| last));
+        let behind_operand = last.is_some_and(ends_operand);
+        let (token, length) = match (sign(rest), rest.chars().next()) {
+            (Some("-"), _) if last == Some(&Token::Sign("<")) => {
                 return Err((at, format!("found {ARROW}")));
             }
-            return Ok((Token::Sign(printed(sign)), sign.len()));
-        }
-        match rest.chars().next() {
-            Some('"') => text(rest).map_err(|message| (at, message)),
-            Some(c) if c.is_ascii_digit() => number(rest).map_err(|message| (at, message)),
-            Some(c) if is_letter(c) => Ok(self.name(rest)),
-            c => {
-                let found = c.map(String::from).unwrap_or_default();
-                Err((at, format!("found {found:?}, which is no part of the notation")))
+            (Some("|"), _) if behind_operand && open.last() == Some(&"|") => (Token::ClosingBar, 1),
+            (Some(sign), _) => (Token::Sign(printed(sign)), sign.len()),
+            (None, Some('"')) => self::text(rest).map_err(|message| (at, message))?,
+            (None, Some(c)) if c.is_ascii_digit() => number(rest).map_err(|what| (at, what))?,
+            (None, Some(c)) if is_letter(c) => {
+                let length = name_length(rest);
+                let name = &rest[..length];
+                let token = match keyword(name) {
+                    Some(keyword) => Token::Sign(printed(keyword)),
+                    None if rest[length..].starts_with('(') => Token::Function(names.intern(name)),
+                    None => Token::Name(names.intern(name)),
+                };
+                (token, length)
             }
-        }
-    }
-
-    fn name(&mut self, rest: &str) -> (Token, usize) {
-        let length = name_length(rest);
-        let name = &rest[..length];
-        let token = match keyword(name) {
-            Some(keyword) => Token::Sign(printed(keyword)),
-            None if rest[length..].starts_with('(') => Token::Function(self.names.intern(name)),
-            None => Token::Name(self.names.intern(name)),
+            (None, c) => {
+                let found = c.map(String::from).unwrap_or_default();
+                return Err((at, format!("found {found:?}, which is no part of the notation")));
+            }
         };
-        (token, length)
-    }
-
-    /// Returns the token, or the closing bar that it turns out to be.
-    fn closing(&self, token: Token) -> Token {
-        let closes =
-            token == Token::Sign("|") && self.behind_operand() && self.open.last() == Some(&"|");
-        if closes { Token::ClosingBar } else { token }
-    }
-
-    /// Adds the token, and a gap before it where there is one, and opens or closes a bracket.
-    fn push(&mut self, token: Token, span: Span, spaces: usize) -> Result<(), Complaint> {
-        if self.gap(&token, spaces) {
-            self.found.push((Token::Gap, span.start - spaces..span.start));
+        let closing = matches!(token, Token::Sign(")" | "," | ";"));
+        let wanted = if starts_operand(&token) { 1 } else { 2 };
+        let spaces = at - end;
+        if open.last() == Some(&"(") && behind_operand && !closing && spaces >= wanted {
+            found.push((Token::Gap, end..at));
         }
         match token {
-            Token::Sign(bracket @ ("(" | "[" | "⟨" | "|" | "{")) => self.open.push(bracket),
-            Token::Sign(")" | "]" | "⟩" | "}") | Token::ClosingBar => drop(self.open.pop()),
+            Token::Sign(bracket @ ("(" | "[" | "⟨" | "|" | "{")) => open.push(bracket),
+            Token::Sign(")" | "]" | "⟩" | "}") | Token::ClosingBar => drop(open.pop()),
             _ => {}
         }
-        if self.open.len() > self.depth {
-            return Err((span.start, format!("found brackets more than {} deep", self.depth)));
+        if open.len() > depth {
+            return Err((at, format!("found brackets more than {depth} deep")));
         }
-        self.found.push((token, span));
-        Ok(())
-    }
-
-    fn gap(&self, token: &Token, spaces: usize) -> bool {
-        let closing = matches!(token, Token::Sign(")" | "," | ";"));
-        let wanted = if starts_operand(token) { 1 } else { 2 };
-        self.open.last() == Some(&"(") && self.behind_operand() && !closing && spaces >= wanted
-    }
-
-    fn behind_operand(&self) -> bool {
-        self.found.last().is_some_and(|(last, _)| ends_operand(last))
+        end = at + length;
+        found.push((token, at..end));
     }
 }
 

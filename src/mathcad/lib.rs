@@ -69,7 +69,7 @@ mod x87;
 pub use edit::Edit;
 pub use failure::{Cause, Failure, ParseError};
 pub use listing::{Line, Listing};
-pub use observe::{Observer, Recorder};
+pub use observe::Recorder;
 pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;

@@ -233,15 +233,14 @@ struct Reader<'a> {
     next: usize,
 }
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     /// Reads the first line: the parameters, and the body if it stands on that line too.
     fn header(&mut self) -> Result<(Vec<Slot>, Option<Statement>), ParseError> {
         let empty = Line::new(1, 1, "");
         let line = self.lines.first().unwrap_or(&empty);
-        if self.lines.len() > self.limits.lines {
-            let message =
-                format!("found {} lines, expected at most {}", self.lines.len(), self.limits.lines);
-            return self.refuse(line, message);
+        let (found, limit) = (self.lines.len(), self.limits.lines);
+        if found > limit {
+            return self.refuse(line, format!("found {found} lines, expected at most {limit}"));
         }
         let tokens = self.tokens(line)?;
         self.next = 1;
@@ -253,78 +252,53 @@ impl<'a> Reader<'a> {
         }
         let body = parser::statement(body, 0).map_err(|wrong| self.error(line, wrong))?;
         self.check_depth(line, &body)?;
-        match body.step {
-            Step::Assign { .. }
-            | Step::Spread { .. }
-            | Step::Evaluate { .. }
-            | Step::Return { .. } => Ok((parameters, Some(body))),
-            Step::For { .. }
-            | Step::While { .. }
-            | Step::If { .. }
-            | Step::Otherwise { .. }
-            | Step::Try { .. }
-            | Step::Break
-            | Step::Continue => {
-                self.refuse(line, "found a block behind `:=`, expected it indented below")
-            }
+        if !body.step.blocks().is_empty() || matches!(body.step, Step::Break | Step::Continue) {
+            return self.refuse(line, "found a block behind `:=`, expected it indented below");
         }
+        Ok((parameters, Some(body)))
     }
 
     /// Reads the lines that stand `level` deep from here on, with all blocks within them.
     fn block(&mut self, level: usize) -> Result<Vec<Statement>, ParseError> {
         let mut block = vec![];
         while let Some(line) = self.lines.get(self.next).filter(|line| line.level >= level) {
-            self.check_level(line, level)?;
-            block.push(self.statement(line)?);
+            if line.level > level {
+                let (found, expected) = (2 * line.level, 2 * level);
+                let message = format!("found {found} spaces of indentation, expected {expected}");
+                return self.refuse(line, message);
+            }
+            if level > self.limits.depth {
+                let message = format!("found blocks more than {} deep", self.limits.depth);
+                return self.refuse(line, message);
+            }
+            let tokens = self.tokens(line)?;
+            let statement = parser::statement(&tokens, self.next);
+            let mut statement = statement.map_err(|complaint| self.error(line, complaint))?;
+            self.check_depth(line, &statement)?;
+            self.next += 1;
+            for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
+                // Between the two blocks of `try`.
+                if k > 0 {
+                    let other = self.lines.get(self.next);
+                    if !other.is_some_and(|other| other.level == level && other.text == ON_ERROR) {
+                        let last = &self.lines[self.next - 1];
+                        let message =
+                            format!("expected a line `{ON_ERROR}` below, beside its `try`");
+                        return Err(self.error(last, (last.text.len(), message)));
+                    }
+                    self.next += 1;
+                }
+                if body.is_empty() {
+                    *body = self.block(level + 1)?;
+                }
+            }
+            block.push(statement);
         }
         if block.is_empty() {
             let at = &self.lines[self.next - 1];
             return Err(self.error(at, (at.text.len(), "expected an indented line below".into())));
         }
         Ok(block)
-    }
-
-    fn check_level(&self, line: &Line, level: usize) -> Result<(), ParseError> {
-        if line.level > level {
-            let (found, expected) = (2 * line.level, 2 * level);
-            let message = format!("found {found} spaces of indentation, expected {expected}");
-            return self.refuse(line, message);
-        }
-        if level > self.limits.depth {
-            let message = format!("found blocks more than {} deep", self.limits.depth);
-            return self.refuse(line, message);
-        }
-        Ok(())
-    }
-
-    fn statement(&mut self, line: &'a Line) -> Result<Statement, ParseError> {
-        let tokens = self.tokens(line)?;
-        let mut statement = parser::statement(&tokens, self.next)
-            .map_err(|complaint| self.error(line, complaint))?;
-        self.check_depth(line, &statement)?;
-        self.next += 1;
-        for (k, body) in statement.step.blocks_mut().into_iter().enumerate() {
-            if k > 0 {
-                self.on_error(line)?;
-            }
-            if body.is_empty() {
-                *body = self.block(line.level + 1)?;
-            }
-        }
-        Ok(statement)
-    }
-
-    /// Passes over the line `on error` that belongs to the `try` of the line `above`.
-    fn on_error(&mut self, above: &Line) -> Result<(), ParseError> {
-        match self.lines.get(self.next) {
-            Some(line) if line.level == above.level && line.text == ON_ERROR => self.next += 1,
-            _ => {
-                let last = &self.lines[self.next - 1];
-                let message = format!("expected a line `{ON_ERROR}` below, beside its `try`");
-                return Err(self.error(last, (last.text.len(), message)));
-            }
-        }
-        Ok(())
     }
 
     fn tokens(&mut self, line: &Line) -> Result<Vec<Spanned>, ParseError> {

@@ -70,17 +70,12 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     }
     #[cfg(feature = "sparse")]
     if n > DENSE {
-        return sparse(a, b).map(|x| Array::column(x).into());
+        let matrix = super::SparseSquare::from_array(a);
+        let x = super::sparse::solved(&matrix, &numbers(b)).ok_or(Cause::Singular)?;
+        let x = x.into_iter().map(finite).collect::<Result<Vec<_>, _>>()?;
+        return Ok(Array::column(x).into());
     }
     substituted(&factor(a), &numbers(b)).map(|x| Array::column(x).into())
-}
-
-/// Solves the equations of a matrix by its entries that are not 0.
-#[cfg(feature = "sparse")]
-fn sparse(a: &Array, b: &Array) -> Result<Vec<f64>, Cause> {
-    let matrix = super::SparseSquare::from_array(a);
-    let x = super::sparse::solved(&matrix, &numbers(b)).ok_or(Cause::Singular)?;
-    x.into_iter().map(finite).collect()
 }
 
 /// Returns the inverse of a square matrix, the solution for each unit column.

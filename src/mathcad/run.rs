@@ -6,7 +6,7 @@ use std::error::Error;
 use super::failure::Fallible;
 use super::function::Function;
 use super::listing::Listing;
-use super::observe::Observer;
+use super::observe::Recorder;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
 use super::state::{Outcome, Run, Variable};
@@ -98,23 +98,17 @@ impl<'l> Runner<'l> {
     /// # Errors
     /// The listing fails: says in which line and why.
     pub fn call(&mut self, arguments: &[Value]) -> Fallible<Outcome> {
-        self.call_observed(arguments, &mut ())
+        self.call_recorded(arguments, None)
     }
 
-    /// Returns the steps that the last call took.
-    pub fn steps(&self) -> u64 {
-        self.spent.get()
-    }
-
-    /// Calls the listing's function under the eyes of an observer.
+    /// Calls the listing's function; each statement goes to the recorder, those before a failure too.
     ///
     /// # Errors
-    /// Returns the failure that stopped the program; the observer has then seen all that
-    /// came before.
-    pub fn call_observed<O: Observer>(
+    /// The listing fails: says in which line and why.
+    pub fn call_recorded(
         &mut self,
         arguments: &[Value],
-        observer: &mut O,
+        recorder: Option<&mut Recorder<'_>>,
     ) -> Fallible<Outcome> {
         let Runner { listing, sheet, settings, limits, values, functions, spent } = self;
         spent.set(0);
@@ -126,7 +120,7 @@ impl<'l> Runner<'l> {
             limits,
             cells: cells.collect(),
             functions,
-            observer: &mut *observer,
+            recorder,
             line: 0,
             spent,
             begun: None,
@@ -135,8 +129,11 @@ impl<'l> Runner<'l> {
             last: None,
             trace: vec![],
         };
-        let outcome = run.run(arguments);
-        observer.end(spent.get());
-        outcome
+        run.run(arguments)
+    }
+
+    /// Returns the steps that the last call took.
+    pub fn steps(&self) -> u64 {
+        self.spent.get()
     }
 }

@@ -10,7 +10,7 @@ use super::failure::{Cause, Failure, Fallible, Subscripts};
 use super::function::Function;
 use super::listing::Listing;
 use super::matrices;
-use super::observe::{Access, Observer, Place};
+use super::observe::{Named, Recorder};
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
 use super::syntax::{Reference, Slot, Span};
@@ -41,7 +41,7 @@ pub struct Outcome {
     pub trace_output: Vec<String>,
 }
 
-pub struct Run<'r, 'l, O> {
+pub struct Run<'r, 'l, 'f> {
     pub listing: &'r Listing,
     /// The worksheet in which the functions that are called stand, if it defines any.
     pub sheet: Option<&'r Sheet>,
@@ -49,7 +49,7 @@ pub struct Run<'r, 'l, O> {
     pub limits: &'r Limits,
     pub cells: Vec<Variable>,
     pub functions: &'r mut [Option<Function<'l>>],
-    pub observer: &'r mut O,
+    pub recorder: Option<&'r mut Recorder<'f>>,
     /// The current line, counted from 0 through the listing's lines.
     pub line: usize,
     /// The steps taken, those of the functions that were called too; `limits.steps` bounds them.
@@ -66,7 +66,7 @@ pub struct Run<'r, 'l, O> {
     pub trace: Vec<String>,
 }
 
-impl<'r, 'l, O> Run<'r, 'l, O> {
+impl<'r> Run<'r, '_, '_> {
     /// Counts `steps` against the limit.
     pub fn spend(&self, steps: u64) -> Fallible<()> {
         let spent = self.spent.get().saturating_add(steps);
@@ -106,20 +106,19 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         Err(self.fail_line(Cause::Limit { limit, of: "arrays within arrays" }))
     }
 
-    /// Returns where an expression of the current line stands.
-    pub fn place(&self, span: &Span) -> Place<'r> {
-        let line = &self.listing.lines[self.line];
-        Place { line, start: span.start, text: &line.text[span.clone()] }
+    /// Returns an expression of the current line as the listing writes it.
+    pub fn text(&self, span: &Span) -> &'r str {
+        &self.listing.lines[self.line].text[span.clone()]
     }
 
     /// Gives a failure its place, unless it has one from further inside.
     pub fn placed(&self, mut failure: Box<Failure>, span: &Span) -> Box<Failure> {
         if failure.line == 0 {
-            let Place { line, start, text } = self.place(span);
+            let line = &self.listing.lines[self.line];
             failure.listing = self.listing.name.clone();
             failure.line = line.printed;
-            failure.column = line.text[..start].chars().count() + 1;
-            failure.text = text.into();
+            failure.column = line.text[..span.start].chars().count() + 1;
+            failure.text = self.text(span).into();
             failure.statement = line.text.clone();
         }
         failure
@@ -153,9 +152,7 @@ impl<'r, 'l, O> Run<'r, 'l, O> {
         };
         Cause::Unsupported { construct }
     }
-}
 
-impl<'r, O: Observer> Run<'r, '_, O> {
     /// Returns the value of a name or, with `subscripts`, of its entry.
     pub fn read(
         &mut self,
@@ -175,9 +172,10 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             }
             (None, _) => return Err(self.undefined(reference.name, false).into()),
         };
-        if O::ACTIVE {
-            let subscripts = whole_subscripts(subscripts);
-            self.observer.read(self.access(reference.name, &subscripts, &value));
+        let line = &self.listing.lines[self.line];
+        if let Some(recorder) = &mut self.recorder {
+            let named = named(self.listing, reference.name, subscripts, &value);
+            recorder.on(line).reads.push(named);
         }
         Ok(value)
     }
@@ -187,9 +185,7 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         self.stored -= self.cells[slot].value.as_ref().map_or(0, Value::count);
         self.room(value.count())?;
         self.stored += value.count();
-        if O::ACTIVE {
-            self.observer.write(self.access(slot, &[], &value));
-        }
+        self.record_write(slot, None, &value);
         self.cells[slot] = Variable { value: Some(value), local: true };
         Ok(())
     }
@@ -210,29 +206,20 @@ impl<'r, O: Observer> Run<'r, '_, O> {
             }
             array.set(i, j, *x);
         } else {
-            self.write_nested(target, i, j, value.clone());
+            // Of numbers it becomes one of arrays.
+            if let Some(Value::Array(a)) = &cell.value {
+                let grid = Grid::from_fn(a.rows(), a.cols(), |i, j| Value::Number(*a.at(i, j)));
+                cell.value = Some(Value::Nested(Rc::new(Nested::new(grid))));
+            }
+            if let Some(Value::Nested(nested)) = &mut cell.value {
+                let nested = Rc::make_mut(nested);
+                self.stored -= nested.count() + nested.grid().missing(i, j);
+                nested.write(i, j, value.clone());
+                self.stored += nested.count();
+            }
         }
-        if O::ACTIVE {
-            let subscripts = whole_subscripts(Some(subscripts));
-            self.observer.write(self.access(target, &subscripts, &value));
-        }
+        self.record_write(target, Some(subscripts), &value);
         Ok(())
-    }
-
-    /// Writes to an entry that was prepared, of an array that is or becomes one of arrays.
-    fn write_nested(&mut self, slot: Slot, i: usize, j: usize, value: Value) {
-        let cell = &mut self.cells[slot].value;
-        if let Some(Value::Array(array)) = cell {
-            let grid =
-                Grid::from_fn(array.rows(), array.cols(), |i, j| Value::Number(*array.at(i, j)));
-            *cell = Some(Value::Nested(Rc::new(Nested::new(grid))));
-        }
-        if let Some(Value::Nested(nested)) = cell {
-            let nested = Rc::make_mut(nested);
-            self.stored -= nested.count() + nested.grid().missing(i, j);
-            nested.write(i, j, value);
-            self.stored += nested.count();
-        }
     }
 
     /// Checks that an entry can be written, of `count` numbers. A name that holds no array becomes
@@ -268,16 +255,16 @@ impl<'r, O: Observer> Run<'r, '_, O> {
         self.spend((copied + moved + more) as u64)
     }
 
-    fn access<'a>(&self, slot: Slot, subscripts: &'a [i64], value: &'a Value) -> Access<'a>
-    where
-        'r: 'a,
-    {
-        let Listing { lines, names, .. } = self.listing;
-        Access { line: &lines[self.line], name: names.name(slot), subscripts, value }
+    fn record_write(&mut self, slot: Slot, subscripts: Option<Subscripts>, value: &Value) {
+        if let Some(recorder) = &mut self.recorder {
+            let written = named(self.listing, slot, subscripts, value);
+            recorder.on(&self.listing.lines[self.line]).writes.push(written);
+        }
     }
 }
 
-fn whole_subscripts(subscripts: Option<Subscripts>) -> Vec<i64> {
-    let numbers = subscripts.into_iter().flat_map(|s| [Some(s.row), s.col]);
-    numbers.flatten().map(|x| x as i64).collect()
+fn named(listing: &Listing, slot: Slot, subscripts: Option<Subscripts>, value: &Value) -> Named {
+    let numbers = subscripts.into_iter().flat_map(|s| [Some(s.row), s.col]).flatten();
+    let subscripts = numbers.map(|x| x as i64).collect();
+    Named { name: listing.names.name(slot).into(), subscripts, value: value.clone() }
 }

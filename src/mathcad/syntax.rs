@@ -355,11 +355,6 @@ impl Operation {
 }
 
 impl Comparison {
-    /// Returns the sign by which the listing writes it.
-    pub fn sign(self) -> &'static str {
-        Operator::Compare(self).spelling().sign
-    }
-
     /// Returns whether the comparison is true of two values in that order.
     pub fn is_true_of(self, order: Ordering) -> bool {
         match self {

@@ -1,10 +1,11 @@
 //! Executing a worksheet region by region, beside the results that Mathcad saved.
 
 use std::cell::Cell;
+use std::cmp::Ordering::Equal;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use super::failure::{Cause, Fallible};
+use super::failure::Cause;
 use super::function::Function;
 use super::listing::Listing;
 use super::matrices;
@@ -88,16 +89,16 @@ pub fn execute_watched(
         inputs: BTreeMap::new(),
     };
     run.sheet.define(ORIGIN, f64::from(run.settings.origin));
-    for region in &worksheet.regions {
-        if let Content::Definition { global: true, .. } | Content::Names { global: true, .. } =
-            region.content
-        {
-            run.region(region);
-        }
+    let is_global = |region: &&Region| {
+        let content = &region.content;
+        matches!(content, Content::Definition { global: true, .. })
+            || matches!(content, Content::Names { global: true, .. })
+    };
+    for region in worksheet.regions.iter().filter(is_global) {
+        run.region(region);
     }
-    let regions = worksheet.regions.iter();
-    let regions: Vec<_> =
-        regions.filter(|region| !matches!(region.content, Content::Silent)).collect();
+    let is_silent = |region: &&Region| matches!(region.content, Content::Silent);
+    let regions: Vec<_> = worksheet.regions.iter().filter(|region| !is_silent(region)).collect();
     let mut checked = Vec::new();
     for region in &regions {
         watch(checked.len(), regions.len());
@@ -131,7 +132,7 @@ enum Outcome {
 impl Execution<'_> {
     fn region(&mut self, region: &Region) -> ExecutedRegion {
         let mut inputs = BTreeSet::new();
-        let (text, outcome) = match &region.content {
+        let (text, mut outcome) = match &region.content {
             Content::Silent => (String::new(), Outcome::Defined),
             Content::Unsupported { names, construct } => {
                 names.iter().for_each(|name| self.lose(name, construct));
@@ -159,7 +160,7 @@ impl Execution<'_> {
             Content::Names { names, cols, lines, .. } => {
                 let rows: Vec<_> = names.chunks(*cols).map(|row| row.join("   ")).collect();
                 let text = format!("({}) := {}", rows.join("; "), lines.join("; "));
-                let outcome = self.run(&indented(lines, 1), &mut inputs);
+                let outcome = self.run(&indented(lines), &mut inputs);
                 (text, self.define_all(names, *cols, outcome, &inputs))
             }
             Content::Evaluation(expression) => {
@@ -167,13 +168,12 @@ impl Execution<'_> {
                 (format!("{expression} ="), outcome)
             }
         };
-        let outcome = match (&region.content, &region.saved, outcome) {
-            // What Mathcad shows and saves is the entry.
-            (Content::Definition { entry: Some(target), .. }, Some(_), Outcome::Value(_)) => {
-                self.evaluation(target, &mut inputs)
-            }
-            (_, _, outcome) => outcome,
-        };
+        // What Mathcad shows and saves of an entry's definition is the entry.
+        if let Content::Definition { entry: Some(target), .. } = &region.content
+            && let (Some(_), Outcome::Value(_)) = (&region.saved, &outcome)
+        {
+            outcome = self.evaluation(target, &mut inputs);
+        }
         let mut verdict = verdict(&outcome, region.saved.as_ref());
         if let (Verdict::Differs { .. }, true) = (&verdict, self.eigen.get())
             && let (Outcome::Value(ours), Some(Saved::Value(saved))) = (&outcome, &region.saved)
@@ -186,18 +186,9 @@ impl Execution<'_> {
         if let (false, Some(Saved::Value(value))) = (verdict == Verdict::Same, &region.saved) {
             self.take_saved(region, value);
         }
-        let value = match outcome {
-            Outcome::Value(value) => Some(value),
-            Outcome::Defined | Outcome::Failed(_) | Outcome::Unsupported(_) => None,
-        };
-        ExecutedRegion {
-            id: region.id.clone(),
-            tag: region.tag.clone(),
-            text,
-            verdict,
-            inputs,
-            value,
-        }
+        let value = if let Outcome::Value(value) = outcome { Some(value) } else { None };
+        let (id, tag) = (region.id.clone(), region.tag.clone());
+        ExecutedRegion { id, tag, text, verdict, inputs, value }
     }
 
     /// Lets the saved value of a name go on as input, so that what follows is judged for itself.
@@ -230,10 +221,7 @@ impl Execution<'_> {
     ) -> Outcome {
         let value = match outcome {
             Outcome::Value(value) => value,
-            outcome => {
-                let lost = names.iter().fold(outcome, |o, name| self.lose_outcome(name, o));
-                return lost;
-            }
+            outcome => return names.iter().fold(outcome, |o, name| self.lose_outcome(name, o)),
         };
         match matrices::spread(&value, names.len() / cols, cols) {
             Ok(entries) => {
@@ -346,7 +334,7 @@ impl Execution<'_> {
             return Outcome::Unsupported(construct);
         }
         let outcome = match entry {
-            None => self.run(&indented(lines, 1), inputs),
+            None => self.run(&indented(lines), inputs),
             Some(target) => {
                 let value = lines.first().map(String::as_str).unwrap_or_default();
                 let line = format!("{target} ← {value}");
@@ -414,7 +402,7 @@ impl Execution<'_> {
         }
         let limits = Limits { steps: self.steps.get() / 2, ..self.limits.clone() };
         let mut runner = program.runner_in(&self.sheet, &self.settings, &limits);
-        let outcome: Fallible<_> = runner.call(&[]);
+        let outcome = runner.call(&[]);
         self.steps.set(self.steps.get().saturating_sub(runner.steps()));
         match outcome.map_err(|failure| failure.cause) {
             Ok(outcome) => Outcome::Value(outcome.value),
@@ -445,8 +433,8 @@ impl Execution<'_> {
     }
 }
 
-fn indented(lines: &[String], level: usize) -> Vec<String> {
-    lines.iter().map(|line| format!("{:1$}{line}", "", 2 * level)).collect()
+fn indented(lines: &[String]) -> Vec<String> {
+    lines.iter().map(|line| format!("  {line}")).collect()
 }
 
 fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
@@ -477,7 +465,21 @@ fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
             Verdict::Differs { saved: spelled(saved), ours: cause.to_string() }
         }
         (Outcome::Value(_), None) => Verdict::NothingSaved,
-        (Outcome::Value(ours), Some(Saved::Value(saved))) => compare(saved, ours),
+        (Outcome::Value(ours), Some(Saved::Value(saved))) => match digits(saved, ours) {
+            Some(u32::MAX) => Verdict::Same,
+            Some(digits) if digits >= LEAST_DIGITS => Verdict::Digits(digits),
+            _ => {
+                let [saved, ours] = match (saved.to_string(), ours.to_string()) {
+                    // Numbers look like arrays of one entry, and like strings.
+                    (a, b) if a == b => [saved, ours].map(|value| match value {
+                        Value::Number(_) => format!("{a}, a number"),
+                        other => format!("{a}, {}", other.kind()),
+                    }),
+                    (a, b) => [a, b],
+                };
+                Verdict::Differs { saved, ours }
+            }
+        },
         (Outcome::Value(ours), Some(saved @ Saved::Error(_))) => {
             Verdict::Differs { saved: spelled(saved), ours: ours.to_string() }
         }
@@ -489,26 +491,6 @@ fn spelled(saved: &Saved) -> String {
         Saved::Value(value) => value.to_string(),
         Saved::Error(words) => format!("«{words}»"),
         Saved::Unsupported(construct) => construct.clone(),
-    }
-}
-
-/// Compares a saved value with ours, number by number.
-fn compare(saved: &Value, ours: &Value) -> Verdict {
-    let digits = digits(saved, ours);
-    match digits {
-        Some(u32::MAX) => Verdict::Same,
-        Some(digits) if digits >= LEAST_DIGITS => Verdict::Digits(digits),
-        _ => {
-            let [saved, ours] = match (saved.to_string(), ours.to_string()) {
-                // Numbers look like arrays of one entry, and like strings.
-                (a, b) if a == b => [saved, ours].map(|value| match value {
-                    Value::Number(_) => format!("{a}, a number"),
-                    other => format!("{a}, {}", other.kind()),
-                }),
-                (a, b) => [a, b],
-            };
-            Verdict::Differs { saved, ours }
-        }
     }
 }
 
@@ -526,10 +508,7 @@ fn unordered(value: &Value) -> Value {
         1 => array.entries().map(|x| vec![*x]).collect(),
         _ => (0..cols).map(|j| signed((0..rows).map(|i| *array.at(i, j)).collect())).collect(),
     };
-    columns.sort_by(|a, b| {
-        let orders = a.iter().zip(b).map(|(x, y)| x.total_cmp(y));
-        orders.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
-    });
+    columns.sort_by(|a, b| a.iter().zip(b).fold(Equal, |order, (x, y)| order.then(x.total_cmp(y))));
     Array::from_rows(columns.first().map_or(1, Vec::len), columns.concat()).into()
 }
 

@@ -12,22 +12,21 @@ const BEYOND: f64 = 2.022_266_248_795_950_6e-21;
 const LARGEST: f64 = 9_007_199_254_740_992.0;
 
 pub fn sin(x: f64) -> f64 {
+    sine_after(0, x)
+}
+
+pub fn cos(x: f64) -> f64 {
+    sine_after(1, x)
+}
+
+/// Returns the sine of x and so many quarters of the circle.
+fn sine_after(quarters: i64, x: f64) -> f64 {
     let (quarter, r, rest) = reduced(x);
-    match quarter {
+    match (quarter + quarters) % 4 {
         0 => r.sin() + rest * r.cos(),
         1 => r.cos() - rest * r.sin(),
         2 => -(r.sin() + rest * r.cos()),
         _ => -(r.cos() - rest * r.sin()),
-    }
-}
-
-pub fn cos(x: f64) -> f64 {
-    let (quarter, r, rest) = reduced(x);
-    match quarter {
-        0 => r.cos() - rest * r.sin(),
-        1 => -(r.sin() + rest * r.cos()),
-        2 => -(r.cos() - rest * r.sin()),
-        _ => r.sin() + rest * r.cos(),
     }
 }
 

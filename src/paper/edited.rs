@@ -1,14 +1,14 @@
 //! Edited listings, executed in a run in place of the mirror.
 
 use super::door;
-use super::listings::{self, Which, settings, steps};
+use super::listings::{self, Traced, Which, settings};
 use super::mirror::{Pairs, Reading, Worksheet};
 use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
 use base::error::{InputError, Result};
 use mathcad::array::{Column, Table};
-use mathcad::{Listing, Observer, Settings};
+use mathcad::{Listing, Outcome, Settings};
 use numbers::scalar::Scalar;
 use problem::model::Model;
 use serde::Serialize;
@@ -37,14 +37,14 @@ impl Edited {
             let what = "the file begins with neither c_cnt nor Km";
             InputError::new(place, what, "keep the listing's first line")
         })?;
-        let read = which.edited(text);
+        let read = Listing::parse(which.name(), text);
         read.map_err(|error| InputError::new(place, error.to_string(), NOTATION))?;
         Ok(Edited { which, place: place.into(), text: text.into() })
     }
 
     /// Returns the listing that the text is.
     pub fn listing(&self) -> Listing {
-        self.which.edited(&self.text).expect("it was read before")
+        Listing::parse(self.which.name(), &self.text).expect("it was read before")
     }
 }
 
@@ -53,22 +53,12 @@ pub struct Interpreter {
     sheet: Worksheet<f64>,
     settings: Settings,
     listings: Vec<(Edited, Listing)>,
-    steps: Steps,
+    /// The steps that the executions of the run took.
+    steps: AtomicU64,
 }
 
 /// How often the limit of one execution all executions of a run may take: some 8 s on small meshes.
 const EXECUTIONS: u64 = 8;
-
-/// The steps that the executions of a run took.
-struct Steps(AtomicU64);
-
-impl Observer for &Steps {
-    const ACTIVE: bool = false;
-
-    fn end(&mut self, steps: u64) {
-        self.0.fetch_add(steps, Relaxed);
-    }
-}
 
 impl Interpreter {
     /// Returns the interpreter of `edited` on the tables of a model.
@@ -78,12 +68,8 @@ impl Interpreter {
             sheet: door::worksheet(model, |x| x),
             settings: settings(reading),
             listings,
-            steps: Steps(AtomicU64::new(0)),
+            steps: AtomicU64::new(0),
         }
-    }
-
-    fn listing(&self, which: Which) -> Option<&(Edited, Listing)> {
-        self.listings.iter().find(|(edited, _)| edited.which == which)
     }
 
     /// Executes the edited `c_cnt` on a shape; None where it is not edited.
@@ -91,11 +77,9 @@ impl Interpreter {
     /// # Errors
     /// The listing fails, or ends with what are no contact pairs.
     pub fn c_cnt<T: Scalar>(&self, node_n: &Table<T>) -> Option<Result<Pairs<T>>> {
-        let (edited, listing) = self.listing(Which::CCnt)?;
         let node_n = Table::from_fn(node_n.rows(), 4, |i, j| node_n[(i, j)].to_f64());
-        let done = listings::c_cnt(listing, &self.settings, &self.sheet, &node_n, &mut &self.steps);
-        let done = done.map_err(|why| wrong(edited, why.to_string()));
-        Some(self.within_limit(edited).and(done).and_then(|(pairs, _)| {
+        let executed = self.execute(Which::CCnt, &self.sheet, &node_n, listings::pairs)?;
+        Some(executed.and_then(|(edited, pairs)| {
             self.check(&pairs).map_err(|what| wrong(edited, what))?;
             Ok(pairs.map(T::from_f64))
         }))
@@ -121,49 +105,61 @@ impl Interpreter {
         sheet: &Worksheet<f64>,
         k_cnt: &Table<T>,
     ) -> Option<Result<Table<T>>> {
-        let (edited, listing) = self.listing(Which::Km)?;
         let k_cnt = Table::from_fn(k_cnt.rows(), 4, |i, j| k_cnt[(i, j)].to_f64());
-        let done = listings::km(listing, &self.settings, sheet, &k_cnt, &mut &self.steps);
-        let done = done.map_err(|why| wrong(edited, why.to_string()));
-        Some(self.within_limit(edited).and(done).and_then(|(matrix, _)| {
-            let n = 2 * sheet.R();
-            if (matrix.rows(), matrix.cols()) != (n, n) {
-                let (rows, cols) = (matrix.rows(), matrix.cols());
+        let executed = self.execute(Which::Km, sheet, &k_cnt, listings::matrix)?;
+        Some(executed.and_then(|(edited, matrix)| {
+            let (n, (rows, cols)) = (2 * sheet.R(), matrix.size());
+            if (rows, cols) != (n, n) {
                 return Err(wrong(edited, format!("MJS is {rows} x {cols}, not {n} x {n}")));
             }
             Ok(Table::from_fn(n, n, |i, j| T::from_f64(*matrix.at(i - 1, j - 1))))
         }))
     }
 
-    /// Checks that the executions of the run took no more steps than they may.
-    fn within_limit(&self, edited: &Edited) -> Result<()> {
-        let (steps, most) = (self.steps.0.load(Relaxed), EXECUTIONS * steps(&self.sheet));
-        if steps <= most {
-            return Ok(());
-        }
-        let what = format!("it takes more than {most} steps in all iterations");
-        Err(InputError::new(&edited.place, what, "ask for fewer iterations, or a shorter listing"))
+    /// Executes a listing, if it is edited, within the steps that all executions of the run may take.
+    fn execute<R>(
+        &self,
+        which: Which,
+        sheet: &Worksheet<f64>,
+        argument: &Table<f64>,
+        result: fn(&Listing, Outcome) -> Traced<R>,
+    ) -> Option<Result<(&Edited, R)>> {
+        let (edited, listing) = self.listings.iter().find(|(edited, _)| edited.which == which)?;
+        let (outcome, steps) =
+            listings::execute(listing, &self.settings, sheet, argument.into(), None);
+        let steps = steps + self.steps.fetch_add(steps, Relaxed);
+        let most = EXECUTIONS * listings::steps(&self.sheet);
+        Some(if steps > most {
+            let what = format!("it takes more than {most} steps in all iterations");
+            let fix = "ask for fewer iterations, or a shorter listing";
+            Err(InputError::new(&edited.place, what, fix))
+        } else {
+            match outcome.and_then(|outcome| result(listing, outcome)) {
+                Ok((result, _)) => Ok((edited, result)),
+                Err(failure) => Err(wrong(edited, failure.to_string())),
+            }
+        })
     }
 
     /// Checks that what an edited `c_cnt` leaves are contact pairs.
     fn check(&self, pairs: &Pairs<f64>) -> Result<(), String> {
         let Worksheet { cnt, trg, .. } = &self.sheet;
+        let Pairs { ct, yt, dy, k_cnt } = pairs;
         let (n, r) = (cnt.rows(), self.sheet.R());
-        for (name, rows) in
-            [("ct", pairs.ct.rows()), ("yt", pairs.yt.rows()), ("dy", pairs.dy.rows())]
-        {
+        let is_node = |mate: f64| mate.fract() == 0.0 && (1.0..=r as f64).contains(&mate);
+        for (name, rows) in [("ct", ct.rows()), ("yt", yt.rows()), ("dy", dy.rows())] {
             if rows != n {
                 return Err(format!(
                     "{name} has {rows} entries, not one for each of {n} contact nodes"
                 ));
             }
         }
-        if (pairs.k_cnt.rows(), pairs.k_cnt.cols()) != (r, 4) {
-            let (rows, cols) = (pairs.k_cnt.rows(), pairs.k_cnt.cols());
+        let (rows, cols) = (k_cnt.rows(), k_cnt.cols());
+        if (rows, cols) != (r, 4) {
             return Err(format!("k_cnt is {rows} x {cols}, not {r} x 4"));
         }
         for i1 in 1..=n {
-            let (ct, dy) = (pairs.ct[i1], pairs.dy[i1]);
+            let (ct, dy) = (ct[i1], dy[i1]);
             if ct != 0 && !trg.iter().any(|number| *number == ct) {
                 return Err(format!(
                     "ct[{i1}] = {ct} is neither 0 nor the number of a target edge"
@@ -175,16 +171,16 @@ impl Interpreter {
                 ));
             }
             for column in [1, 3].into_iter().filter(|_| dy == 1) {
-                let mate = pairs.k_cnt[(cnt[i1], column)];
-                if mate.fract() != 0.0 || !(1.0..=r as f64).contains(&mate) {
+                let mate = k_cnt[(cnt[i1], column)];
+                if !is_node(mate) {
                     return Err(format!("k_cnt[{},{column}] = {mate} is no node", cnt[i1]));
                 }
             }
         }
         // `Km` reads them of every node, where they are > 0.
         for (node, column) in (1..=r).flat_map(|node| [(node, 1), (node, 3)]) {
-            let mate = pairs.k_cnt[(node, column)];
-            if mate > 0.0 && (mate.fract() != 0.0 || mate > r as f64) {
+            let mate = k_cnt[(node, column)];
+            if mate > 0.0 && !is_node(mate) {
                 return Err(format!("k_cnt[{node},{column}] = {mate} is no node"));
             }
         }

@@ -5,10 +5,8 @@ use std::rc::Rc;
 use crate::mirror::{Change, Pairs, Reading, Worksheet};
 use base::choices;
 use mathcad::array::{Column, Table};
-use mathcad::value::Array;
-use mathcad::{
-    Cause, Edit, Failure, Limits, Listing, Observer, ParseError, Runner, Settings, Value,
-};
+use mathcad::failure::Fallible;
+use mathcad::{Array, Cause, Edit, Failure, Limits, Listing, Outcome, Recorder, Settings, Value};
 use problem::element::{self, Plane};
 
 choices! {
@@ -28,12 +26,8 @@ pub(crate) fn steps(sheet: &Worksheet<f64>) -> u64 {
     (1 << 26) + 32 * matrix
 }
 
-fn limits(sheet: &Worksheet<f64>) -> Limits {
-    Limits { steps: steps(sheet), entries: 1 << 27, ..Limits::default() }
-}
-
 /// The result of an execution: its values, and the lines that `trace` wrote.
-pub type Traced<T> = Result<(T, Vec<String>), Box<Failure>>;
+pub type Traced<T> = Fallible<(T, Vec<String>)>;
 
 impl Which {
     /// Returns the text of record.
@@ -59,14 +53,6 @@ impl Which {
             Change::Text(_) | Change::Settings(_) | Change::None => listing,
         })
     }
-
-    /// Parses another text in place of the listing.
-    ///
-    /// # Errors
-    /// The text leaves the notation.
-    pub fn edited(self, text: &str) -> Result<Listing, ParseError> {
-        Listing::parse(self.name(), text)
-    }
 }
 
 /// Returns a listing with an edit of its text, one of `listings/readings/` or `listings/repairs/`.
@@ -82,25 +68,70 @@ pub fn settings(reading: &Reading) -> Settings {
     settings
 }
 
-/// Executes `c_cnt` on the shape `node_n`.
+/// Executes `c_cnt` on the shape `node_n`; each statement goes to the recorder.
 ///
 /// # Errors
 /// The listing fails, or ends without contact pairs.
-pub fn c_cnt<O: Observer>(
+pub fn c_cnt(
     listing: &Listing,
     settings: &Settings,
     sheet: &Worksheet<f64>,
     node_n: &Table<f64>,
-    observer: &mut O,
+    recorder: Option<&mut Recorder<'_>>,
 ) -> Traced<Pairs<f64>> {
-    let mut runner = listing.runner(settings, &limits(sheet));
-    define(&mut runner, sheet);
-    let outcome = runner.call_observed(&[Value::from(node_n)], observer)?;
-    let column = |name: &'static str| -> Result<Column<f64>, Box<Failure>> {
+    let (outcome, _) = execute(listing, settings, sheet, node_n.into(), recorder);
+    pairs(listing, outcome?)
+}
+
+/// Executes `Km` on the contact pairs `k_cnt`; each statement goes to the recorder.
+///
+/// # Errors
+/// The listing fails, or its value is no array.
+pub fn km(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    k_cnt: &Table<f64>,
+    recorder: Option<&mut Recorder<'_>>,
+) -> Traced<Rc<Array>> {
+    let (outcome, _) = execute(listing, settings, sheet, k_cnt.into(), recorder);
+    matrix(listing, outcome?)
+}
+
+/// Executes a listing on its argument; returns the steps that it took too.
+pub(crate) fn execute(
+    listing: &Listing,
+    settings: &Settings,
+    sheet: &Worksheet<f64>,
+    argument: Value,
+    recorder: Option<&mut Recorder<'_>>,
+) -> (Fallible<Outcome>, u64) {
+    let limits = Limits { steps: steps(sheet), entries: 1 << 27, ..Limits::default() };
+    let mut runner = listing.runner(settings, &limits);
+    for (name, value) in tables(sheet) {
+        runner.define(name, value);
+    }
+    // ν, where a listing is typed in ASCII.
+    runner.define("nu", Value::from(&sheet.nu));
+    let plane = sheet.plane;
+    runner.define_function("D", move |arguments| match arguments {
+        [Value::Number(e), Value::Number(nu)] => {
+            let d = element::D(plane, *e, *nu);
+            Ok(Array::from_fn(3, 3, |i, j| d[(i, j)]).into())
+        }
+        _ => Err("D takes an elastic modulus and a Poisson's ratio".into()),
+    });
+    let outcome = runner.call_recorded(&[argument], recorder);
+    (outcome, runner.steps())
+}
+
+/// Returns the contact pairs that an execution of `c_cnt` ended with.
+pub(crate) fn pairs(listing: &Listing, outcome: Outcome) -> Traced<Pairs<f64>> {
+    let column = |name: &'static str| -> Fallible<Column<f64>> {
         let local = outcome.locals.get(name).and_then(|value| Column::try_from(value).ok());
         local.ok_or_else(|| unexpected(listing, "a column", name))
     };
-    let whole = |name: &'static str| -> Result<Column<usize>, Box<Failure>> {
+    let whole = |name: &'static str| -> Fallible<Column<usize>> {
         let column = column(name)?;
         if column.iter().any(|x| *x < 0.0 || x.fract() != 0.0) {
             return Err(unexpected(listing, "whole numbers", name));
@@ -117,20 +148,8 @@ pub fn c_cnt<O: Observer>(
     Ok((pairs, outcome.trace_output))
 }
 
-/// Executes `Km` on the contact pairs `k_cnt`.
-///
-/// # Errors
-/// The listing fails, or its value is no array.
-pub fn km<O: Observer>(
-    listing: &Listing,
-    settings: &Settings,
-    sheet: &Worksheet<f64>,
-    k_cnt: &Table<f64>,
-    observer: &mut O,
-) -> Traced<Rc<Array>> {
-    let mut runner = listing.runner(settings, &limits(sheet));
-    define(&mut runner, sheet);
-    let outcome = runner.call_observed(&[Value::from(k_cnt)], observer)?;
+/// Returns the matrix that an execution of `Km` ended with.
+pub(crate) fn matrix(listing: &Listing, outcome: Outcome) -> Traced<Rc<Array>> {
     let Value::Array(matrix) = outcome.value else {
         return Err(unexpected(listing, "an array", "value of the program"));
     };
@@ -187,21 +206,4 @@ pub fn elasticity(plane: Plane) -> &'static str {
         Plane::Strain => STRAIN,
         Plane::Stress => STRESS,
     }
-}
-
-/// Defines the names that are above the listings on the worksheet.
-fn define(runner: &mut Runner, sheet: &Worksheet<f64>) {
-    for (name, value) in tables(sheet) {
-        runner.define(name, value);
-    }
-    // ν, where a listing is typed in ASCII.
-    runner.define("nu", Value::from(&sheet.nu));
-    let plane = sheet.plane;
-    runner.define_function("D", move |arguments| match arguments {
-        [Value::Number(e), Value::Number(nu)] => {
-            let d = element::D(plane, *e, *nu);
-            Ok(Array::from_fn(3, 3, |i, j| d[(i, j)]).into())
-        }
-        _ => Err("D takes an elastic modulus and a Poisson's ratio".into()),
-    });
 }

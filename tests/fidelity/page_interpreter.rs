@@ -74,17 +74,19 @@ impl Case {
                     settings,
                     &Limits { steps: 1 << 22, entries: 1 << 20, ..Limits::default() },
                 )
-                .call_observed(arguments, &mut recorder)
+                .call_recorded(arguments, Some(&mut recorder))
                 .map(|outcome| (outcome.value, outcome.trace_output)),
             Around::Scene(sheet) => {
                 let argument = (&arguments[0]).try_into().expect("a table");
                 match listing.name().parse().expect("one of the two") {
                     Which::CCnt => {
-                        listings::c_cnt(listing, settings, sheet, &argument, &mut recorder)
+                        listings::c_cnt(listing, settings, sheet, &argument, Some(&mut recorder))
                             .map(|(pairs, output)| (Value::from(&pairs.k_cnt), output))
                     }
-                    Which::Km => listings::km(listing, settings, sheet, &argument, &mut recorder)
-                        .map(|(matrix, output)| (Value::Array(matrix), output)),
+                    Which::Km => {
+                        listings::km(listing, settings, sheet, &argument, Some(&mut recorder))
+                            .map(|(matrix, output)| (Value::Array(matrix), output))
+                    }
                 }
             }
         }

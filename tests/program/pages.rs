@@ -103,11 +103,12 @@ fn traces(folder: &Path) -> [String; 2] {
         match which {
             Which::CCnt => {
                 let of = (&call.sheet, &call.sheet.node);
-                listings::c_cnt(&listing, &settings, of.0, of.1, &mut recorder).expect("it runs");
+                listings::c_cnt(&listing, &settings, of.0, of.1, Some(&mut recorder))
+                    .expect("it runs");
             }
             Which::Km => {
                 let of = (&call.sheet, &call.pairs.k_cnt);
-                let done = listings::km(&listing, &settings, of.0, of.1, &mut recorder);
+                let done = listings::km(&listing, &settings, of.0, of.1, Some(&mut recorder));
                 let (matrix, _) = done.expect("it runs");
                 let places =
                     (1..=matrix.rows()).flat_map(|i| (1..=matrix.cols()).map(move |j| (i, j)));

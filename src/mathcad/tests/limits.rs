@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::spelled::spelled;
 use super::{failure, one_of, program};
 use fastrand::Rng;
 use mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
@@ -316,79 +315,18 @@ fn endless_output() {
     assert_eq!(under(&limits, "for i ∈ 1 .. 99999999\n  a[i] ← i"), held);
 }
 
-/// Words of the notation, some of them in listings that make sense.
-const WORDS: [&str; 66] = [
-    "x",
-    "v",
-    "m",
-    "a",
-    "i",
-    "1",
-    "2",
-    "0",
-    "0.5",
-    "9999999",
-    " ",
-    " ",
-    "   ",
-    "(",
-    ")",
-    "[",
-    "]",
-    ",",
-    "|",
-    "ᵀ",
-    " + ",
-    " − ",
-    "−",
-    "·",
-    " / ",
-    " < ",
-    " = ",
-    " ∧ ",
-    " ← ",
-    " if ",
-    "for i ∈ ",
-    "if ",
-    " .. ",
-    "\n",
-    "\n  ",
-    "\n    ",
-    "rows(",
-    "identity(",
-    "trace(",
-    "v[i]",
-    "w",
-    ";",
-    "^",
-    "⟨",
-    "⟩",
-    " ∨ ",
-    "¬",
-    "\"s\"",
-    "√(",
-    "∑(",
-    "∑(i ∈ 1 .. 3, ",
-    "while ",
-    "return ",
-    "break",
-    "continue",
-    "otherwise",
-    "try",
-    "on error",
-    "lsolve(",
-    "stack(",
-    "submatrix(",
-    "|m|",
-    "v⟨1⟩",
-    "w[i] ← v",
-    "w[1] ← w",
-    "1e300",
+/// Words of the notation with `~` between them, some of them in listings that make sense.
+const WORDS: [&str; 4] = [
+    "x~v~m~a~i~1~2~0~0.5~9999999~ ~ ~   ~(~)~[~]~,~|~ᵀ~ + ~ − ~−~·~ / ~ < ~ = ~ ∧ ~ ← ",
+    " if ~for i ∈ ~if ~ .. ~\n~\n  ~\n    ~rows(~identity(~trace(~v[i]~w~;~^~⟨~⟩~ ∨ ~¬",
+    "\"s\"~√(~∑(~∑(i ∈ 1 .. 3, ~while ~return ~break~continue~otherwise~try~on error",
+    "lsolve(~stack(~submatrix(~|m|~v⟨1⟩~w[i] ← v~w[1] ← w~1e300",
 ];
 
 /// Some words, as the body of a program.
-pub fn words(rng: &mut Rng) -> String {
-    (0..rng.usize(..40)).map(|_| one_of(rng, &WORDS)).collect()
+fn words(rng: &mut Rng) -> String {
+    let all: Vec<&str> = WORDS.iter().flat_map(|line| line.split('~')).collect();
+    (0..rng.usize(..40)).map(|_| one_of(rng, &all)).collect()
 }
 
 #[test]
@@ -400,8 +338,6 @@ fn any_text_ends() {
             let mut worksheet = listing.runner(&Settings::default(), &limits);
             worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
             let _ = worksheet.call(&[Value::Number(5.0)]);
-            let again = Listing::parse("f", &spelled(&listing));
-            assert_eq!(again.map(|again| spelled(&again)), Ok(spelled(&listing)));
         }
     }
 }

@@ -5,11 +5,10 @@ extern crate plane_contact_mathcad as mathcad;
 mod evidence;
 mod limits;
 mod notation;
-mod observers;
 mod recorded;
+mod recorder;
 mod regions;
 mod semantics;
-mod spelled;
 mod values;
 mod xmcd;
 

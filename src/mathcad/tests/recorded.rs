@@ -38,25 +38,8 @@ fn any(rng: &mut Rng, depth: usize, usual: fn(&mut Rng, usize) -> String) -> Str
 
 fn number(rng: &mut Rng, depth: usize) -> String {
     let Some(depth) = depth.checked_sub(1) else {
-        let atoms = [
-            "0",
-            "1",
-            "2",
-            "3",
-            "0.5",
-            "1.75",
-            "10",
-            "1E-3",
-            "x",
-            "n",
-            "a",
-            "(−2)",
-            "v[2]",
-            "v[n − 1]",
-            "m[1,2]",
-            "m[n − 2,1]",
-            "s",
-        ];
+        let atoms = "0~1~2~3~0.5~1.75~10~1E-3~x~n~a~(−2)~v[2]~v[n − 1]~m[1,2]~m[n − 2,1]~s";
+        let atoms: Vec<&str> = atoms.split('~').collect();
         return one_of(rng, &atoms).into();
     };
     let mut of = |kind: fn(&mut Rng, usize) -> String| any(rng, depth, kind);

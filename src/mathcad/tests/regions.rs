@@ -522,3 +522,93 @@ fn loops_run_over_range_variables() {
         checked.iter().filter_map(|c| Some(c.value.as_ref()?.to_string())).collect();
     assert_eq!(values, ["10", "15", "10", "5", "10", "6"], "f has the X above it");
 }
+
+/// Where a construct is unsupported, its saved value goes on as input, and is marked.
+#[test]
+fn saved_values_go_on_as_input() {
+    let integral = apply("integral", &[&id("t")]);
+    let twice = apply("mult", &[&real(2.0), &id("y")]);
+    let first = apply("indexer", &[&id("z"), &real(0.0)]);
+    let checked = executed(&[
+        define(&id("y"), &integral),
+        eval(&twice, Some(8.0)),
+        eval(&id("y"), Some(4.0)),
+        eval(&twice, Some(8.0)),
+        define(&id("z"), &integral),
+        define(&first, &real(0.0)),
+        eval(&id("z"), Some(5.0)),
+    ]);
+    let [one, y, z] = ["an integral", "an integral (it rests on y)", "an integral (it rests on z)"]
+        .map(unsupported);
+    assert_eq!(verdicts(&checked[..4]), [one.clone(), y.clone(), y, Verdict::Same]);
+    assert_eq!(
+        verdicts(&checked[4..]),
+        [one, z.clone(), z],
+        "one entry does not make others known"
+    );
+    assert_eq!(checked[3].inputs.iter().collect::<Vec<_>>(), ["2"]);
+}
+
+/// A definition that came to another value than Mathcad's is judged once: what follows goes on from
+/// the saved one.
+#[test]
+fn definitions_that_differ_go_on_with_what_is_saved() {
+    let three = define(&id("y"), &eval(&real(3.0), Some(4.0)));
+    let checked = executed(&[three, eval(&id("y"), Some(4.0))]);
+    let differs = Verdict::Differs { saved: "4".into(), ours: "3".into() };
+    assert_eq!(verdicts(&checked), [differs, Verdict::Same]);
+    assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["0"]);
+}
+
+/// `ORIGIN := 0` counts from there on; a definition of an entry shows that entry.
+#[test]
+fn origin_is_set_by_a_region_and_entries_show_themselves() {
+    let entry = |i: f64| apply("indexer", &[&id("v"), &real(i)]);
+    let regions = [
+        define(&entry(2.0), &real(7.0)),
+        eval(&entry(2.0), Some(7.0)),
+        // Another name.
+        define("<id subscript=\"\">v</id>", &real(3.0)),
+        define(&id("ORIGIN"), &real(0.0)),
+        eval(&entry(1.0), Some(7.0)),
+        define(&entry(0.0), &eval(&real(5.0), Some(5.0))),
+        define(&id("ORIGIN"), &real(0.5)),
+    ];
+    let regions = regions.map(|inside| format!("<region><math>{inside}</math></region>")).concat();
+    let text = format!(
+        "<worksheet><settings><calculation><builtInVariables array-origin=\"1\"/></calculation>\
+         </settings><regions>{regions}</regions></worksheet>"
+    );
+    let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
+    let (none, same) = (Verdict::NothingSaved, Verdict::Same);
+    let half = unsupported("an ORIGIN that is no whole number");
+    let defined = [none.clone(), same.clone(), none.clone(), none, same.clone(), same, half];
+    assert_eq!(verdicts(&checked), defined);
+}
+
+/// What has no operator, or an operator that is none, is unsupported; it was once a recursion without
+/// end.
+#[test]
+fn an_empty_operator_is_named() {
+    let empty = format!("<apply><apply/>{}</apply>", real(1.0));
+    let checked = executed(&[eval("<apply/>", None), eval(&empty, None)]);
+    let words = ["an incomplete `apply`", "an empty place"];
+    assert_eq!(verdicts(&checked), words.map(unsupported));
+}
+
+/// A solve block begins with the word Given; an equation within it defines nothing.
+#[test]
+fn a_solve_block_is_named() {
+    let equation = apply("equal", &[&id("x"), &real(1.0)]);
+    let checked = executed(&[id("Given"), equation, id("Gives")]);
+    assert_eq!(verdicts(&checked), [unsupported("a solve block")]);
+    assert_eq!(checked[0].id, "0", "the region of the word");
+}
+
+/// An array of one entry is no number, though both look the same.
+#[test]
+fn values_that_look_the_same_are_told_apart() {
+    let checked = executed(&[eval(&numbers(1, 1, &[49.0]), Some(49.0))]);
+    let [saved, ours] = ["49, a number", "49, a 1 x 1 array"].map(String::from);
+    assert_eq!(checked[0].verdict, Verdict::Differs { saved, ours });
+}

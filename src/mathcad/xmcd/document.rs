@@ -6,7 +6,7 @@ use super::parentheses::Operand;
 use super::read::{self, Math};
 use super::{Unsupported, scan};
 use crate::settings::Settings;
-use crate::value::{Grid, Value};
+use crate::value::{Array, Grid, Value};
 use base::error::{InputError, Result};
 use base::files::{is_json, kind_of};
 
@@ -170,19 +170,7 @@ fn not_xml(text: &str, why: &roxmltree::Error) -> String {
         Error::NodesLimitReached
         | Error::AttributesLimitReached
         | Error::NamespacesLimitReached => return "the file has too many elements".into(),
-        Error::InvalidXmlPrefixUri(_)
-        | Error::UnexpectedXmlUri(_)
-        | Error::UnexpectedXmlnsUri(_)
-        | Error::InvalidElementNamePrefix(_)
-        | Error::UnexpectedEntityCloseTag(_)
-        | Error::EntityReferenceLoop(_)
-        | Error::InvalidName(_)
-        | Error::InvalidChar(..)
-        | Error::InvalidChar2(..)
-        | Error::InvalidString(..)
-        | Error::InvalidExternalID(_)
-        | Error::EntityResolver(..)
-        | Error::UnknownToken(_) => "what stands there does not follow the rules of XML".into(),
+        _ => "what stands there does not follow the rules of XML".into(),
     };
     let place = why.pos();
     format!("the file is no XML: line {}, column {}: {what}", place.row, place.col)
@@ -197,95 +185,82 @@ fn settings(root: Node<'_, '_>) -> Settings {
         let node = root.descendants().find(|node| node.tag_name().name() == name)?;
         node.attribute(attribute)
     };
-    let plain = Settings::default();
     let origin = find("builtInVariables", "array-origin").and_then(|origin| origin.parse().ok());
     Settings {
         origin: origin.unwrap_or(0),
         zero_over_zero_is_zero: find("calculationBehavior", "zero-over-zero") == Some("0"),
         exact_boolean: find("calculationBehavior", "exact-boolean") != Some("false"),
-        ..plain
+        ..Settings::default()
     }
 }
 
 /// Collects the regions below a node, those of areas in the area's place, from top to bottom and
 /// from left to right.
 fn collect(list: Node<'_, '_>, found: &mut Vec<Region>) {
-    let regions = list.children().filter(|node| node.tag_name().name() == "region");
-    let mut placed: Vec<_> = regions.map(|node| (page_position(node), node)).collect();
-    placed.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    for (_, node) in placed {
+    let is_region = |node: &Node<'_, '_>| node.tag_name().name() == "region";
+    let mut placed: Vec<_> = list.children().filter(is_region).collect();
+    placed.sort_by(|a, b| {
+        let number = |node: &Node<'_, '_>, name: &str| node.attribute(name)?.parse::<f64>().ok();
+        let top = |node| number(node, "align-y").or(number(node, "top")).unwrap_or(0.0);
+        let left = |node| number(node, "left").unwrap_or(0.0);
+        top(a).total_cmp(&top(b)).then(left(a).total_cmp(&left(b)))
+    });
+    for node in placed {
         match child(node, "area") {
             Some(area) if area.ancestors().count() < 64 => collect(area, found),
             _ => {
                 found.push(region(node));
                 // Text has regions of its own within its lines.
                 let text = child(node, "text").into_iter().flat_map(|text| text.descendants());
-                let within = text.filter(|node| node.tag_name().name() == "region");
-                found.extend(within.map(region));
+                found.extend(text.filter(is_region).map(region));
             }
         }
     }
-}
-
-fn page_position(node: Node<'_, '_>) -> (f64, f64) {
-    let number = |name| node.attribute(name).and_then(|x| x.parse::<f64>().ok());
-    (number("align-y").or(number("top")).unwrap_or(0.0), number("left").unwrap_or(0.0))
 }
 
 fn region(node: Node<'_, '_>) -> Region {
     let attribute = |name| node.attribute(name).unwrap_or_default().to_string();
     let (id, tag) = (attribute("region-id"), attribute("tag"));
     let Some(math) = child(node, "math") else {
-        let construct = ["plot", "component", "picture", "ole"];
-        let other = construct.into_iter().find_map(|name| child(node, name));
-        let content = match other.map(|other| (other.tag_name().name(), other)) {
+        let others = ["plot", "component", "picture", "ole"];
+        let content = match others.iter().find_map(|name| Some((name, child(node, name)?))) {
             Some((name, other)) => {
-                let outputs = child(other, "outputs").map(Math::new);
-                let words = match name {
-                    "ole" => "an embedded object".into(),
-                    name => format!("a {name}"),
-                };
-                unsupported(outputs.map(|all| targets(all.parts())).unwrap_or_default(), &words)
+                let outputs = child(other, "outputs").map(|all| targets(Math::new(all).parts()));
+                let construct =
+                    if *name == "ole" { "an embedded object".into() } else { format!("a {name}") };
+                Content::Unsupported { names: outputs.unwrap_or_default(), construct }
             }
             None => Content::Silent,
         };
         return Region { id, tag, content, saved: None };
     };
-    let inside = math.children().find(Node::is_element).map(Math::new).map(shown_definition);
-    let content = match inside {
-        Some(_) if math.attribute("disable-calc") == Some("true") => Content::Silent,
-        Some(inside) => match read::check_depth(math) {
-            Ok(()) => content(inside),
-            Err(Unsupported(construct)) => unsupported(names(inside), &construct),
-        },
-        None => Content::Silent,
+    let content = match math.children().find(Node::is_element).map(Math::new) {
+        Some(shown) if math.attribute("disable-calc") != Some("true") => {
+            // A definition whose result is shown, as `x := 3 =`, is the definition.
+            let inside = shown.part(0).ok().filter(|part| shown.tag() == "eval" && part.defines());
+            let inside = inside.unwrap_or(shown);
+            let content = read::check_depth(math).and_then(|()| content(inside));
+            content.unwrap_or_else(|Unsupported(construct)| {
+                let names = targets(inside.parts().take(usize::from(inside.defines())));
+                Content::Unsupported { names, construct }
+            })
+        }
+        Some(_) | None => Content::Silent,
     };
-    let error = math.descendants().find_map(|node| node.attribute("error"));
-    let result = math.descendants().find(|node| node.tag_name().name() == "result");
-    let shown_in = math.descendants().find(|node| node.tag_name().name() == "unitOverride");
-    let saved = match (error, result, shown_in) {
-        (Some(error), ..) => Some(Saved::Error(error.into())),
-        (None, Some(_), Some(unit)) => Some(Saved::Unsupported(read::shown_in(Math::new(unit)))),
-        (None, Some(result), None) => result.children().find(Node::is_element).map(saved),
-        (None, None, _) => None,
+    let find = |name: &str| math.descendants().find(|node| node.tag_name().name() == name);
+    let saved = if let Some(error) = math.descendants().find_map(|node| node.attribute("error")) {
+        Some(Saved::Error(error.into()))
+    } else if let (Some(_), Some(unit)) = (find("result"), find("unitOverride")) {
+        Some(Saved::Unsupported(read::shown_in(Math::new(unit))))
+    } else {
+        find("result").and_then(|result| result.children().find(Node::is_element)).map(|saved| {
+            match read::check_depth(saved).and_then(|()| saved_value(Math::new(saved))) {
+                Ok(value) => Saved::Value(value),
+                Err(Unsupported(construct)) => Saved::Unsupported(construct),
+            }
+        })
     };
     Region { id, tag, content, saved }
-}
-
-/// Returns the definition that a region shows the result of, as `x := 3 =`; else the region.
-fn shown_definition<'a, 'i>(node: Math<'a, 'i>) -> Math<'a, 'i> {
-    let first = node.part(0).ok().filter(|_| node.tag() == "eval");
-    first.filter(|part| matches!(part.tag(), "define" | "globalDefine")).unwrap_or(node)
-}
-
-fn unsupported(names: Vec<String>, construct: &str) -> Content {
-    Content::Unsupported { names, construct: construct.into() }
-}
-
-/// The names that a region defines, whatever it says of them.
-fn names(node: Math<'_, '_>) -> Vec<String> {
-    let defines = matches!(node.tag(), "define" | "globalDefine");
-    targets(node.parts().take(usize::from(defines)))
 }
 
 /// The names that left sides define, in their order, whatever else stands in them.
@@ -306,23 +281,15 @@ fn targets<'a, 'i: 'a>(left: impl Iterator<Item = Math<'a, 'i>>) -> Vec<String> 
     names
 }
 
-fn content(node: Math<'_, '_>) -> Content {
-    let content = match node.tag() {
-        "define" | "globalDefine" => definition(node),
-        "eval" => node.part(0).and_then(evaluation),
-        "id" if node.text() == "Given" => Err(Unsupported("a solve block".into())),
-        "symEval" => Err(read::unsupported(node)),
+fn content(node: Math<'_, '_>) -> Result<Content, Unsupported> {
+    match node.tag() {
+        "eval" => return node.part(0).and_then(read::expression).map(Content::Evaluation),
+        "id" if node.text() == "Given" => return Err(Unsupported("a solve block".into())),
+        "symEval" => return Err(read::unsupported(node)),
+        _ if node.defines() => {}
         // An equation that nothing evaluates, such as a condition of a solve block.
-        _ => Ok(Content::Silent),
-    };
-    content.unwrap_or_else(|Unsupported(construct)| unsupported(names(node), &construct))
-}
-
-fn evaluation(node: Math<'_, '_>) -> Result<Content, Unsupported> {
-    read::expression(node).map(Content::Evaluation)
-}
-
-fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
+        _ => return Ok(Content::Silent),
+    }
     let (mut left, mut right) = (node.part(0)?, node.part(1)?);
     while let Some(inside) = left.inside() {
         left = inside;
@@ -331,92 +298,62 @@ fn definition(node: Math<'_, '_>) -> Result<Content, Unsupported> {
     if right.tag() == "eval" {
         right = right.part(0)?;
     }
-    let lines = |level| read::lines(right, level);
     match left.tag() {
         "function" => {
             let name = read::name(left.part(0)?)?;
             let parameters = left.part(1)?.parts().map(read::name);
             let parameters = parameters.collect::<Result<Vec<_>, _>>()?.join(", ");
-            let text = format!("{name}({parameters}) :=\n{}\n", lines(1)?.join("\n"));
-            Ok(Content::Function { name, text })
+            let lines = read::lines(right, 1)?.join("\n");
+            Ok(Content::Function { text: format!("{name}({parameters}) :=\n{lines}\n"), name })
         }
         "id" => {
             let name = read::name(left)?;
             if right.tag() == "range" {
                 return Ok(Content::Range { name, range: read::range(right)? });
             }
-            if let Some(value) = table(right).filter(|_| !global) {
-                return Ok(Content::Table { name, value });
+            match saved_value(right) {
+                // An array of numbers that are spelled out.
+                Ok(value @ Value::Array(_)) if !global => Ok(Content::Table { name, value }),
+                _ => {
+                    let lines = read::lines(right, 0)?;
+                    Ok(Content::Definition { name, entry: None, lines, global })
+                }
             }
-            Ok(Content::Definition { name, entry: None, lines: lines(0)?, global })
         }
         "apply" if left.part(0)?.tag() == "id" => {
             let function = left.part(0)?.text();
-            Err(Unsupported(
-                match function.starts_with("WRITE") || function.starts_with("APPEND") {
-                    true => format!("a file that is written ({function})"),
-                    false => format!("a definition of a call ({function})"),
-                },
-            ))
+            let writes = function.starts_with("WRITE") || function.starts_with("APPEND");
+            let what = if writes { "a file that is written" } else { "a definition of a call" };
+            Err(Unsupported(format!("{what} ({function})")))
+        }
+        "apply" if right.tag() == "program" => {
+            Err(Unsupported("a program that defines entries of an array".into()))
         }
         "apply" => {
-            if right.tag() == "program" {
-                return Err(Unsupported("a program that defines entries of an array".into()));
-            }
-            let name = read::name(left.part(1)?)?;
-            let entry = Some(read::target(left)?);
-            Ok(Content::Definition { name, entry, lines: lines(0)?, global })
+            let (name, entry) = (read::name(left.part(1)?)?, Some(read::target(left)?));
+            Ok(Content::Definition { name, entry, lines: read::lines(right, 0)?, global })
         }
         "matrix" if left.parts().all(|part| part.tag() == "id") => {
-            let size = |name| left.attribute(name).and_then(|n| n.parse::<usize>().ok());
-            let names = left.parts().map(read::name).collect::<Result<Vec<_>, _>>()?;
-            match (size("rows"), size("cols")) {
-                (Some(rows), Some(cols))
-                    if rows > 0 && rows.checked_mul(cols) == Some(names.len()) =>
-                {
-                    let places = (0..rows).flat_map(|i| (0..cols).map(move |j| j * rows + i));
-                    let names = places.map(|k| names[k].clone()).collect();
-                    Ok(Content::Names { names, cols, lines: lines(0)?, global })
-                }
-                _ => Err(Unsupported("a matrix that is not full".into())),
-            }
+            let (names, cols) = read::entries(left)?;
+            let names = names.into_iter().map(read::name).collect::<Result<Vec<_>, _>>()?;
+            Ok(Content::Names { names, cols, lines: read::lines(right, 0)?, global })
         }
         "matrix" => Err(Unsupported("a definition of several entries at once".into())),
         _ => Err(read::unsupported(left)),
     }
 }
 
-/// Reads an array of numbers that are spelled out.
-fn table(node: Math<'_, '_>) -> Option<Value> {
-    saved_value(node).ok().filter(|value| matches!(value, Value::Array(_)))
-}
-
-fn saved(node: Node<'_, '_>) -> Saved {
-    let depth = read::check_depth(node);
-    match depth.and_then(|()| saved_value(Math::new(node))) {
-        Ok(value) => Saved::Value(value),
-        Err(Unsupported(construct)) => Saved::Unsupported(construct),
-    }
-}
-
 fn saved_value(node: Math<'_, '_>) -> Result<Value, Unsupported> {
     match node.tag() {
-        "real" => {
-            let x = node.text().parse().ok().filter(|x: &f64| x.is_finite());
-            x.map(Value::Number).ok_or_else(|| Unsupported(format!("the number {:?}", node.text())))
-        }
+        "real" => read::real(node.text()).map(Value::Number),
         "str" => Ok(Value::Text(node.text().into())),
+        "matrix" if ["rows", "cols"].iter().any(|size| node.attribute(size) == Some("0")) => {
+            Ok(Array::default().into())
+        }
         "matrix" => {
-            let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
-            let entries =
-                node.parts().map(saved_value).collect::<Result<Vec<Value>, Unsupported>>()?;
-            match (size("rows"), size("cols")) {
-                (Some(rows), Some(cols)) if rows.checked_mul(cols) == Some(entries.len()) => {
-                    let grid = Grid::from_fn(rows, cols, |i, j| entries[j * rows + i].clone());
-                    Ok(Value::grid(grid))
-                }
-                _ => Err(Unsupported("a matrix that is not full".into())),
-            }
+            let (entries, cols) = read::entries(node)?;
+            let entries = entries.into_iter().map(saved_value).collect::<Result<Vec<_>, _>>()?;
+            Ok(Value::grid(Grid::from_rows(cols, entries)))
         }
         _ => Err(read::unsupported(node)),
     }

@@ -59,22 +59,19 @@ impl<'a, 'i> Math<'a, 'i> {
         self.0.attribute(name)
     }
 
-    /// Returns the operator of an `apply`, if it is one of [`OPERATORS`].
-    fn spelling(self) -> Option<&'static Spelling> {
-        OPERATORS.iter().find(|row| tag(row.element) == self.operator())
-    }
-
-    /// Returns whether this is a column of a name.
-    fn is_column(self) -> bool {
-        self.operator() == "matcol" && self.parts().nth(1).is_some_and(|x| x.tag() == "id")
+    /// Returns whether it defines something, as `x := 3` does.
+    pub fn defines(self) -> bool {
+        matches!(self.tag(), "define" | "globalDefine")
     }
 
     /// Returns the element of the operator of an `apply`.
     fn operator(self) -> &'a str {
-        match self.tag() {
-            "apply" => self.parts().next().map_or("", Math::tag),
-            _ => "",
-        }
+        if self.tag() == "apply" { self.parts().next().map_or("", Math::tag) } else { "" }
+    }
+
+    /// Returns its operator, if it is one of [`OPERATORS`].
+    fn spelling(self) -> Option<&'static Spelling> {
+        OPERATORS.iter().find(|row| tag(row.element) == self.operator())
     }
 }
 
@@ -83,16 +80,13 @@ impl<'a, 'i> Math<'a, 'i> {
 /// # Errors
 /// The elements are nested too deeply.
 pub fn check_depth(node: Node<'_, '_>) -> Read<()> {
-    let mut deepest = 0;
-    for descendant in node.descendants() {
-        // Counted by steps upwards, not by recursion, and no further than the limit.
-        let above = descendant.ancestors().take(DEPTH + 1);
-        deepest = deepest.max(above.take_while(|above| *above != node).count());
-    }
-    if deepest < DEPTH {
-        Ok(())
-    } else {
-        Err(Unsupported("an expression nested too deeply".into()))
+    // Counted by steps upwards, not by recursion, and no further than the limit.
+    let depth = |inside: Node<'_, '_>| {
+        inside.ancestors().take(DEPTH + 1).take_while(|above| *above != node).count()
+    };
+    match node.descendants().any(|inside| depth(inside) >= DEPTH) {
+        true => Err(Unsupported("an expression nested too deeply".into())),
+        false => Ok(()),
     }
 }
 
@@ -123,57 +117,42 @@ pub fn name(id: Math<'_, '_>) -> Read<String> {
 /// # Errors
 /// The notation lacks a construct of the program.
 pub fn lines(node: Math<'_, '_>, level: usize) -> Read<Vec<String>> {
-    let mut lines = vec![];
-    match node.tag() {
-        "program" => {
-            for statement in node.parts() {
-                lines.extend(self::lines(statement, level)?);
-            }
-        }
-        _ => statement(node, level, &mut lines)?,
-    }
-    Ok(lines)
-}
-
-fn statement(node: Math<'_, '_>, level: usize, lines: &mut Vec<String>) -> Read<()> {
-    let mut block = |head: String, body: Option<Math<'_, '_>>| -> Read<()> {
-        lines.push(format!("{:1$}{head}", "", 2 * level));
-        if let Some(body) = body {
-            lines.extend(self::lines(body, level + 1)?);
-        }
-        Ok(())
+    // A line, and the lines of the block below it.
+    let block = |head: &str, body: Option<Math<'_, '_>>| -> Read<Vec<String>> {
+        let below = body.map(|body| lines(body, level + 1)).transpose()?.unwrap_or_default();
+        Ok([format!("{:1$}{head}", "", 2 * level)].into_iter().chain(below).collect())
+    };
+    let is_attempt = |node: Math<'_, '_>| -> Read<bool> {
+        Ok(node.tag() == "localDefine" && node.part(1)?.tag() == "tryCatch")
     };
     match node.tag() {
-        "for" | "while" | "otherwise" => {
-            let body = node.parts().last();
-            block(head(node)?, body)
+        "program" => {
+            let statements = node.parts().map(|statement| lines(statement, level));
+            Ok(statements.collect::<Read<Vec<_>>>()?.concat())
         }
+        "for" | "while" | "otherwise" => block(&head(node)?, node.parts().last()),
         "tryCatch" => {
-            block("try".into(), Some(node.part(0)?))?;
-            block("on error".into(), Some(node.part(1)?))
+            Ok([block("try", Some(node.part(0)?))?, block(ON_ERROR, Some(node.part(1)?))?].concat())
         }
         "ifThen" => {
             let (condition, body) = (expression(node.part(0)?)?, node.part(1)?);
             match body.tag() {
-                "for" => block(format!("{} if {condition}", head(body)?), body.parts().last()),
-                "localDefine" if body.part(1)?.tag() == "tryCatch" => {
-                    block(format!("if {condition}"), Some(body))
-                }
+                "for" => block(&format!("{} if {condition}", head(body)?), body.parts().last()),
                 "program" | "ifThen" | "otherwise" | "while" | "tryCatch" => {
-                    block(format!("if {condition}"), Some(body))
+                    block(&format!("if {condition}"), Some(body))
                 }
-                _ => block(format!("{} if {condition}", head(body)?), None),
+                _ if is_attempt(body)? => block(&format!("if {condition}"), Some(body)),
+                _ => block(&format!("{} if {condition}", head(body)?), None),
             }
         }
-        "localDefine" if node.part(1)?.tag() == "tryCatch" => {
+        _ if is_attempt(node)? => {
             let (target, attempt) = (target(node.part(0)?)?, node.part(1)?);
-            for (word, k) in [("try", 0), ("on error", 1)] {
-                block(word.into(), None)?;
-                block(format!("  {target} ← {}", expression(attempt.part(k)?)?), None)?;
-            }
-            Ok(())
+            let [value, other] = [0, 1].map(|k| attempt.part(k).and_then(expression));
+            let assigned = |value: String| block(&format!("  {target} ← {value}"), None);
+            Ok([block("try", None)?, assigned(value?)?, block(ON_ERROR, None)?, assigned(other?)?]
+                .concat())
         }
-        _ => block(head(node)?, None),
+        _ => block(&head(node)?, None),
     }
 }
 
@@ -196,11 +175,12 @@ fn head(node: Math<'_, '_>) -> Read<String> {
 /// # Errors
 /// The notation lacks a construct of the target.
 pub fn target(node: Math<'_, '_>) -> Read<String> {
-    let what = match node.tag() {
-        "id" => return name(node),
-        "matrix" if node.parts().all(|part| part.tag() == "id") => return matrix(node),
-        "matrix" => "several entries at once",
-        _ if node.is_entry() || node.is_column() => return expression(node),
+    let of_name = node.parts().nth(1).is_some_and(|x| x.tag() == "id");
+    let what = match (node.tag(), node.operator()) {
+        ("id", _) => return name(node),
+        ("matrix", _) if node.parts().all(|part| part.tag() == "id") => return matrix(node),
+        ("matrix", _) => "several entries at once",
+        (_, "indexer" | "matcol") if of_name => return expression(node),
         _ => "an entry of an expression",
     };
     Err(Unsupported(format!("an assignment to {what}")))
@@ -212,23 +192,27 @@ pub fn target(node: Math<'_, '_>) -> Read<String> {
 /// The notation lacks a construct of the range.
 pub fn range(node: Math<'_, '_>) -> Read<String> {
     match node.tag() {
-        "range" => {}
+        "range" => {
+            let end = expression(node.part(1)?)?;
+            Ok(format!("{} .. {end}", joined(node.part(0)?, ", ", expression)?))
+        }
         "sequence" if node.parts().any(|part| part.tag() == "range") => {
-            return Err(Unsupported("a range within a list".into()));
+            Err(Unsupported("a range within a list".into()))
         }
-        "sequence" => {
-            return Ok(node.parts().map(expression).collect::<Read<Vec<_>>>()?.join(", "));
-        }
-        _ => return expression(node),
+        _ => joined(node, ", ", expression),
     }
-    let (start, end) = (node.part(0)?, expression(node.part(1)?)?);
-    let start = match start.tag() {
-        "sequence" => {
-            format!("{}, {}", expression(start.part(0)?)?, expression(start.part(1)?)?)
-        }
-        _ => expression(start)?,
-    };
-    Ok(format!("{start} .. {end}"))
+}
+
+/// Spells the elements of a sequence with `between` between them, or the one element that is none.
+fn joined(
+    node: Math<'_, '_>,
+    between: &str,
+    spell: impl Fn(Math<'_, '_>) -> Read<String>,
+) -> Read<String> {
+    match node.tag() {
+        "sequence" => Ok(node.parts().map(spell).collect::<Read<Vec<_>>>()?.join(between)),
+        _ => spell(node),
+    }
 }
 
 /// Writes the lines of a program on one line: blocks in braces, and `;` between statements.
@@ -272,7 +256,11 @@ fn wrapped(node: Math<'_, '_>, parentheses: bool, subscript: bool) -> Read<Strin
 /// Spells an expression; within subscripts, sums of plain names stand close.
 fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
     Ok(match node.tag() {
-        "real" => number(node.text())?,
+        "real" => {
+            let x = real(node.text())?;
+            let spelled = super::write::number(x.abs());
+            if x.is_sign_negative() { format!("−{spelled}") } else { spelled }
+        }
         "str" if !node.text().contains(['"', '\n', '\r']) => format!("\"{}\"", node.text()),
         "id" => name(node)?,
         "parens" => format!("({})", text(node.part(0)?, subscript)?),
@@ -283,82 +271,86 @@ fn text(node: Math<'_, '_>, subscript: bool) -> Read<String> {
     })
 }
 
-/// Spells a number as the text does: Mathcad's own spelling where the text reads it.
-fn number(text: &str) -> Read<String> {
+/// Reads a number.
+///
+/// # Errors
+/// It is none that is finite.
+pub fn real(text: &str) -> Read<f64> {
     let x = text.parse().ok().filter(|x: &f64| x.is_finite());
-    let x = x.ok_or_else(|| Unsupported(format!("the number {text:?}")))?;
-    let spelled = super::write::number(x.abs());
-    Ok(if x.is_sign_negative() { format!("−{spelled}") } else { spelled })
+    x.ok_or_else(|| Unsupported(format!("the number {text:?}")))
 }
 
-fn matrix(node: Math<'_, '_>) -> Read<String> {
+/// Returns the entries of a matrix row by row, and how many columns they stand in.
+///
+/// # Errors
+/// It is not full.
+pub fn entries<'a, 'i>(node: Math<'a, 'i>) -> Read<(Vec<Math<'a, 'i>>, usize)> {
     let size = |name| node.attribute(name).and_then(|n| n.parse::<usize>().ok());
-    let entries: Vec<_> = node.parts().collect();
     let (Some(rows), Some(cols)) = (size("rows"), size("cols")) else {
         return Err(Unsupported("a matrix without its size".into()));
     };
+    let entries: Vec<_> = node.parts().collect();
     if entries.is_empty() || rows.checked_mul(cols) != Some(entries.len()) {
         return Err(Unsupported("a matrix that is not full".into()));
     }
+    let places = (0..rows).flat_map(|i| (0..cols).map(move |j| j * rows + i));
+    Ok((places.map(|k| entries[k]).collect(), cols))
+}
+
+fn matrix(node: Math<'_, '_>) -> Read<String> {
+    let (entries, cols) = entries(node)?;
+    if let [one] = *entries {
+        return Ok(format!("({};)", expression(one)?));
+    }
     let plain = entries.iter().all(|entry| entry.level() == Level::Atom);
     let between = if plain { " " } else { "   " };
-    if entries.len() == 1 {
-        return Ok(format!("({};)", expression(entries[0])?));
-    }
-    let row = |i: usize| -> Read<String> {
-        let row = (0..cols).map(|j| expression(entries[j * rows + i]));
-        Ok(row.collect::<Read<Vec<_>>>()?.join(between))
-    };
-    Ok(format!("({})", (0..rows).map(row).collect::<Read<Vec<_>>>()?.join("; ")))
+    let entries = entries.into_iter().map(expression).collect::<Read<Vec<_>>>()?;
+    let rows: Vec<_> = entries.chunks(cols).map(|row| row.join(between)).collect();
+    Ok(format!("({})", rows.join("; ")))
 }
 
 fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
     let operator = node.part(0)?;
-    if operator.tag() == "id" && operator.text() == "if" {
-        return Ok(format!("if({})", list(node, 1)?));
-    }
     if operator.tag() == "id" {
-        return Ok(format!("{}({})", name(operator)?, list(node, 1)?));
+        let function = if operator.text() == "if" { "if".into() } else { name(operator)? };
+        let several = node.parts().skip(1).map(|part| joined(part, ",", expression));
+        // Where there are no arguments, it is incomplete.
+        node.part(1)?;
+        return Ok(format!("{function}({})", several.collect::<Read<Vec<_>>>()?.join(",")));
     }
     if let Some((_, function, n)) = FUNCTIONS.iter().find(|(o, _, _)| tag(o) == operator.tag()) {
-        let mut operands = Vec::new();
-        for k in 1..=*n {
-            operands.push(expression(node.part(k)?)?);
-        }
+        let operands = (1..=*n).map(|k| node.part(k).and_then(expression));
+        let mut operands = operands.collect::<Read<Vec<_>>>()?;
         if operator.tag() == "log" {
             operands.reverse();
         }
         return Ok(format!("{function}({})", operands.join(",")));
     }
+    let x = node.part(1)?;
     if let Some(row) = node.spelling() {
         return between(row, node, subscript);
     }
-    let x = node.part(1)?;
-    let y = || node.part(2);
+    let behind = |x| operand(x, Level::Behind, subscript);
     match operator.tag() {
         "neg" => Ok(format!("−{}", operand(x, Level::Power, subscript)?)),
         "pow" => {
-            let y = y()?;
-            let exponent = wrapped(y, in_exponent(y), subscript)?;
-            Ok(format!("{}^{exponent}", operand(x, Level::Behind, subscript)?))
+            let y = node.part(2)?;
+            Ok(format!("{}^{}", behind(x)?, wrapped(y, in_exponent(y), subscript)?))
         }
         "absval" => Ok(format!("|{}|", text(x, subscript)?)),
         "transpose" => {
             let inside = x.inside().filter(|inside| in_transpose(*inside)).unwrap_or(x);
-            Ok(format!("{}ᵀ", operand(inside, Level::Behind, subscript)?))
+            Ok(format!("{}ᵀ", behind(inside)?))
         }
         "indexer" => {
-            let array = operand(x, Level::Behind, subscript)?;
-            Ok(format!("{array}[{}]", subscripts(y()?)?))
+            let subscripts = joined(node.part(2)?, ",", |part| text(part, true))?;
+            Ok(format!("{}[{subscripts}]", behind(x)?))
         }
-        "matcol" => {
-            let array = operand(x, Level::Behind, subscript)?;
-            Ok(format!("{array}⟨{}⟩", text(y()?, true)?))
-        }
+        "matcol" => Ok(format!("{}⟨{}⟩", behind(x)?, text(node.part(2)?, true)?)),
         "summation" | "product" if x.tag() == "lambda" => {
             let sign = if operator.tag() == "product" { "∏" } else { "∑" };
             let (variable, term) = (name(x.part(0)?.part(0)?)?, expression(x.part(1)?)?);
-            let range = match y() {
+            let range = match node.part(2) {
                 Ok(bounds) => {
                     format!("{} .. {}", expression(bounds.part(0)?)?, expression(bounds.part(1)?)?)
                 }
@@ -374,53 +366,31 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
 /// Spells an operator of [`OPERATORS`] with its operands. The left one needs no parentheses where it
 /// is of the operator's level: a comparison within another is a chain.
 fn between(row: &Spelling, node: Math<'_, '_>, subscript: bool) -> Read<String> {
-    let (sign, level, x) = (row.sign, row.level, node.part(1)?);
-    let right = |least: Level| operand(node.part(2)?, least, subscript);
-    if row.operator == Operator::Calculate(Operation::Divide) {
-        let y = node.part(2)?;
-        let above = wrapped(x, in_fraction(x, Level::Product), subscript)?;
-        return Ok(format!(
-            "{above} / {}",
-            wrapped(y, in_fraction(y, Level::Negative), subscript)?
-        ));
+    let (sign, x) = (row.sign, node.part(1)?);
+    if row.operator == Operator::Not {
+        return Ok(format!("{sign}{}", operand(x, row.level, subscript)?));
     }
-    let left = operand(x, level, subscript)?;
-    Ok(match row.operator {
-        Operator::Any => format!("{left} {sign} {}", right(Level::All)?),
-        Operator::All => format!("{left} {sign} {}", right(Level::Not)?),
-        Operator::Not => format!("{sign}{left}"),
-        Operator::Compare(_) => format!("{left} {sign} {}", right(Level::Sum)?),
-        Operator::Calculate(Operation::Add | Operation::Subtract) => {
-            let right = right(Level::Product)?;
-            let close = subscript && !left.contains('[') && !right.contains('[');
-            if close { format!("{left}{sign}{right}") } else { format!("{left} {sign} {right}") }
+    let y = node.part(2)?;
+    let right_level = match row.operator {
+        Operator::Calculate(Operation::Divide) => {
+            let above = wrapped(x, in_fraction(x, Level::Product), subscript)?;
+            let below = wrapped(y, in_fraction(y, Level::Negative), subscript)?;
+            return Ok(format!("{above} / {below}"));
         }
-        Operator::Calculate(Operation::Multiply | Operation::Divide) => {
-            let right = right(Level::Negative)?;
-            let groups = left.ends_with(')') && right.starts_with('(');
-            if groups { format!("{left} {sign} {right}") } else { format!("{left}{sign}{right}") }
-        }
-    })
-}
-
-/// Spells arguments, from part `k` on.
-fn list(node: Math<'_, '_>, k: usize) -> Read<String> {
-    let first = node.part(k)?;
-    let all: Vec<_> = match first.tag() {
-        "sequence" => first.parts().collect(),
-        _ => node.parts().skip(k).collect(),
+        Operator::Any => Level::All,
+        Operator::All | Operator::Not => Level::Not,
+        Operator::Compare(_) => Level::Sum,
+        Operator::Calculate(Operation::Add | Operation::Subtract) => Level::Product,
+        Operator::Calculate(Operation::Multiply) => Level::Negative,
     };
-    Ok(all.into_iter().map(expression).collect::<Read<Vec<_>>>()?.join(","))
-}
-
-fn subscripts(node: Math<'_, '_>) -> Read<String> {
-    match node.tag() {
-        "sequence" => {
-            let all = node.parts().map(|part| text(part, true));
-            Ok(all.collect::<Read<Vec<_>>>()?.join(","))
-        }
-        _ => text(node, true),
-    }
+    let left = operand(x, row.level, subscript)?;
+    let right = operand(y, right_level, subscript)?;
+    let is_close = match row.level {
+        Level::Sum => subscript && !left.contains('[') && !right.contains('['),
+        Level::Product => !(left.ends_with(')') && right.starts_with('(')),
+        _ => false,
+    };
+    Ok(if is_close { format!("{left}{sign}{right}") } else { format!("{left} {sign} {right}") })
 }
 
 /// Names the construct that an element is.
@@ -431,7 +401,11 @@ pub fn unsupported(node: Math<'_, '_>) -> Unsupported {
             None => "an empty place",
         },
         "imag" | "complex" | "conjugate" => "complex numbers",
-        "unitedValue" | "unitMonomial" | "unitReference" => return units(node),
+        "unitedValue" | "unitMonomial" | "unitReference" => {
+            let names = node.0.descendants().filter_map(|unit| unit.attribute("unit"));
+            let names = names.collect::<Vec<_>>().join("·");
+            return Unsupported(["units", &*names].join(if names.is_empty() { "" } else { ": " }));
+        }
         "symEval" | "symResult" => "symbolics",
         "derivative" => "a derivative",
         "integral" => "an integral",
@@ -443,17 +417,6 @@ pub fn unsupported(node: Math<'_, '_>) -> Unsupported {
         tag => return Unsupported(format!("the operator {tag}")),
     };
     Unsupported(words.into())
-}
-
-/// Names the units of a result.
-fn units(node: Math<'_, '_>) -> Unsupported {
-    let inside = node.0.descendants();
-    let names: Vec<_> = inside.filter_map(|unit| unit.attribute("unit")).collect();
-    Unsupported(if names.is_empty() {
-        "units".into()
-    } else {
-        format!("units: {}", names.join("·"))
-    })
 }
 
 /// Names the unit in which a result is shown, of which the saved number is a multiple.

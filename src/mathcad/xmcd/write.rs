@@ -26,7 +26,7 @@ pub fn definition(listing: &Listing) -> Element {
     let is_line = listing.parameters.is_empty() && listing.program.len() == 1;
     // Without parameters a line alone would be the definition of a value.
     let body = if is_line { Element::new("ml:program").with(body) } else { body };
-    Element::new("ml:define").with(left).with(body)
+    element("ml:define", [left, body])
 }
 
 /// Writes an expression, the only line of a listing.
@@ -47,15 +47,20 @@ pub fn id(name: &str) -> Element {
     if subscript.is_empty() { id } else { id.set("subscript", subscript) }
 }
 
-/// Writes an array of numbers, column by column.
+/// Writes an array of numbers.
 pub fn matrix(array: &Array) -> Element {
-    let (rows, cols) = (array.rows(), array.cols());
-    let places = (0..cols).flat_map(|j| (0..rows).map(move |i| (i, j)));
-    let entries = places.map(|(i, j)| real(*array.at(i, j)));
+    let entries: Vec<f64> = array.entries().copied().collect();
+    by_columns(&entries, array.cols(), |x| real(*x))
+}
+
+/// Writes entries, given row by row, column by column.
+fn by_columns<T>(entries: &[T], cols: usize, write: impl Fn(&T) -> Element) -> Element {
+    let rows = entries.len() / cols.max(1);
+    let places = (0..cols).flat_map(|j| (0..rows).map(move |i| i * cols + j));
     Element::new("ml:matrix")
         .set("rows", rows.to_string())
         .set("cols", cols.to_string())
-        .with_all(entries)
+        .with_all(places.map(|k| write(&entries[k])))
 }
 
 /// Makes the element of a real number.
@@ -97,11 +102,8 @@ pub fn apply(operator: &'static str, operands: impl IntoIterator<Item = Element>
     Element::new("ml:apply").with(Element::new(operator)).with_all(operands)
 }
 
-fn sequence(mut elements: Vec<Element>) -> Element {
-    match elements.len() {
-        1 => elements.remove(0),
-        _ => Element::new("ml:sequence").with_all(elements),
-    }
+fn element(name: &'static str, inside: impl IntoIterator<Item = Element>) -> Element {
+    Element::new(name).with_all(inside)
 }
 
 struct Writer<'a> {
@@ -113,79 +115,70 @@ impl Writer<'_> {
     fn block(&self, block: &[Statement]) -> Element {
         match block {
             [one] => self.statement(one),
-            several => {
-                let lines = several.iter().map(|statement| self.statement(statement));
-                Element::new("ml:program").with_all(lines)
-            }
+            several => element("ml:program", several.iter().map(|line| self.statement(line))),
         }
     }
 
     fn statement(&self, statement: &Statement) -> Element {
         let line = match &statement.step {
             Step::If { condition, body } => {
-                Element::new("ml:ifThen").with(self.expr(condition)).with(self.block(body))
+                element("ml:ifThen", [self.expr(condition), self.block(body)])
             }
             Step::While { condition, body } => {
-                Element::new("ml:while").with(self.expr(condition)).with(self.block(body))
+                element("ml:while", [self.expr(condition), self.block(body)])
             }
-            Step::Otherwise { body } => Element::new("ml:otherwise").with(self.block(body)),
+            Step::Otherwise { body } => element("ml:otherwise", [self.block(body)]),
             Step::Try { body, fallback } => {
-                Element::new("ml:tryCatch").with(self.block(body)).with(self.block(fallback))
+                element("ml:tryCatch", [self.block(body), self.block(fallback)])
             }
-            Step::For { name, range, body } => Element::new("ml:for")
-                .with(id(self.names.name(*name)))
-                .with(self.range(range))
-                .with(self.block(body)),
+            Step::For { name, range, body } => {
+                let range = match range {
+                    Range::Over(values) => self.sequence(values),
+                    Range::Span { from, second, to } => {
+                        let start = self.sequence([from].into_iter().chain(second));
+                        element("ml:range", [start, self.expr(to)])
+                    }
+                };
+                element("ml:for", [id(self.names.name(*name)), range, self.block(body)])
+            }
             Step::Assign { target, value } => {
-                Element::new("ml:localDefine").with(self.reference(target)).with(self.expr(value))
+                element("ml:localDefine", [self.reference(target), self.expr(value)])
             }
             Step::Spread { to, value } => {
-                Element::new("ml:localDefine").with(self.spread(to)).with(self.expr(value))
+                let name = |slot: &Slot| id(self.names.name(*slot));
+                let to = match to {
+                    Spread::Names { names, cols } => by_columns(names, *cols, name),
+                    Spread::Column { name: array, column, .. } => {
+                        apply("ml:matcol", [name(array), self.expr(column)])
+                    }
+                };
+                element("ml:localDefine", [to, self.expr(value)])
             }
             Step::Evaluate { value } => self.expr(value),
-            Step::Return { value } => Element::new("ml:return").with(self.expr(value)),
+            Step::Return { value } => element("ml:return", [self.expr(value)]),
             Step::Break => Element::new("ml:break"),
             Step::Continue => Element::new("ml:continue"),
         };
         match &statement.guard {
-            Some(guard) => Element::new("ml:ifThen").with(self.expr(guard)).with(line),
+            Some(guard) => element("ml:ifThen", [self.expr(guard), line]),
             None => line,
         }
     }
 
-    fn range(&self, range: &Range) -> Element {
-        match range {
-            Range::Over(values) => sequence(values.iter().map(|x| self.expr(x)).collect()),
-            Range::Span { from, second, to } => {
-                let start = [from].into_iter().chain(second).map(|x| self.expr(x)).collect();
-                Element::new("ml:range").with(sequence(start)).with(self.expr(to))
-            }
-        }
-    }
-
-    fn spread(&self, to: &Spread) -> Element {
-        let name = |slot: Slot| id(self.names.name(slot));
-        match to {
-            Spread::Names { names, cols } => {
-                let rows = names.len() / cols;
-                let places = (0..*cols).flat_map(|j| (0..rows).map(move |i| i * cols + j));
-                Element::new("ml:matrix")
-                    .set("rows", rows.to_string())
-                    .set("cols", cols.to_string())
-                    .with_all(places.map(|k| name(names[k])))
-            }
-            Spread::Column { name: array, column, .. } => {
-                apply("ml:matcol", [name(*array), self.expr(column)])
-            }
+    /// Writes expressions as a sequence; one alone is itself.
+    fn sequence<'e>(&self, exprs: impl IntoIterator<Item = &'e Expr>) -> Element {
+        let mut elements: Vec<_> = exprs.into_iter().map(|x| self.expr(x)).collect();
+        match elements.len() {
+            1 => elements.remove(0),
+            _ => element("ml:sequence", elements),
         }
     }
 
     fn reference(&self, reference: &Reference) -> Element {
         let name = id(self.names.name(reference.name));
-        let subscripts: Vec<_> = reference.subscripts().map(|x| self.expr(x)).collect();
-        match subscripts.is_empty() {
-            true => name,
-            false => apply("ml:indexer", [name, sequence(subscripts)]),
+        match reference.row {
+            None => name,
+            Some(_) => apply("ml:indexer", [name, self.sequence(reference.subscripts())]),
         }
     }
 
@@ -195,18 +188,10 @@ impl Writer<'_> {
             Kind::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
             Kind::Read(reference) => self.reference(reference),
             Kind::Entry { of, subscripts } => {
-                let subscripts = subscripts.iter().map(|x| self.expr(x)).collect();
-                apply("ml:indexer", [self.behind(of), sequence(subscripts)])
+                apply("ml:indexer", [self.behind(of), self.sequence(subscripts)])
             }
             Kind::Group(x) => parens(self.expr(x)),
-            Kind::Array { entries, cols } => {
-                let rows = entries.len() / cols;
-                let places = (0..*cols).flat_map(|j| (0..rows).map(move |i| i * cols + j));
-                Element::new("ml:matrix")
-                    .set("rows", rows.to_string())
-                    .set("cols", cols.to_string())
-                    .with_all(places.map(|k| self.expr(&entries[k])))
-            }
+            Kind::Array { entries, cols } => by_columns(entries, *cols, |x| self.expr(x)),
             Kind::Magnitude(x) => apply("ml:absval", [self.expr(x)]),
             Kind::Negative(x) => match x.kind {
                 Kind::Number(x) => real(-x),
@@ -224,39 +209,47 @@ impl Writer<'_> {
                 let below = self.without(y, |y| in_fraction(y, Level::Negative));
                 apply("ml:div", [above, below])
             }
-            Kind::Arithmetic(operation, x, y) => apply(
-                Operator::Calculate(*operation).spelling().element,
-                [self.expr(x), self.expr(y)],
-            ),
-            Kind::Compare(comparison, x, y) => apply(
-                Operator::Compare(*comparison).spelling().element,
-                [self.expr(x), self.expr(y)],
-            ),
-            Kind::Chain(first, rest) => {
-                rest.iter().fold(self.expr(first), |left, (comparison, x)| {
-                    let element = Operator::Compare(*comparison).spelling().element;
-                    apply(element, [left, self.expr(x)])
-                })
+            Kind::Arithmetic(operation, x, y) => {
+                self.operated(Operator::Calculate(*operation), self.expr(x), y)
             }
-            Kind::All(operands) => self.chain(Operator::All, operands),
-            Kind::Any(operands) => self.chain(Operator::Any, operands),
-            Kind::Call(name, arguments) => self.call(self.names.name(*name), arguments),
+            Kind::Compare(comparison, x, y) => {
+                self.operated(Operator::Compare(*comparison), self.expr(x), y)
+            }
+            Kind::Chain(first, rest) => rest.iter().fold(self.expr(first), |left, (sign, x)| {
+                self.operated(Operator::Compare(*sign), left, x)
+            }),
+            Kind::All(operands) | Kind::Any(operands) => {
+                let all = matches!(expr.kind, Kind::All(_));
+                let operator = if all { Operator::All } else { Operator::Any };
+                let (first, rest) = operands.split_first().expect("two operands or more");
+                rest.iter().fold(self.expr(first), |left, x| self.operated(operator, left, x))
+            }
+            Kind::Call(name, arguments) => {
+                let name = self.names.name(*name);
+                match FUNCTIONS.iter().find(|(_, f, n)| *f == name && *n == arguments.len()) {
+                    Some((element, ..)) => {
+                        let mut written: Vec<_> = arguments.iter().map(|x| self.expr(x)).collect();
+                        if name == "log" {
+                            written.reverse();
+                        }
+                        apply(element, written)
+                    }
+                    None => element("ml:apply", [id(name), self.sequence(arguments)]),
+                }
+            }
             Kind::Program(block) => match block.as_slice() {
                 [_] => Element::new("ml:program").with(self.block(block)),
                 several => self.block(several),
             },
-            Kind::If(parts) => {
-                let parts = parts.iter().map(|x| self.expr(x)).collect();
-                Element::new("ml:apply").with(id("if")).with(sequence(parts))
-            }
+            Kind::If(parts) => element("ml:apply", [id("if"), self.sequence(&**parts)]),
             Kind::Series { function, name, parts } => {
                 let (term, range) = parts.split_last().expect("a series has a term");
                 let product = self.names.name(*function) == "∏";
-                let bound = Element::new("ml:boundVars").with(id(self.names.name(*name)));
-                let lambda = Element::new("ml:lambda").with(bound).with(self.expr(term));
-                let range: Vec<_> = range.iter().map(|x| self.expr(x)).collect();
+                let bound = element("ml:boundVars", [id(self.names.name(*name))]);
+                let lambda = element("ml:lambda", [bound, self.expr(term)]);
                 // Over a range variable there are none.
-                let bounds = (range.len() == 2).then(|| Element::new("ml:bounds").with_all(range));
+                let bounds = (range.len() == 2)
+                    .then(|| element("ml:bounds", range.iter().map(|x| self.expr(x))));
                 let series = if product { "ml:product" } else { "ml:summation" };
                 apply(series, [lambda].into_iter().chain(bounds))
             }
@@ -277,24 +270,8 @@ impl Writer<'_> {
         if x.level() < Level::Atom || x.is_entry() { parens(inside) } else { inside }
     }
 
-    fn chain(&self, operator: Operator, operands: &[Expr]) -> Element {
-        let operands = operands.iter().map(|x| self.expr(x));
-        operands
-            .reduce(|all, next| apply(operator.spelling().element, [all, next]))
-            .expect("two operands or more")
-    }
-
-    fn call(&self, name: &str, arguments: &[Expr]) -> Element {
-        let mut written: Vec<_> = arguments.iter().map(|x| self.expr(x)).collect();
-        match FUNCTIONS.iter().find(|(_, f, n)| *f == name && *n == arguments.len()) {
-            Some((element, ..)) => {
-                if name == "log" {
-                    written.reverse();
-                }
-                apply(element, written)
-            }
-            None => Element::new("ml:apply").with(id(name)).with(sequence(written)),
-        }
+    fn operated(&self, operator: Operator, left: Element, right: &Expr) -> Element {
+        apply(operator.spelling().element, [left, self.expr(right)])
     }
 }
 

@@ -7,5 +7,3 @@ mod corrected;
 mod listings;
 mod quotes;
 mod scalars;
-#[path = "../../mathcad/tests/spelled.rs"]
-mod spelled;

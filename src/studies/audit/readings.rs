@@ -110,13 +110,13 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
     let (sheet, reading) = (&door::worksheet(case.model(), |x| x), *case.reading());
     let pairs = if case.model().has_contact() {
         let listing = Which::CCnt.under(&reading);
-        listings::c_cnt(&listing, settings, sheet, &sheet.node, &mut ())?.0
+        listings::c_cnt(&listing, settings, sheet, &sheet.node, None)?.0
     } else {
         // Without contact nothing of contact is built: `c_cnt` is not called.
         Pairs::none(sheet.R())
     };
     let listing = Which::Km.under(&reading);
-    let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, &mut ())?;
+    let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, None)?;
     Ok(Initial { pairs, matrix: SparseSquare::from_array(&matrix) })
 }
 

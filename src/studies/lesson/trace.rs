@@ -54,11 +54,13 @@ pub fn trace(
     });
     let result = match which {
         Which::CCnt => {
-            listings::c_cnt(listing, settings, &call.sheet, &call.sheet.node, &mut recorder)
+            listings::c_cnt(listing, settings, &call.sheet, &call.sheet.node, Some(&mut recorder))
                 .map(|(pairs, _)| Product::Pairs(pairs))
         }
-        Which::Km => listings::km(listing, settings, &call.sheet, &call.pairs.k_cnt, &mut recorder)
-            .map(|(matrix, _)| Product::Matrix(matrix)),
+        Which::Km => {
+            listings::km(listing, settings, &call.sheet, &call.pairs.k_cnt, Some(&mut recorder))
+                .map(|(matrix, _)| Product::Matrix(matrix))
+        }
     };
     // Hands over the last statement.
     drop(recorder);

@@ -1,15 +1,15 @@
-//! Observers that watch a run.
+//! A run as it is recorded.
 
 use super::program;
 use mathcad::observe::Executed;
-use mathcad::{Array, Limits, Observer, Recorder, Settings, Value};
+use mathcad::{Array, Limits, Recorder, Settings, Value};
 
 /// Runs the program with v = (1 2 3)ᵀ and x = 5.
-fn observe(lines: &str, observer: &mut impl Observer) {
+fn record(lines: &str, recorder: &mut Recorder) {
     let listing = program(lines);
     let mut worksheet = listing.runner(&Settings::default(), &Limits::default());
     worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
-    worksheet.call_observed(&[Value::Number(5.0)], observer).unwrap();
+    worksheet.call_recorded(&[Value::Number(5.0)], Some(recorder)).unwrap();
 }
 
 fn show(executed: &Executed) -> String {
@@ -25,7 +25,7 @@ fn show(executed: &Executed) -> String {
 #[test]
 fn the_recorder_hands_over_each_statement() {
     let mut shown = vec![];
-    observe(
+    record(
         "for i ∈ 1 .. 2\n  a[i,i+1] ← v[v[i]] + x",
         &mut Recorder::new(|executed| shown.push(show(executed))),
     );
@@ -42,6 +42,6 @@ fn the_recorder_hands_over_each_statement() {
 #[test]
 fn the_recorder_hands_over_statements_without_names() {
     let mut shown = vec![];
-    observe("1\nx\n2\n3", &mut Recorder::new(|executed| shown.push(show(executed))));
+    record("1\nx\n2\n3", &mut Recorder::new(|executed| shown.push(show(executed))));
     assert_eq!(shown, ["2", "3 x[]=5", "4", "5"]);
 }
