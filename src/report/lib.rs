@@ -12,7 +12,7 @@
 //! | `picture`, `vtu`                                   | pictures and files for viewers         |
 //! | `page`                                             | pages of HTML, each one file           |
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
-//! | `matrix_market`, `output`                          | other files                            |
+//! | `matrix_market`                                    | a matrix as a file                     |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
 //! | `edited`, `scenes`                                 | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |

@@ -16,10 +16,9 @@ use engine::{
 };
 use numbers::finite;
 use numbers::scalar::rational;
-use paper::edited::Edited;
 use paper::listings::Which;
 use paper::mirror::Reading;
-use problem::model::{NodeId, Triangle};
+use problem::model::NodeId;
 use problem::modelling::{ContactModel, Variant};
 use problem::scene::sha256;
 use problem::scene::{Material, Units};
@@ -175,6 +174,14 @@ impl ResultFile {
         let scene = &request.scene;
         let [scene_sha256, mesh_sha256] =
             scene.hashes().cloned().map_or([None, None], |h| h.map(Some));
+        // One digit more than the scalar keeps, so that it reads back; of exact numbers forty.
+        let digits = request.arithmetic.scalar.properties().digits.map_or(40, |digits| digits + 1);
+        let decimal = |u| rational::decimal(u, digits as usize);
+        let edited = request
+            .edited
+            .iter()
+            .map(|edited| EditedListing { listing: edited.which, sha256: sha256(&edited.text) });
+        let pairs = solution.digits.as_ref().map(|digits| digits.as_chunks().0.iter());
         let result = ResultFile {
             format: FORMAT,
             version: VERSION.into(),
@@ -195,7 +202,7 @@ impl ResultFile {
             },
             modelled: request.contact,
             units: scene.units.clone(),
-            edited: request.edited.iter().map(EditedListing::new).collect(),
+            edited: edited.collect(),
             arithmetic: Arithmetic { solver: Some(request.solver()), ..request.arithmetic },
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
@@ -211,16 +218,10 @@ impl ResultFile {
             resultant: engine::resultant(solution),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
-            error_estimates: assessment
-                .estimates
-                .as_ref()
-                .map(|estimates| estimates.errors.clone()),
+            error_estimates: assessment.estimates.as_ref().map(|found| found.errors.clone()),
             rounding: assessment.rounding.clone(),
             equilibrium: solution.equilibrium.clone(),
-            path_change: assessment
-                .path_change
-                .as_ref()
-                .and_then(|change| change.as_ref().ok().copied()),
+            path_change: assessment.path_change.as_ref().and_then(|it| it.as_ref().ok().copied()),
             distance: assessment.measure().map(|measured| measured.distance.clone()),
             distance_from_equilibrium: match &assessment.equilibrium {
                 Some(Ok(measured)) => Some(measured.distance.clone()),
@@ -228,7 +229,7 @@ impl ResultFile {
             },
             fields_in: Some("fields.vtu".into()),
             nodes: None,
-            u_digits: digits(solution),
+            u_digits: pairs.map(|pairs| pairs.map(|[x, y]| [decimal(x), decimal(y)]).collect()),
             elements: None,
         };
         let is_small = solution.elements.len() <= MOST_TRIANGLES;
@@ -238,9 +239,17 @@ impl ResultFile {
     /// Adds the values of the nodes and of the triangles.
     #[must_use]
     pub fn with_fields(self, solution: &Solution, assessment: &Assessment) -> Self {
-        let nodes = Some(NodeFields::new(solution));
-        let elements = Some(elements(solution, assessment.mesh_error().as_deref()));
-        ResultFile { fields_in: None, nodes, elements, ..self }
+        let values = TriangleValues::all(solution, assessment.mesh_error().as_deref());
+        let rows = values.into_iter().zip(&solution.model.triangles).zip(1..);
+        let rows = rows.map(|((values, triangle), n)| {
+            let own = &triangle.material;
+            let mut materials = self.materials.iter();
+            let material = materials.position(|other| (other.e, other.nu) == (own.e, own.nu));
+            let material = material.expect("every triangle has one of them") + 1;
+            ElementRow { n, nodes: triangle.nodes, material, values }
+        });
+        let elements = Some(rows.collect());
+        ResultFile { fields_in: None, nodes: Some(NodeFields::new(solution)), elements, ..self }
     }
 
     /// Returns the values of the nodes and of each triangle.
@@ -277,21 +286,6 @@ impl ResultFile {
     }
 }
 
-impl EditedListing {
-    fn new(edited: &Edited) -> Self {
-        EditedListing { listing: edited.which, sha256: sha256(&edited.text) }
-    }
-}
-
-fn digits(solution: &Solution) -> Option<Vec<[String; 2]>> {
-    // One digit more than the scalar keeps, so that it reads back; of exact numbers forty.
-    let digits =
-        solution.request.arithmetic.scalar.properties().digits.map_or(40, |digits| digits + 1);
-    let decimal = |u| rational::decimal(u, digits as usize);
-    let pairs = solution.digits.as_ref()?.as_chunks().0;
-    Some(pairs.iter().map(|[x, y]| [decimal(x), decimal(y)]).collect())
-}
-
 /// Returns the materials of a model, each once, in the order of its triangles.
 fn materials(solution: &Solution) -> Vec<Material> {
     let mut materials: Vec<Material> = Vec::new();
@@ -302,21 +296,4 @@ fn materials(solution: &Solution) -> Vec<Material> {
         }
     }
     materials
-}
-
-fn elements(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<ElementRow> {
-    let materials = materials(solution);
-    let place = |Triangle { material, .. }: &Triangle| {
-        let is_same = |other: &Material| (other.e, other.nu) == (material.e, material.nu);
-        materials.iter().position(is_same).expect("every triangle has one of them") + 1
-    };
-    let values = TriangleValues::all(solution, mesh_error);
-    let rows = values.into_iter().zip(&solution.model.triangles).zip(1..);
-    rows.map(|((values, triangle), n)| ElementRow {
-        n,
-        nodes: triangle.nodes,
-        material: place(triangle),
-        values,
-    })
-    .collect()
 }

@@ -108,9 +108,11 @@ pub fn program(export: &Export) -> String {
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
     match &export.run {
-        None => ["ct", "yt", "dy", "k_cnt"]
-            .iter()
-            .for_each(|name| text += &format!("  show('{name}', {name});\n")),
+        None => {
+            for name in ["ct", "yt", "dy", "k_cnt"] {
+                text += &format!("  show('{name}', {name});\n");
+            }
+        }
         Some(run) => {
             text += &beside("ct", Value::from(&run.pairs.ct));
             text += &beside("yt", Value::from(&run.pairs.yt));

@@ -44,14 +44,10 @@ pub fn or_dash<T>(value: Option<T>, written: impl Fn(T) -> String) -> String {
 /// Writes what a column or an axis shows and its unit, `arc, mm`; the name alone where the scene
 /// names no unit.
 pub fn quantity(name: &str, unit: &str) -> String {
-    before_unit(name, ", ", unit)
+    if unit.is_empty() { name.into() } else { format!("{name}, {unit}") }
 }
 
 /// Writes a number and its unit, `3 mm`; the number alone where the scene names no unit.
 pub fn with_unit(number: &str, unit: &str) -> String {
-    before_unit(number, " ", unit)
-}
-
-fn before_unit(text: &str, separator: &str, unit: &str) -> String {
-    if unit.is_empty() { text.into() } else { [text, separator, unit].concat() }
+    if unit.is_empty() { number.into() } else { format!("{number} {unit}") }
 }

@@ -63,7 +63,8 @@ impl Page<'_> {
             hash(&style),
             escape(self.title),
             self.body,
-            in_script(&self.data),
+            // `</script>` or `<!--` in a text would end the place.
+            self.data.to_string().replace('<', "\\u003c"),
         )
     }
 }
@@ -71,9 +72,4 @@ impl Page<'_> {
 /// Returns the source of a content policy that allows this script or style alone, by its hash (CSP level 3, 2.3.1).
 fn hash(text: &str) -> String {
     format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)))
-}
-
-/// Returns JSON for a place within `<script>`, which `</script>` or `<!--` in a text would end.
-fn in_script(data: &Value) -> String {
-    data.to_string().replace('<', "\\u003c")
 }

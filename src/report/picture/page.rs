@@ -2,7 +2,7 @@
 
 use super::colour::{ColourScale, with_unit};
 use super::svg::{
-    Anchor, Coloured, DARK, TEXT_SIZE, TITLE_SIZE, circle, clip, document, group, line, rect, text,
+    Anchor, Coloured, DARK, TEXT_SIZE, TITLE_SIZE, circle, document, group, line, rect, text,
     text_of_size,
 };
 use super::view::{Bounds, Frame, View};
@@ -116,7 +116,7 @@ impl Page {
         // The enlargement is cut at the panel's edge and has a frame. The title keeps names apart where several
         // pictures stand in one web page.
         let id = format!("clip-{}", self.title.replace(|c: char| !c.is_alphanumeric(), "-"));
-        self.put(clip(&id, right.corner, size));
+        self.put(Element::new("clipPath").set("id", &id).with(rect(right.corner, size)));
         self.put(group().set("clip-path", format!("url(#{id})")).with(draw(&enlarged)));
         self.put(rect(right.corner, size).fill("none").stroke(DARK, 1.5));
         self.scale_bar(&enlarged, unit);

@@ -46,14 +46,22 @@ impl Raster {
     /// Fills the pixels whose middle lies in the triangle with a colour, by its number. Triangles
     /// that share an edge leave no pixel between them.
     pub fn triangle(&mut self, corners: [Pixel; 3], colour: u8) {
-        let [a, b, c] = corners.map(|corner| self.image_pixel(corner));
+        let (Frame { corner, size }, count) = (self.frame, self.size);
+        let scale = [0, 1].map(|axis| count[axis] as f64 / size[axis]);
+        let [a, b, c] =
+            corners.map(|at| [0, 1].map(|axis| (at[axis] - corner[axis]) * scale[axis]));
         let low = a[1].min(b[1]).min(c[1]);
         let high = a[1].max(b[1]).max(c[1]);
         for row in middles(low, high, self.size[1]) {
             let y = row as f64 + 0.5;
+            // Where the sides cross the row; the direction of a side makes no difference.
             let [mut from, mut to] = [f64::INFINITY, f64::NEG_INFINITY];
-            for x in [[a, b], [b, c], [c, a]].into_iter().filter_map(|side| crossing(side, y)) {
-                (from, to) = (from.min(x), to.max(x));
+            for [a, b] in [[a, b], [b, c], [c, a]] {
+                let [low, high] = if a[1] <= b[1] { [a, b] } else { [b, a] };
+                if low[1] <= y && y < high[1] {
+                    let x = low[0] + (y - low[1]) * ((high[0] - low[0]) / (high[1] - low[1]));
+                    (from, to) = (from.min(x), to.max(x));
+                }
             }
             let start = row * self.size[0];
             let columns = middles(from, to, self.size[0]);
@@ -86,25 +94,12 @@ impl Raster {
         let source = format!("data:image/png;base64,{}", BASE64_STANDARD.encode(file));
         image(self.frame.corner, self.frame.size, &source)
     }
-
-    /// Returns a place of the page in pixels of the image.
-    fn image_pixel(&self, at: Pixel) -> Pixel {
-        let scale = |axis: usize| self.size[axis] as f64 / self.frame.size[axis];
-        [0, 1].map(|axis| (at[axis] - self.frame.corner[axis]) * scale(axis))
-    }
 }
 
 /// Returns the pixels whose middles lie between two places, of those that there are.
 fn middles(from: f64, to: f64, count: usize) -> std::ops::Range<usize> {
     let first = |place: f64| ((place - 0.5).ceil() as usize).min(count);
     first(from)..first(to).max(first(from))
-}
-
-/// Returns where a side crosses a row; its direction makes no difference.
-fn crossing([a, b]: [Pixel; 2], y: f64) -> Option<f64> {
-    let [low, high] = if a[1] <= b[1] { [a, b] } else { [b, a] };
-    let within = low[1] <= y && y < high[1];
-    within.then(|| low[0] + (y - low[1]) * ((high[0] - low[0]) / (high[1] - low[1])))
 }
 
 /// Returns red, green and blue of a colour written as `#rrggbb`.

@@ -8,7 +8,7 @@ use super::svg::{Anchor, Coloured, DARK, Pixel, circle, group, line, path, rect,
 use super::view::Bounds;
 use crate::numbers::Decimal;
 use base::xml::Element;
-use paper::door::Call;
+use paper::door::{Call, ContactStatus};
 use paper::mirror::Reading;
 use problem::model::Model;
 
@@ -27,16 +27,7 @@ const TARGET_EDGE: &str = "#c1272d";
 pub struct Search {
     /// The corners of the box of each target edge, length.
     boxes: Vec<[[f64; 2]; 2]>,
-    nodes: Vec<Found>,
-}
-
-/// A contact node as `c_cnt` finds it.
-struct Found {
-    /// Its index among the points.
-    node: usize,
-    /// Y of line 10, length; None without a target edge.
-    distance: Option<f64>,
-    in_contact: bool,
+    statuses: Vec<ContactStatus>,
 }
 
 impl Search {
@@ -49,12 +40,7 @@ impl Search {
             let [a, b] = edge.nodes.map(|node| model.nodes[node.index()]);
             [a.map(|x| x - c_tll), b.map(|x| x + c_tll)]
         });
-        let nodes = call.statuses.iter().map(|status| Found {
-            node: status.node.index(),
-            distance: status.edge.map(|_| status.distance),
-            in_contact: status.in_contact,
-        });
-        Some(Search { boxes: boxes.collect(), nodes: nodes.collect() })
+        Some(Search { boxes: boxes.collect(), statuses: call.statuses })
     }
 }
 
@@ -71,7 +57,7 @@ pub fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
 /// Puts a panel of the search on a page, with what its signs are; `edges` are those of the target, as
 /// indices of `points`.
 pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search: &Search) {
-    let own = search.nodes.iter().map(|found| &points[found.node]);
+    let own = search.statuses.iter().map(|status| &points[status.node.index()]);
     let bounds = Bounds::around(search.boxes.iter().flatten().chain(own));
     let [width, height] = bounds.size();
     if !(width > 0.0 && height > 0.0) {
@@ -103,15 +89,15 @@ pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search:
     for (k, pixel) in pixels.iter().enumerate().filter(|(k, _)| ends.contains(k)) {
         page.put(text([pixel[0] + 5.0, pixel[1] + 16.0], Anchor::Start, &(k + 1).to_string()));
     }
-    for found in &search.nodes {
-        let [x, y] = points[found.node];
-        if let Some(distance) = found.distance {
-            page.put(arrow(at([x, y]), at([x, y + distance])));
+    for status in &search.statuses {
+        let [x, y] = points[status.node.index()];
+        if status.edge.is_some() {
+            page.put(arrow(at([x, y]), at([x, y + status.distance])));
         }
-        let fill = if found.in_contact { DARK } else { "#ffffff" };
+        let fill = if status.in_contact { DARK } else { "#ffffff" };
         let [px, py] = at([x, y]);
         page.put(circle([px, py], 4.0).fill(fill).stroke(DARK, 1.5));
-        page.put(text([px + 7.0, py - 7.0], Anchor::Start, &(found.node + 1).to_string()));
+        page.put(text([px + 7.0, py - 7.0], Anchor::Start, &status.node.to_string()));
     }
     page.y = bottom + 24.0;
 }

@@ -113,11 +113,6 @@ pub fn text_of_size(size: f64, [x, y]: Pixel, words: &str) -> Element {
     element.set("font-size", number(size))
 }
 
-/// Makes a clip path under the name `id`: what refers to it shows inside the rectangle only.
-pub fn clip(id: &str, corner: Pixel, size: [f64; 2]) -> Element {
-    Element::new("clipPath").set("id", id).with(rect(corner, size))
-}
-
 /// The colours of a shape.
 pub trait Coloured {
     /// Fills the shape with `colour`.

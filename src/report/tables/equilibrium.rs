@@ -4,10 +4,7 @@ use super::result::place;
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{percent, short, six_digits, with_unit};
-use engine::{
-    Equilibrium, Margin, NearestDecision, OtherEquilibrium, Overlap, Solution, Uniqueness,
-    beyond_range,
-};
+use engine::{Equilibrium, Margin, NearestDecision, Overlap, Solution, Uniqueness, beyond_range};
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Geometry};
 
@@ -28,7 +25,14 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
         )
     });
     let inside = found.inside.map(|(node, depth)| {
-        let why = why_inside(solution);
+        let contact = solution.request.contact;
+        let why = match (contact.coupling, contact.geometry) {
+            (Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
+            (Coupling::Nts, Geometry::Initial) => {
+                ": gaps were closed along the normals of the initial shape"
+            }
+            (Coupling::Nts, Geometry::Current) => "",
+        };
         format!(
             "Contact node {node} lies {} INSIDE THE TARGET in the shape reached{why}",
             length(depth)
@@ -68,6 +72,7 @@ pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision
 }
 
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
+    let mut found_others = &[][..];
     let words = match found {
         Uniqueness::Unique => {
             let none = "the only one, of equations that leave out what the first line says,";
@@ -86,22 +91,34 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
              the normals of contact stay as they are"
         ),
         Uniqueness::Tried { states, steps, all, last_only, others } => {
-            let tried = tried(solution, [*states, *steps], [*all, *last_only]);
+            found_others = &others[..];
+            let steps = match last_only {
+                true => "the last step".into(),
+                false => counted(*steps, "step of the load", "steps of the load"),
+            };
+            let states = match all {
+                true => format!("all {states} contact states of {steps}"),
+                false => {
+                    let states = counted(*states, "contact state", "contact states");
+                    format!("{states} of {steps} that differ at one node")
+                }
+            };
+            let shapes = match solution.request.contact.geometry {
+                Geometry::Initial => "",
+                Geometry::Current => ", each in the shape reached",
+            };
+            let earlier = if *last_only { "; earlier steps were not examined" } else { "" };
             match others.len() {
-                0 => format!("no other equilibrium found among {tried}"),
-                n => format!("NOT THE ONLY ONE: {n} more among {tried}"),
+                0 => format!("no other equilibrium found among {states}{shapes}{earlier}"),
+                n => format!("NOT THE ONLY ONE: {n} more among {states}{shapes}{earlier}"),
             }
         }
     };
-    let others = match found {
-        Uniqueness::Tried { others, .. } => &others[..],
-        Uniqueness::Unique | Uniqueness::Indifferent { .. } | Uniqueness::Unknown { .. } => &[],
+    let nodes = |nodes: &[NodeId]| match nodes {
+        [] => "none".into(),
+        nodes => format!("nodes {}", listed(nodes)),
     };
-    let other = |other: &OtherEquilibrium| {
-        let nodes = |nodes: &[NodeId]| match nodes {
-            [] => "none".into(),
-            nodes => format!("nodes {}", listed(nodes)),
-        };
+    let others = found_others.iter().map(|other| {
         format!(
             "at load {}: stick {}; slip {}: displacement components change by at most {}",
             six_digits(other.load),
@@ -109,41 +126,8 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
             nodes(&other.slip),
             with_unit(&short(other.change), &solution.request.scene.units.length)
         )
-    };
-    Report::default().note(format!("Equilibrium: {words}")).details(others.iter().map(other))
-}
-
-/// Names the contact states that were tried for other equilibria, and those that were not.
-fn tried(solution: &Solution, [states, steps]: [usize; 2], [all, last_only]: [bool; 2]) -> String {
-    let steps = match last_only {
-        true => "the last step".into(),
-        false => counted(steps, "step of the load", "steps of the load"),
-    };
-    let states = match all {
-        true => format!("all {states} contact states of {steps}"),
-        false => {
-            let states = counted(states, "contact state", "contact states");
-            format!("{states} of {steps} that differ at one node")
-        }
-    };
-    let shapes = match solution.request.contact.geometry {
-        Geometry::Initial => "",
-        Geometry::Current => ", each in the shape reached",
-    };
-    let earlier = if last_only { "; earlier steps were not examined" } else { "" };
-    format!("{states}{shapes}{earlier}")
-}
-
-/// Says how a contact node that faces the target may lie inside it.
-fn why_inside(solution: &Solution) -> &'static str {
-    let contact = solution.request.contact;
-    match (contact.coupling, contact.geometry) {
-        (Coupling::Mortar, _) => ": mortar closes the averaged gap of the edges at a node",
-        (Coupling::Nts, Geometry::Initial) => {
-            ": gaps were closed along the normals of the initial shape"
-        }
-        (Coupling::Nts, Geometry::Current) => "",
-    }
+    });
+    Report::default().note(format!("Equilibrium: {words}")).details(others)
 }
 
 /// Says that triangles are turned inside out, or bodies lie in each other where contact does not watch them; None where

@@ -106,40 +106,39 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment, all
         0 => String::new(),
         n => format!(", {n} halved because no equilibrium was found"),
     };
+    let change = match &assessment.path_change {
+        Some(Ok(change)) => step_error(solution, path, *change),
+        Some(Err(why)) => {
+            format!("The error of the size of the steps is unknown: in half as many, {why}")
+        }
+        None => format!("The error of the size of the steps is {}", why_unknown(path)),
+    };
     Report::default()
         .table("Path of the load", table)
         .notes(left_out)
         .note(format!("{} steps a stage{halved}", path.steps))
         .notes(released(path.start))
-        .note(match &assessment.path_change {
-            Some(Ok(change)) => step_error(solution, path, *change),
-            Some(Err(why)) => {
-                format!("The error of the size of the steps is unknown: in half as many, {why}")
-            }
-            None => {
-                format!("The error of the size of the steps is {}", why_unknown(path))
-            }
-        })
+        .note(change)
 }
 
 /// Says where bodies that overlapped start from, where contact alone holds them.
 fn released(start: Start) -> Option<String> {
-    let place = match start {
+    let found = match start {
         Start::Held | Start::Closed | Start::Loose | Start::Overlapping => return None,
-        Start::Released => "to where a vanishing load holds them without friction",
-        Start::Unslipped => "so that all nodes that overlapped touch and none slipped",
+        Start::Released => {
+            "before any load the bodies were moved apart as rigid ones, to where a vanishing load holds them without \
+             friction"
+        }
+        Start::Unslipped => {
+            "before any load the bodies were moved apart as rigid ones, so that all nodes that overlapped touch and \
+             none slipped"
+        }
         Start::Pressed => {
-            return Some(
-                "The start is not determined by the overlap: it is the only contact state of all in which friction \
-                 holds the bodies under the first thousandth of the load; friction counts from there"
-                    .into(),
-            );
+            "it is the only contact state of all in which friction holds the bodies under the first thousandth of the \
+             load"
         }
     };
-    Some(format!(
-        "The start is not determined by the overlap: before any load the bodies were moved apart as rigid \
-         ones, {place}; friction counts from there"
-    ))
+    Some(format!("The start is not determined by the overlap: {found}; friction counts from there"))
 }
 
 /// Says what half as many steps of the load change.
