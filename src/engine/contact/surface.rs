@@ -86,26 +86,6 @@ impl Surface {
         let cosine = dot(a.normal, b.normal);
         if cosine > BEND { cosine.min(1.0).acos() * a.length.max(b.length) / 8.0 } else { 0.0 }
     }
-
-    /// Returns whether the surface ends at a node, or turns round a convex corner of the body there.
-    fn has_edge_at(&self, node: NodeId, shape: &[Vector]) -> bool {
-        match self.meeting(node, shape) {
-            Some([a, b]) => dot(a.normal, b.normal) <= BEND && dot(a.normal, b.tangent) < 0.0,
-            None => self.at.contains_key(&node),
-        }
-    }
-
-    /// Returns whether the surface goes on smoothly at its node that is nearest to a point in a shape.
-    fn goes_on_beside(&self, p: Vector, shape: &[Vector]) -> bool {
-        let distance = |node: &NodeId| {
-            let [x, y] = minus(shape[node.index()], p);
-            x.hypot(y)
-        };
-        let nearest =
-            self.at.keys().min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
-        let meeting = nearest.and_then(|node| self.meeting(*node, shape));
-        meeting.is_some_and(|[a, b]| dot(a.normal, b.normal) > BEND)
-    }
 }
 
 /// An edge in a given shape.
@@ -181,12 +161,26 @@ impl Surfaces {
     /// Returns whether a body ends in contact while the other goes on, as at the edge of a punch, where contact node
     /// and target node, which carries most of it, lie on each other in the undeformed shape.
     pub fn is_edge(&self, model: &Model, [contact, target]: [NodeId; 2]) -> bool {
-        let held = model.held_directions();
+        let (held, shape) = (model.held_directions(), &model.nodes[..]);
         let ends = |own: &Surface, node: NodeId, other: &Surface| {
+            // The surface ends at the node, or turns round a convex corner of the body there.
+            let has_edge = match own.meeting(node, shape) {
+                Some([a, b]) => dot(a.normal, b.normal) <= BEND && dot(a.normal, b.tangent) < 0.0,
+                None => own.at.contains_key(&node),
+            };
             // An end that a restraint holds may be one of symmetry.
-            own.has_edge_at(node, &model.nodes)
-                && held[node.index()] == 0
-                && other.goes_on_beside(model.coordinates(node), &model.nodes)
+            if !has_edge || held[node.index()] != 0 {
+                return false;
+            }
+            // The other one goes on smoothly at its nearest node.
+            let distance = |other: &NodeId| {
+                let [x, y] = minus(shape[other.index()], model.coordinates(node));
+                x.hypot(y)
+            };
+            let nodes = other.at.keys();
+            let nearest = nodes.min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+            let meeting = nearest.and_then(|node| other.meeting(*node, shape));
+            meeting.is_some_and(|[a, b]| dot(a.normal, b.normal) > BEND)
         };
         ends(&self.contact, contact, &self.target) || ends(&self.target, target, &self.contact)
     }
