@@ -76,17 +76,15 @@ impl<T: Scalar> Constraint<T> {
 pub fn support_constraints(model: &Model, part: f64) -> Vec<Constraint> {
     let mut of_node: BTreeMap<NodeId, Vec<&Hold>> = BTreeMap::new();
     model.oblique().for_each(|(_, hold)| of_node.entry(hold.node).or_default().push(hold));
-    let motion = |holds: &[&Hold]| match holds {
-        [a, b] => {
-            let given = [a, b].map(|hold| part * hold.displacement);
-            Motion::Both(crossing([a.direction, b.direction], given).expect("they are two"))
-        }
-        holds => Motion::Along(holds[0].direction, part * holds[0].displacement),
-    };
-    let constraint = |(node, holds): (NodeId, Vec<&Hold>)| Constraint {
-        node,
-        masters: Vec::new(),
-        motion: motion(&holds),
+    let constraint = |(node, holds): (NodeId, Vec<&Hold>)| {
+        let motion = match holds[..] {
+            [a, b] => {
+                let given = [a, b].map(|hold| part * hold.displacement);
+                Motion::Both(crossing([a.direction, b.direction], given).expect("they are two"))
+            }
+            _ => Motion::Along(holds[0].direction, part * holds[0].displacement),
+        };
+        Constraint { node, masters: Vec::new(), motion }
     };
     of_node.into_iter().map(constraint).collect()
 }
@@ -211,9 +209,27 @@ impl<T: Scalar> Elimination<T> {
 
     /// Binds a node whose own equations are left out.
     fn bind(&mut self, constraint: &Constraint<T>, restraints: &[Restraint]) {
+        let [x, y] = constraint.node.dofs();
         match constraint.motion {
-            Motion::Both(shift) => self.bind_both(constraint, restraints, shift),
-            Motion::Along(normal, shift) => self.bind_along(constraint, normal, shift),
+            Motion::Both(shift) => {
+                for dof in [x, y].into_iter().filter(|dof| restraints[dof.index()].is_free()) {
+                    let mut normal = [T::zero(), T::zero()];
+                    normal[dof.direction()] = T::one();
+                    self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());
+                    self.shift[dof.index()] =
+                        shift[dof.direction()] + self.target_shift(constraint, normal);
+                }
+            }
+            Motion::Along([nx, ny], shift) => {
+                let target = self.target_shift(constraint, [nx, ny]);
+                for (dof, factor) in [(x, nx), (y, ny)] {
+                    self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);
+                    self.shift[dof.index()] = (shift + target) * factor;
+                }
+                let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
+                self.rows[x.index()].push((slide, -ny));
+                self.rows[y.index()].push((slide, nx));
+            }
         }
     }
 
@@ -221,32 +237,6 @@ impl<T: Scalar> Elimination<T> {
     fn add(&mut self, dof: Dof) -> usize {
         self.free.push(dof);
         self.free.len() - 1
-    }
-
-    fn bind_both(&mut self, constraint: &Constraint<T>, restraints: &[Restraint], shift: [T; 2]) {
-        for dof in constraint.node.dofs() {
-            let direction = dof.direction();
-            match restraints[dof.index()] {
-                Restraint::Free => (),
-                Restraint::Fixed => continue,
-            }
-            let mut normal = [T::zero(), T::zero()];
-            normal[direction] = T::one();
-            self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());
-            self.shift[dof.index()] = shift[direction] + self.target_shift(constraint, normal);
-        }
-    }
-
-    fn bind_along(&mut self, constraint: &Constraint<T>, [nx, ny]: [T; 2], shift: T) {
-        let [x, y] = constraint.node.dofs();
-        let target = self.target_shift(constraint, [nx, ny]);
-        for (dof, factor) in [(x, nx), (y, ny)] {
-            self.rows[dof.index()] = self.target_motion(constraint, [nx, ny], factor);
-            self.shift[dof.index()] = (shift + target) * factor;
-        }
-        let slide = self.add(if Scalar::abs(nx) > Scalar::abs(ny) { y } else { x });
-        self.rows[x.index()].push((slide, -ny));
-        self.rows[y.index()].push((slide, nx));
     }
 
     /// Returns `factor` · Σ w n·u_t as weights on the equations that remain.

@@ -21,7 +21,7 @@ use super::solution::{
 };
 use super::sparse::is_dense;
 use super::support::transmitted_force;
-use crate::linear::{Inputs, Precision, ScalarName, cost};
+use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
 use base::limits;
 use base::plain::six_digits;
@@ -95,8 +95,11 @@ pub(super) fn check_published<T: Precision>(
     model: &Model,
 ) -> Result<(), InputError> {
     check_size(request, model)?;
-    if request.is_bound_by_mortar() {
-        check_mortar(request.arithmetic.scalar)?;
+    let scalar = request.arithmetic.scalar;
+    // The integrals of mortar need square roots and digits.
+    if let Some(why) = scalar.properties().no_mortar.filter(|_| request.is_bound_by_mortar()) {
+        let what = format!("mortar coupling does not run in {scalar}: {why}");
+        return Err(InputError::new("scalar", what, "use f64 or f64x2, or coupling nts"));
     }
     check_load(request, model, &model.load_in(|x| number_of::<T>(request, x)))
 }
@@ -130,15 +133,10 @@ fn check_load<T: Scalar>(
         let rounded = near.is_finite() && (near - **x).abs() > rounded_by * x.abs();
         rounded || **x != 0.0 && y.to_f64() == 0.0
     };
-    match model.load.iter().zip(load.iter()).find(lost) {
-        None => Ok(()),
-        Some((x, _)) => {
-            let scalar = request.arithmetic.scalar;
-            let what =
-                format!("the force {} is too small to represent in {scalar}", six_digits(*x));
-            Err(InputError::new("loads", what, "choose other units, or f64"))
-        }
-    }
+    let Some((x, _)) = model.load.iter().zip(load.iter()).find(lost) else { return Ok(()) };
+    let (scalar, x) = (request.arithmetic.scalar, six_digits(*x));
+    let what = format!("the force {x} is too small to represent in {scalar}");
+    Err(InputError::new("loads", what, "choose other units, or f64"))
 }
 
 /// Checks that dense matrices are small, iterations are few, and exact numbers end within a bearable time.
@@ -196,7 +194,8 @@ struct FoundState<T> {
 impl<T: Precision> Run<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
         let found = self.search(k)?;
-        let k_cnt = not_zero(&found.pairs.k_cnt);
+        let entries = found.pairs.k_cnt.as_matrix().iter().copied().enumerate();
+        let k_cnt: Vec<(usize, T)> = entries.filter(|(_, entry)| !entry.same(T::zero())).collect();
         let is_found = |visited: &Visited<T>| visited.is(&k_cnt, &found.constraints);
         let before = self.visited.iter().position(is_found);
         let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
@@ -390,22 +389,9 @@ impl<T: Scalar> Visited<T> {
     }
 }
 
-/// Returns the entries of a table that are not 0, each with its place.
-fn not_zero<T: Scalar>(table: &Table<T>) -> Vec<(usize, T)> {
-    let entries = table.as_matrix().iter().copied().enumerate();
-    entries.filter(|(_, entry)| !entry.same(T::zero())).collect()
-}
-
 /// Returns the coordinates of each node as `f64`, length.
 fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
     shape.iter().map(|place| place.map(T::to_f64)).collect()
-}
-
-/// Checks that a scalar has the square roots and the digits that the integrals of mortar need.
-fn check_mortar(scalar: ScalarName) -> Result<(), InputError> {
-    let Some(why) = scalar.properties().no_mortar else { return Ok(()) };
-    let what = format!("mortar coupling does not run in {scalar}: {why}");
-    Err(InputError::new("scalar", what, "use f64 or f64x2, or coupling nts"))
 }
 
 /// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is

@@ -30,7 +30,6 @@ pub(super) use pressure::arcs;
 pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
 pub use surface::{BEND, Surfaces};
 
-use numbers::scalar::Scalar;
 use problem::modelling::Coupling;
 
 impl Surfaces {
@@ -41,10 +40,5 @@ impl Surfaces {
             Coupling::Nts => nts::pairings(self, shape),
             Coupling::Mortar => self.mortar(shape).pairings,
         }
-    }
-
-    /// Returns what mortar finds in a shape, in its numbers.
-    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Mortar<T> {
-        mortar::mortar(self, shape)
     }
 }

@@ -49,36 +49,44 @@ pub struct Mortar<T> {
     pub unsure: Vec<(NodeId, Unsure)>,
 }
 
-/// Averages the target over what the edges of each contact node cover in a shape, given as the
-/// coordinates of each node, length.
-pub(super) fn mortar<T: Scalar>(surfaces: &Surfaces, shape: &[[T; 2]]) -> Mortar<T> {
-    let target: Vec<PlacedEdge<T>> =
-        surfaces.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
-    let mut gathered: FxHashMap<NodeId, NodeIntegrals<T>> = FxHashMap::default();
-    let at = |n: NodeId| shape[n.index()].map(T::to_f64);
-    let tree = Tree::new(surfaces.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
-    let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
-    let search = Search { surfaces, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
-    let mut unsure = Vec::new();
-    for edge in &surfaces.contact.edges {
-        let (covered, left) = compared(|| search.cover(&edge.in_shape(shape)));
-        unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
-        let Some(integrals) = Integrals::over(&covered) else { continue };
-        for (k, node) in edge.nodes.into_iter().enumerate() {
-            let gathered = gathered.entry(node).or_insert_with(NodeIntegrals::new);
-            gathered.add(k, &integrals, &covered, &search);
+impl Surfaces {
+    /// Averages the target over what the edges of each contact node cover in a shape, given as the
+    /// coordinates of each node, length.
+    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Mortar<T> {
+        let target: Vec<PlacedEdge<T>> =
+            self.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
+        let mut gathered: FxHashMap<NodeId, NodeIntegrals<T>> = FxHashMap::default();
+        let at = |n: NodeId| shape[n.index()].map(T::to_f64);
+        let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
+        let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
+        let search =
+            Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
+        let mut unsure = Vec::new();
+        for edge in &self.contact.edges {
+            let (covered, left) = compared(|| search.cover(&edge.in_shape(shape)));
+            unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
+            let Some(integrals) = Integrals::over(&covered) else { continue };
+            for (k, node) in edge.nodes.into_iter().enumerate() {
+                let gathered = gathered.entry(node).or_insert_with(|| NodeIntegrals {
+                    masters: BTreeMap::new(),
+                    length: T::zero(),
+                    normal: [T::zero(); 2],
+                    edges: BTreeMap::new(),
+                });
+                gathered.add(k, &integrals, &covered, &search);
+            }
         }
+        let pairing = |(node, tributary): (&NodeId, T)| {
+            let least = T::from_f64(COVERED) * tributary;
+            let gathered = gathered.remove(node)?;
+            let (is_covered, left) = compared(|| gathered.length >= least);
+            unsure.extend(left.into_iter().map(|one| (*node, one)));
+            is_covered.then(|| gathered.pairing(*node, shape))
+        };
+        let tributary = self.tributary(shape);
+        let pairings = self.nodes.iter().zip(tributary).map(pairing).collect();
+        Mortar { pairings, unsure }
     }
-    let pairing = |(node, tributary): (&NodeId, T)| {
-        let least = T::from_f64(COVERED) * tributary;
-        let gathered = gathered.remove(node)?;
-        let (is_covered, left) = compared(|| gathered.length >= least);
-        unsure.extend(left.into_iter().map(|one| (*node, one)));
-        is_covered.then(|| gathered.pairing(*node, shape))
-    };
-    let tributary = surfaces.tributary(shape);
-    let pairings = surfaces.nodes.iter().zip(tributary).map(pairing).collect();
-    Mortar { pairings, unsure }
 }
 
 /// A stretch of a contact edge and the target edge that it covers.
@@ -249,16 +257,6 @@ struct NodeIntegrals<T> {
 }
 
 impl<T: Scalar> NodeIntegrals<T> {
-    fn new() -> Self {
-        let zero = T::zero();
-        NodeIntegrals {
-            masters: BTreeMap::new(),
-            length: zero,
-            normal: [zero; 2],
-            edges: BTreeMap::new(),
-        }
-    }
-
     /// Adds the integrals of node `k` (0 or 1) of a contact edge over `covered`.
     fn add(
         &mut self,

@@ -18,31 +18,15 @@ const DEEP_SCENE: f64 = 0.01;
 pub(super) fn pairings(surfaces: &Surfaces, shape: &[Vector]) -> Vec<Option<Pairing>> {
     let outline = Outline::new(&surfaces.target, shape);
     let mut listed = HashSet::new();
+    let normals = &surfaces.contact.node_normals;
     let pairing = |(&node, length): (&NodeId, f64)| {
-        let faced = contact_node(surfaces, &outline, shape, node)?;
-        let faced = Some(faced).filter(|_| listed.insert(node))?;
-        Some(faced.by(surfaces, node, length))
+        let faced = outline.closest_point(shape[node.index()], normals.get(&node).copied())?;
+        let FacedPoint { edge, masters, normal, gap, corner, .. } = faced;
+        let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
+        let pairing = Pairing { node, edge, masters, normal, gap, length, corner };
+        listed.insert(node).then_some(pairing)
     };
     surfaces.nodes.iter().zip(surfaces.tributary(shape)).map(pairing).collect()
-}
-
-impl FacedPoint {
-    /// Returns what contact node `node` faces, which stands for `length` of the contact surface.
-    fn by(self, surfaces: &Surfaces, node: NodeId, length: f64) -> Pairing {
-        let FacedPoint { edge, masters, normal, gap, corner, .. } = self;
-        let edge = surfaces.target.edges[edge].id.expect("a target edge is one of the model's");
-        Pairing { node, edge, masters, normal, gap, length, corner }
-    }
-}
-
-/// Returns what a contact node faces.
-fn contact_node(
-    surfaces: &Surfaces,
-    outline: &Outline,
-    shape: &[Vector],
-    node: NodeId,
-) -> Option<FacedPoint> {
-    outline.closest_point(shape[node.index()], surfaces.contact.node_normals.get(&node).copied())
 }
 
 impl Surfaces {
@@ -66,7 +50,8 @@ impl Surfaces {
             against.map(square).fold(f64::INFINITY, f64::min).sqrt()
         };
         let deep = |&node: &NodeId| {
-            let faced = contact_node(self, &outline, &model.nodes, node)?;
+            let normal = self.contact.node_normals.get(&node).copied();
+            let faced = outline.closest_point(model.coordinates(node), normal)?;
             let depth = -faced.gap;
             let is_deep = faced.over && depth > DEEP_SCENE * size;
             let body = model.body_of(faced.masters[0].0).filter(|_| is_deep)?;

@@ -205,7 +205,12 @@ impl FacingNode<'_> {
             return Some(Part::Edge(k));
         }
         let in_cone = at.len() > 1 && at.iter().all(|&k| past(k) > 0.0);
-        if in_cone && (facing.len() == at.len() || self.faces(self.out_of(v))) {
+        // The normal by rules 2 and 3.
+        let out = || match self.distance(v) <= outline.tie {
+            true => unit(outline.pseudo_normal(v)),
+            false => self.direction(v),
+        };
+        if in_cone && (facing.len() == at.len() || self.faces(out())) {
             return Some(Part::Vertex(v));
         }
         let steep = |k: &usize| {
@@ -226,14 +231,6 @@ impl FacingNode<'_> {
             && self.faces(unit(outline.pseudo_normal(v)))
     }
 
-    /// Returns the normal at a vertex by rules 2 and 3.
-    fn out_of(&self, v: NodeId) -> Vector {
-        if self.distance(v) <= self.outline.tie {
-            return unit(self.outline.pseudo_normal(v));
-        }
-        self.direction(v)
-    }
-
     /// Returns the unit vector between vertex and node, out of the body.
     fn direction(&self, v: NodeId) -> Vector {
         let away = minus(self.p, self.outline.vertex(v));
@@ -246,22 +243,16 @@ impl FacingNode<'_> {
         if let Some(v) = self.corner(parts) {
             return self.on_vertex(v, unit(self.outline.pseudo_normal(v)));
         }
-        let vertices = parts.iter().filter_map(|part| match part {
-            Part::Vertex(v) | Part::Tip(v) => Some((*v, *part)),
-            Part::Edge(_) => None,
+        // A vertex before an edge, then the one with the least node numbers.
+        let first = parts.iter().min_by_key(|part| match part {
+            Part::Vertex(v) | Part::Tip(v) => (false, [*v; 2]),
+            Part::Edge(k) => (true, self.outline.surface.edges[*k].nodes),
         });
-        match vertices.min_by_key(|(v, _)| *v) {
-            Some((v, Part::Tip(_))) => self.on_vertex(v, unit(self.outline.pseudo_normal(v))),
-            Some((v, _)) if self.outline.bends(v) => self.on_edge(self.farther(v)),
-            Some((v, _)) => self.on_vertex(v, self.direction(v)),
-            None => {
-                let edges = parts.iter().filter_map(|part| match part {
-                    Part::Edge(k) => Some(*k),
-                    Part::Vertex(_) | Part::Tip(_) => None,
-                });
-                let first = edges.min_by_key(|k| self.outline.surface.edges[*k].nodes);
-                self.on_edge(first.expect("a part is an edge or a vertex"))
-            }
+        match *first.expect("there is one") {
+            Part::Tip(v) => self.on_vertex(v, unit(self.outline.pseudo_normal(v))),
+            Part::Vertex(v) if self.outline.bends(v) => self.on_edge(self.farther(v)),
+            Part::Vertex(v) => self.on_vertex(v, self.direction(v)),
+            Part::Edge(k) => self.on_edge(k),
         }
     }
 

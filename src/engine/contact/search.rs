@@ -92,15 +92,11 @@ impl<T: Scalar> Closest<T> {
         if self.side.to_f64() > 0.0 { -distance } else { distance }
     }
 
-    /// Returns the square of the distance to the segment's line, length².
-    fn line_square(&self) -> T {
-        self.side * self.side / self.square
-    }
-
     fn is_nearer_than(&self, other: &Self) -> bool {
+        let line_square = |of: &Self| of.side * of.side / of.square;
         self.distance_square < other.distance_square
             || self.distance_square == other.distance_square
-                && self.line_square() > other.line_square()
+                && line_square(self) > line_square(other)
     }
 }
 

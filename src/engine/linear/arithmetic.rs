@@ -63,35 +63,14 @@ impl ScalarName {
 
     /// Returns what is known of it.
     pub fn properties(self) -> Properties {
-        use Solver::{DenseLu, SparseCholesky};
-        match self {
-            ScalarName::F64 => {
-                Properties { digits: Some(16), solvers: Solver::ALL, no_mortar: None }
-            }
-            ScalarName::F32 => Properties {
-                digits: Some(7),
-                solvers: &[DenseLu, SparseCholesky],
-                no_mortar: Some("its integrals lose too many digits"),
-            },
-            ScalarName::F64x2 => Properties {
-                digits: Some(31),
-                solvers: &[DenseLu, SparseCholesky],
-                no_mortar: None,
-            },
-            ScalarName::Bounded => {
-                Properties { digits: Some(16), solvers: Solver::ALL, no_mortar: None }
-            }
-            ScalarName::BoundedDouble => Properties {
-                digits: Some(31),
-                solvers: &[DenseLu, SparseCholesky],
-                no_mortar: None,
-            },
-            ScalarName::Exact => Properties {
-                digits: None,
-                solvers: &[DenseLu, SparseCholesky],
-                no_mortar: Some("its integrals take square roots"),
-            },
-        }
+        const OWN: &[Solver] = &[Solver::DenseLu, Solver::SparseCholesky];
+        let (digits, solvers, no_mortar) = match self {
+            ScalarName::F64 | ScalarName::Bounded => (Some(16), Solver::ALL, None),
+            ScalarName::F32 => (Some(7), OWN, Some("its integrals lose too many digits")),
+            ScalarName::F64x2 | ScalarName::BoundedDouble => (Some(31), OWN, None),
+            ScalarName::Exact => (None, OWN, Some("its integrals take square roots")),
+        };
+        Properties { digits, solvers, no_mortar }
     }
 }
 

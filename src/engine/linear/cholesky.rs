@@ -91,29 +91,19 @@ impl Cholesky {
         b
     }
 
-    /// Returns whether every pivot is more than rounding leaves of the matrix's `diagonal`.
+    /// Returns whether every pivot, the square of a diagonal entry of L, is more than rounding leaves of the
+    /// matrix's `diagonal`.
     pub(super) fn has_large_pivots(&self, diagonal: &DVector<f64>) -> bool {
-        let pivots = self.pivots().into_iter().zip(diagonal);
-        pivots.into_iter().all(|(pivot, a)| is_large(pivot, *a))
-    }
-
-    /// Returns the square of each diagonal entry of L, the pivots, by equation.
-    fn pivots(&self) -> Vec<f64> {
-        let mut pivots = vec![0.0; self.symbolic.nrows()];
         let order = self.symbolic.perm().map(|order| order.arrays().0);
-        let mut keep = |place: usize, l: f64| {
-            pivots[order.map_or(place, |order| order[place])] = l * l;
-        };
+        let equation = |place: usize| order.map_or(place, |order| order[place]);
+        let is_large = |place: usize, l: f64| is_large(l * l, diagonal[equation(place)]);
         match self.lower() {
-            Lower::Entries(l) => (0..l.ncols()).for_each(|j| keep(j, l.val_of_col(j)[0])),
-            Lower::Blocks(l) => {
-                for s in 0..l.symbolic().n_supernodes() {
-                    let (start, block) = (l.supernode(s).start(), l.supernode(s).val());
-                    (0..block.ncols()).for_each(|j| keep(start + j, block[(j, j)]));
-                }
-            }
+            Lower::Entries(l) => (0..l.ncols()).all(|j| is_large(j, l.val_of_col(j)[0])),
+            Lower::Blocks(l) => (0..l.symbolic().n_supernodes()).all(|s| {
+                let (start, block) = (l.supernode(s).start(), l.supernode(s).val());
+                (0..block.ncols()).all(|j| is_large(start + j, block[(j, j)]))
+            }),
         }
-        pivots
     }
 
     /// Returns the lower triangle of L from the row and column `from` on.

@@ -7,13 +7,13 @@ use faer::linalg::lu::partial_pivoting::solve::{solve_in_place, solve_in_place_s
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::perm::Perm;
-use faer::{Accum, Par, Side};
+use faer::{Accum, MatMut, Par, Side};
 use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::is_large;
 use super::factors::{
-    Factors, Lu, Singular, backward_error, column, largest, of_columns, of_columns_mut, solve,
+    Factors, Lu, Singular, backward_error, largest, of_columns, of_columns_mut, solve,
 };
 
 /// LU factors of a matrix, of which the entries that are not 0 are kept beside them.
@@ -46,13 +46,11 @@ impl DenseLu {
             let pivot = factors[(j, j)];
             pivot.is_nan() || pivot.abs() <= rounding(n, f64::EPSILON) * largest
         });
-        match singular {
-            Some(column) => Err(Singular { column, pivot: factors[(column, column)] }),
-            None => {
-                let rows = Perm::new_checked(order.into(), back.into(), n);
-                Ok(DenseLu { matrix: entries, factors, rows })
-            }
+        if let Some(column) = singular {
+            return Err(Singular { column, pivot: factors[(column, column)] });
         }
+        let rows = Perm::new_checked(order.into(), back.into(), n);
+        Ok(DenseLu { matrix: entries, factors, rows })
     }
 }
 
@@ -64,7 +62,9 @@ impl Factors for DenseLu {
             MemBuffer::new(solve_in_place_scratch::<usize, f64>(self.matrix.size(), 1, par));
         let stack = MemStack::new(&mut memory);
         let rows = self.rows.as_ref();
-        solve_in_place(factors, factors, rows, column(x.as_mut_slice()), par, stack);
+        let n = x.len();
+        let column = MatMut::from_column_major_slice_mut(x.as_mut_slice(), n, 1);
+        solve_in_place(factors, factors, rows, column, par, stack);
         x
     }
 }
@@ -93,9 +93,7 @@ impl DenseCholesky {
         let is_held = |j: usize| is_large(pivots[j] * pivots[j], matrix[(j, j)]);
         (0..matrix.nrows()).all(is_held).then_some(DenseCholesky(factors))
     }
-}
 
-impl DenseCholesky {
     /// Returns the solutions x of A x = b for the columns b of a matrix.
     pub fn solve_all(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
         let x = self.0.solve(of_columns(b));

@@ -39,12 +39,6 @@ pub fn solve(factors: &impl Solve<f64>, b: &DVector<f64>) -> DVector<f64> {
     DVector::from_fn(b.len(), |i, _| x[(i, 0)])
 }
 
-/// A vector as faer takes it.
-pub fn column<T>(x: &mut [T]) -> MatMut<'_, T> {
-    let n = x.len();
-    MatMut::from_column_major_slice_mut(x, n, 1)
-}
-
 /// A matrix as faer takes it.
 pub fn of_columns<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(matrix.as_slice(), matrix.nrows(), matrix.ncols())

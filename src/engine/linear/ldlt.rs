@@ -1,11 +1,12 @@
 //! Sparse LDLᵀ without pivoting, for `f32`, double-doubles and rationals.
 //!
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
-//! 31(4), 2005 (up-looking, by the elimination tree); the order of the equations is that
-//! of `ordering`.
+//! 31(4), 2005 (up-looking, by the elimination tree, which tells where rows have entries: J. W. H. Liu, *The
+//! role of elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11(1), 1990); the order of the
+//! equations is that of `ordering`.
 
 use super::factors::Singular;
-use super::ordering::{Tree, order, places};
+use super::ordering::{order, places};
 use super::rounding;
 use super::symmetric::SparseSymmetric;
 use numbers::scalar::Field;
@@ -28,14 +29,31 @@ impl<F: Field> Ldlt<F> {
     pub fn new(matrix: &SparseSymmetric<F>) -> Result<Self, Singular> {
         let n = matrix.size();
         let order = order(matrix.pattern());
-        let upper = permuted(matrix, &order);
+        // The columns of the upper triangle in the new order: row and value.
+        let (place, mut upper) = (places(&order), vec![Vec::new(); n]);
+        for (i, j, value) in matrix.entries() {
+            let (p, q) = (place[i], place[j]);
+            upper[p.max(q)].push((p.min(q), value));
+        }
         let mut factors =
             Ldlt { order, columns: vec![Vec::new(); n], pivots: Vec::with_capacity(n) };
-        let mut tree = Tree::new(n);
+        // The elimination tree, as far as the rows done so far tell it.
+        let (mut parent, mut seen_in) = (vec![usize::MAX; n], vec![usize::MAX; n]);
         let mut y = vec![F::zero(); n];
         for (k, column) in upper.into_iter().enumerate() {
+            // Row k of L has entries where the tree leads to from those of A left of the diagonal.
             let mut path = Vec::new();
-            tree.row(k, column.iter().map(|(i, _)| *i), |i| path.push(i));
+            seen_in[k] = k;
+            for mut i in column.iter().map(|(i, _)| *i) {
+                while seen_in[i] != k {
+                    seen_in[i] = k;
+                    path.push(i);
+                    if parent[i] == usize::MAX {
+                        parent[i] = k;
+                    }
+                    i = parent[i];
+                }
+            }
             // Each before what it changes.
             path.sort_unstable();
             for (i, a) in column {
@@ -91,15 +109,4 @@ impl<F: Field> Ldlt<F> {
         }
         x
     }
-}
-
-/// Returns the columns of the upper triangle in the new order: row and value.
-fn permuted<F: Field>(matrix: &SparseSymmetric<F>, order: &[usize]) -> Vec<Vec<(usize, F)>> {
-    let place = places(order);
-    let mut columns = vec![Vec::new(); order.len()];
-    for (i, j, value) in matrix.entries() {
-        let (p, q) = (place[i], place[j]);
-        columns[p.max(q)].push((p.min(q), value));
-    }
-    columns
 }

@@ -6,8 +6,7 @@
 //! | `factors` | what factorisations share |
 //! | `dense` | faer's factors of dense matrices |
 //! | `error_bound` | how far a solution may be from the true one |
-//! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations and
-//!   where a factor has entries; faer's factor of one |
+//! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations; faer's factor of one |
 //! | [`cost`] | the time that exact numbers take |
 //! | `sparse`, `schur` | factors that tell a singular matrix; what is left of one on its last equations |
 //! | `sparse_lu` | factors of a sparse matrix that need not be symmetric |

@@ -1,8 +1,4 @@
-//! Factors of a sparse symmetric matrix: an order of its equations in which they fill little, by the
-//! library faer, and the elimination tree, which tells where they have entries.
-//!
-//! Source: J. W. H. Liu, *The role of elimination trees in sparse factorization*, SIAM J. Matrix Anal.
-//! Appl. 11(1), 1990.
+//! The order of the equations of a sparse symmetric matrix in which its factors fill little, by the library faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -24,40 +20,4 @@ pub(super) fn places(order: &[usize]) -> Vec<usize> {
     let mut places = vec![0; order.len()];
     order.iter().enumerate().for_each(|(place, equation)| places[*equation] = place);
     places
-}
-
-/// The elimination tree, as far as the rows done so far tell it.
-pub(super) struct Tree {
-    parent: Vec<usize>,
-    seen_in: Vec<usize>,
-}
-
-const NONE: usize = usize::MAX;
-
-impl Tree {
-    /// Returns the tree of `n` rows, none of which is done.
-    pub(super) fn new(n: usize) -> Self {
-        Tree { parent: vec![NONE; n], seen_in: vec![NONE; n] }
-    }
-
-    /// Visits where row k of L has entries, from the places of its `entries` in A left of the diagonal;
-    /// the rows are done in turn.
-    pub(super) fn row(
-        &mut self,
-        k: usize,
-        entries: impl Iterator<Item = usize>,
-        mut visit: impl FnMut(usize),
-    ) {
-        self.seen_in[k] = k;
-        for mut i in entries {
-            while self.seen_in[i] != k {
-                self.seen_in[i] = k;
-                visit(i);
-                if self.parent[i] == NONE {
-                    self.parent[i] = k;
-                }
-                i = self.parent[i];
-            }
-        }
-    }
 }

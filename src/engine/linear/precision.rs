@@ -77,7 +77,15 @@ macro_rules! by_own_elimination {
     ($($scalar:ty),+) => {$(
         impl Precision for $scalar {
             fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-                own(a, b, by)
+                let symmetric = lower(a);
+                match by {
+                    Solver::DenseLu => {
+                        let x = solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?;
+                        let x = DVector::from_vec(x);
+                        Ok(Solved { residual: symmetric.residual(&x, b), x })
+                    }
+                    Solver::SparseLu | Solver::SparseCholesky => Self::solve_symmetric(&symmetric, b),
+                }
             }
 
             fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
@@ -178,19 +186,6 @@ fn with_bound<V: Rounded>(
 ) -> Solved<WithBound<V>> {
     let error = error_bound(factors, entries, b, &solved.x);
     Solved { x: solved.x.map(|x| WithBound::new(x, error)), residual: solved.residual }
-}
-
-/// Solves by elimination of our own.
-fn own<T: Precision>(a: &SparseSquare<T>, b: &DVector<T>, by: Solver) -> Outcome<T> {
-    let symmetric = lower(a);
-    match by {
-        Solver::DenseLu => {
-            let x = solve_dense(|i, j| a[(i, j)], b.as_slice().to_vec())?;
-            let x = DVector::from_vec(x);
-            Ok(Solved { residual: symmetric.residual(&x, b), x })
-        }
-        Solver::SparseLu | Solver::SparseCholesky => T::solve_symmetric(&symmetric, b),
-    }
 }
 
 fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {

@@ -105,16 +105,12 @@ impl<F: Factors> Factors for Scaled<'_, F> {
     }
 }
 
-/// Returns the entry of a trial load: 1 or −1, without a pattern that a motion of the body could be
-/// orthogonal to.
-fn trial_load(i: usize) -> f64 {
-    if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 }
-}
-
 /// Returns the equation that moves most under a trial load, and how far, both scaled to a unit
 /// diagonal; nothing without equations.
 fn probe(factors: &Cholesky, diagonal: &DVector<f64>) -> Option<(usize, f64)> {
     let scale = diagonal.map(|d| d.sqrt());
+    // 1 and −1, without a pattern that a motion of the body could be orthogonal to.
+    let trial_load = |i: usize| if (i * i + i / 3) % 5 < 2 { 1.0 } else { -1.0 };
     let load = DVector::from_fn(scale.len(), |i, _| trial_load(i) * scale[i]);
     let moved = solve(factors, &load).component_mul(&scale);
     let largest = moved.iter().map(|x| x.abs()).enumerate();

@@ -36,20 +36,14 @@ impl SparseLu {
             return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
         };
         let lu = SparseLu { matrix: columns, factors };
-        let motion = motion(&lu, &lu.matrix);
+        // Under loads of 1, both scaled to columns whose largest entry is 1.
+        let scale = |j, _| largest(lu.matrix.val_of_col(j));
+        let motion = largest_motion(&lu, &DVector::from_fn(matrix.size(), scale));
         if motion < DOUBTFUL * farthest(matrix.size()) {
             return Ok(lu);
         }
         judged(matrix, motion).map_or(Ok(lu), Err)
     }
-}
-
-/// Returns the largest motion of a matrix by its factors, under loads of 1, both scaled to columns whose
-/// largest entry is 1.
-fn motion(factors: &impl Factors, matrix: &SparseColMat<usize, f64>) -> f64 {
-    let scale = |j| largest(matrix.val_of_col(j));
-    let scale = DVector::from_fn(matrix.ncols(), |j, _| scale(j));
-    largest_motion(factors, &scale)
 }
 
 impl Factors for SparseLu {

@@ -19,7 +19,6 @@ use crate::linear::{ScalarName, Solver};
 use crate::{Request, is_dense};
 use base::choices;
 use base::error::Result;
-use problem::model::Model;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
 use problem::scene::symmetry::half;
 
@@ -116,7 +115,10 @@ impl Plan {
         let model = &*request.model()?;
         let bodies = bodies::plan(model, variant);
         let solver = request.solver();
-        let equations = equations(model, variant, &bodies);
+        let (all, free) = (model.dofs(), model.free_dofs());
+        let idle = bodies.iter().filter(|body| body.idle.is_some()).map(|body| body.free).sum();
+        let solved = if variant == Variant::Printed { all } else { free };
+        let equations = Equations { all, restrained: all - free, free, solved, idle };
         let ContactModel { coupling, friction, status, .. } = request.contact;
         let plan = |candidates| ContactPlan { coupling, friction, status, candidates };
         let contact = Candidates::find(model).map(plan);
@@ -144,11 +146,4 @@ impl Plan {
     pub fn half_would_do(&self) -> bool {
         self.half.is_some() && (self.contact.is_none() || self.variant == Variant::Unilateral)
     }
-}
-
-fn equations(model: &Model, variant: Variant, bodies: &[BodyPlan]) -> Equations {
-    let (all, free) = (model.dofs(), model.free_dofs());
-    let idle = bodies.iter().filter(|body| body.idle.is_some()).map(|body| body.free).sum();
-    let solved = if variant == Variant::Printed { all } else { free };
-    Equations { all, restrained: all - free, free, solved, idle }
 }

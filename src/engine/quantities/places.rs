@@ -53,11 +53,6 @@ impl BodyPlace<'_> {
         &self.solution.elements[id.index()]
     }
 
-    /// Returns the states of its triangles.
-    fn states(&self) -> impl Iterator<Item = &State> {
-        self.body.triangles.iter().map(|id| self.state(*id))
-    }
-
     /// Returns the triangle with the largest von Mises stress.
     pub(super) fn largest(&self) -> TriangleId {
         self.body.triangles[self.most_stressed.first]
@@ -74,7 +69,8 @@ impl BodyPlace<'_> {
     }
 
     pub(super) fn max_von_mises_strain(&self) -> f64 {
-        self.states().map(|state| state.von_mises_strain).fold(0.0, f64::max)
+        let strains = self.body.triangles.iter().map(|id| self.state(*id).von_mises_strain);
+        strains.fold(0.0, f64::max)
     }
 }
 

@@ -35,93 +35,50 @@ impl Value {
     }
 }
 
-impl From<&usize> for Value {
-    fn from(count: &usize) -> Self {
-        Value::Count(*count)
-    }
-}
-
-impl From<&f64> for Value {
-    fn from(x: &f64) -> Self {
-        Value::Number(*x)
-    }
-}
-
 impl<const N: usize> From<&[f64; N]> for Value {
     fn from(components: &[f64; N]) -> Self {
         Value::Components(components.to_vec())
     }
 }
 
-impl From<&Vec<[f64; 2]>> for Value {
-    fn from(vectors: &Vec<[f64; 2]>) -> Self {
-        Value::Components(vectors.as_flattened().to_vec())
-    }
+/// How a field of each type becomes a value.
+macro_rules! from {
+    ($($field:ident: $type:ty => $value:expr;)+) => {$(
+        impl From<&$type> for Value {
+            fn from($field: &$type) -> Self {
+                $value
+            }
+        }
+    )+};
 }
 
-impl From<&NodeId> for Value {
-    fn from(node: &NodeId) -> Self {
-        Value::Count(node.number())
-    }
+from! {
+    count: usize => Value::Count(*count);
+    x: f64 => Value::Number(*x);
+    vectors: Vec<[f64; 2]> => Value::Components(vectors.as_flattened().to_vec());
+    node: NodeId => Value::Count(node.number());
+    triangle: TriangleId => Value::Count(triangle.number());
+    words: String => Value::Words(words.clone());
+    is: bool => Value::State(u8::from(*is), u8::from(*is).to_string());
+    x: Option<f64> => x.map_or(Value::Unknown, Value::Number);
+    status: Option<Status> => match status {
+        None => Value::Unknown,
+        Some(Status::Open) => Value::State(0, Status::Open.to_string()),
+        Some(Status::Stick) => Value::State(1, Status::Stick.to_string()),
+        Some(Status::Slip(sense)) => Value::State(2, Status::Slip(*sense).to_string()),
+    };
+    cycle: Option<Cycle> => Value::Words(match cycle {
+        None => "new".into(),
+        Some(Cycle { length: 1, .. }) => "unchanged".into(),
+        Some(Cycle { length, members }) => format!("as in {} (period of {length})", members[0]),
+    });
+    list: Vec<u8> => Value::Words(joined(list, " "));
+    statuses: Option<Vec<Status>> => match statuses {
+        None => Value::Unknown,
+        Some(list) => Value::Words(joined(list, ", ")),
+    };
 }
 
-impl From<&TriangleId> for Value {
-    fn from(triangle: &TriangleId) -> Self {
-        Value::Count(triangle.number())
-    }
-}
-
-impl From<&String> for Value {
-    fn from(words: &String) -> Self {
-        Value::Words(words.clone())
-    }
-}
-
-impl From<&bool> for Value {
-    fn from(is: &bool) -> Self {
-        Value::State(u8::from(*is), u8::from(*is).to_string())
-    }
-}
-
-impl From<&Option<f64>> for Value {
-    fn from(x: &Option<f64>) -> Self {
-        x.map_or(Value::Unknown, Value::Number)
-    }
-}
-
-impl From<&Option<Status>> for Value {
-    fn from(status: &Option<Status>) -> Self {
-        let number = |status: &Status| match status {
-            Status::Open => 0,
-            Status::Stick => 1,
-            Status::Slip(_) => 2,
-        };
-        let state = |status: &Status| Value::State(number(status), status.to_string());
-        status.as_ref().map_or(Value::Unknown, state)
-    }
-}
-
-impl From<&Option<Cycle>> for Value {
-    fn from(cycle: &Option<Cycle>) -> Self {
-        Value::Words(match cycle {
-            None => "new".into(),
-            Some(Cycle { length: 1, .. }) => "unchanged".into(),
-            Some(Cycle { length, members }) => format!("as in {} (period of {length})", members[0]),
-        })
-    }
-}
-
-impl From<&Vec<u8>> for Value {
-    fn from(list: &Vec<u8>) -> Self {
-        Value::Words(list.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
-    }
-}
-
-impl From<&Option<Vec<Status>>> for Value {
-    fn from(statuses: &Option<Vec<Status>>) -> Self {
-        let words = |list: &Vec<Status>| {
-            list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
-        };
-        statuses.as_ref().map_or(Value::Unknown, |list| Value::Words(words(list)))
-    }
+fn joined<T: ToString>(list: &[T], between: &str) -> String {
+    list.iter().map(T::to_string).collect::<Vec<_>>().join(between)
 }

@@ -36,6 +36,9 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     let [width, height] = across(model, &stamp.nodes);
     let restrained =
         |axis: usize| stamp.nodes.iter().filter(|node| model.restraints_of(**node)[axis]).count();
+    let [nodes, triangles] = [model.nodes.len(), model.triangles.len()];
+    let edges = model.contact.target.len();
+    let mesh = format!("{nodes} nodes, {triangles} triangles, {edges} target edges");
     let assumed = |what, set_to: String| Assumption { what, set_to: set_to.trim_end().into() };
     // The parts of the paper's example have names of their own.
     let [of_target, of_contact, shape, axis] = match is_example(scene) {
@@ -55,15 +58,7 @@ pub fn assumptions(scene: &Scene) -> Vec<Assumption> {
     vec![
         assumed(of_target, format!("{} {unit}", six_digits(across(model, &target)[0] / 2.0))),
         assumed(of_contact, format!("{} {unit}", six_digits(across(model, contact)[0] / 2.0))),
-        assumed(
-            "mesh",
-            format!(
-                "{} nodes, {} triangles, {} target edges",
-                model.nodes.len(),
-                model.triangles.len(),
-                model.contact.target.len()
-            ),
-        ),
+        assumed("mesh", mesh),
         assumed(shape, format!("{} x {} {unit}", six_digits(width), six_digits(height))),
         assumed("plane problem", format!("plane {}", model.plane)),
         assumed(axis, format!("{} nodes in x, {} in y", restrained(0), restrained(1))),

@@ -271,8 +271,3 @@ impl Case {
         Call::c_cnt(self.model(), self.reading(), &self.model().nodes)
     }
 }
-
-/// Returns where the run of a variant stands.
-pub(super) fn variant_index(variant: Variant) -> usize {
-    Variant::ALL.iter().position(|v| *v == variant).expect("ALL holds every variant")
-}

@@ -8,10 +8,10 @@ use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Compared};
 use crate::audit::range::{Range, range};
-use crate::audit::{Audit, Case, audit, first_screen, screen, steps};
+use crate::audit::{Audit, Case, audit, screen, steps};
 use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
 use ::report::folder::FolderOptions;
-use ::report::{folder, pressure};
+use ::report::{folder, json, pressure};
 use base::error::InputError;
 use base::files;
 use base::suggestion::did_you_mean;
@@ -177,7 +177,7 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
     let document = claims::Document { judged: &judged, by_reading: &by_reading };
-    let json = claims::claim_json(&document, &case.scene);
+    let json = json::line(Some(&case.scene), &document);
     if let Some(out) = &args.out {
         files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
     }
@@ -196,7 +196,8 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
-    let json = || report::finding_json(finding, &measured, &case.scene);
+    let json =
+        || json::line(Some(&case.scene), &report::FindingRow { finding, measured: &measured });
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
         let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
@@ -220,7 +221,7 @@ fn whole(args: &Args) -> Result<()> {
     let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
-    let found = if is_whole { audit(&case, &places, &watch) } else { first_screen(&case, &watch) };
+    let found = audit(&case, &places, is_whole, &watch);
     bar.finish();
     let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
     if is_whole {

@@ -215,19 +215,14 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     let theirs = nearest.first().map_or(Vec::new(), |k| ended[*k].1.1.clone());
     let variants: Vec<Variant> = nearest.iter().map(|k| ended[*k].1.0).collect();
     let is_unsettled = |row: &VariantRow| variants.contains(&row.variant) && row.end.is_unsettled();
-    let differences = theirs.iter().zip(&own).flat_map(|(theirs, own)| {
-        [
-            over(theirs.max_von_mises_stress - own.max_von_mises_stress, own.max_von_mises_stress),
-            over(theirs.max_von_mises_strain - own.max_von_mises_strain, own.max_von_mises_strain),
-        ]
-    });
+    let largest = |body: &BodySummary| [body.max_von_mises_stress, body.max_von_mises_strain];
+    let pairs = theirs.iter().zip(&own);
+    let pairs = pairs.flat_map(|(theirs, own)| largest(theirs).into_iter().zip(largest(own)));
+    let differences = pairs.map(|(theirs, own)| beyond_noise(over(theirs - own, own).abs()));
     Some(Fields {
         unsettled: rows.iter().any(is_unsettled),
         variants,
-        difference: differences
-            .map(|x| beyond_noise(x.abs()))
-            .filter(|x| x.is_finite())
-            .reduce(f64::max),
+        difference: differences.filter(|x| x.is_finite()).reduce(f64::max),
         by_rounding: of_the_paper(rows)
             .any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
         errors: Estimates::new(equilibrium).errors,
@@ -248,10 +243,9 @@ fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
     let tried = || claims.iter().filter(|judged| !judged.elsewhere.is_empty());
     let p12 = tried().find(|judged| judged.claim.id == "P12")?;
     let numbers = || p12.elsewhere.iter().filter_map(|other| other.measured.number);
-    let verdicts = |judged: &&JudgedClaim| {
-        let verdicts = judged.elsewhere.iter().map(|other| other.measured.verdict);
-        let first: Option<ClaimVerdict> = verdicts.clone().next();
-        verdicts.into_iter().any(|verdict| Some(verdict) != first)
+    let changes = |judged: &&JudgedClaim| {
+        let mut pairs = judged.elsewhere.windows(2);
+        pairs.any(|pair| pair[0].measured.verdict != pair[1].measured.verdict)
     };
     let true_from = |judged: &JudgedClaim| {
         let clearances = judged
@@ -265,7 +259,7 @@ fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
     Some(Spread {
         places: distinct(p12.elsewhere.iter().map(|other| other.place)),
         error: [numbers().reduce(f64::min)?, numbers().reduce(f64::max)?],
-        changes: tried().filter(verdicts).map(|judged| judged.claim.id).collect(),
-        true_from: tried().filter(verdicts).filter_map(true_from).collect(),
+        changes: tried().filter(changes).map(|judged| judged.claim.id).collect(),
+        true_from: tried().filter(changes).filter_map(true_from).collect(),
     })
 }

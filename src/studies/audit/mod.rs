@@ -33,6 +33,7 @@ use readings::Effect;
 use variants::VariantRow;
 
 /// The results of an audit.
+#[derive(Serialize)]
 pub struct Audit {
     /// What the paper says, each with its verdict, in the order of its text.
     pub claims: Vec<JudgedClaim>,
@@ -43,6 +44,7 @@ pub struct Audit {
     /// What each other reading changes, in the order of `listings/READING.md`, section 4.
     pub readings: Vec<Effect>,
     /// What the scene shows of each finding, in the order of the register.
+    #[serde(serialize_with = "tables::rows")]
     pub findings: Vec<(&'static Finding, Evidence)>,
     /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
     pub prices: Result<Vec<Price>, String>,
@@ -54,6 +56,7 @@ pub struct Audit {
     /// The reference solution; nothing without contact, and where it does not run.
     pub reference: Option<Compared>,
     /// Why one of these two, or both, are missing on a scene with contact.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unsolved: Vec<String>,
     /// The contact under other coefficients of friction.
     pub friction: Vec<FrictionContact>,
@@ -99,21 +102,11 @@ pub fn steps() -> usize {
     FINDINGS.len() + prices::runs() + 5
 }
 
-/// Audits a scene for the first screen alone: what only the whole report has is left out, which is the claims
-/// under each other reading, the contact under other coefficients of friction, and what rounding does to the
-/// solutions that others are compared with.
-pub fn first_screen(case: &Case, watch: &(dyn Fn() + Sync)) -> Audit {
-    made(case, &Vec::new(), false, watch)
-}
-
 /// Audits a scene: claims, readings, findings and variants, each against the default, and what each printed
-/// fault costs; claims also at the `places` of the range of what the paper leaves open, and under each other
-/// reading. `watch` is called after each step.
-pub fn audit(case: &Case, places: &Range, watch: &(dyn Fn() + Sync)) -> Audit {
-    made(case, places, true, watch)
-}
-
-fn made(case: &Case, places: &Range, whole: bool, watch: &(dyn Fn() + Sync)) -> Audit {
+/// fault costs; claims also at the `places` of the range of what the paper leaves open. Where it `is_whole`, not for
+/// the first screen alone, also the claims under each other reading, the contact under other coefficients of
+/// friction, and what rounding does to the solutions that others are compared with. `watch` is called after each step.
+pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
     let measured = |finding: &'static Finding| {
@@ -125,12 +118,12 @@ fn made(case: &Case, places: &Range, whole: bool, watch: &(dyn Fn() + Sync)) -> 
     let readings = || watched(readings::effects(case), watch);
     let variants = || watched(variants::side_by_side(case), watch);
     let claims = || watched(claims::judge(CLAIMS, case, places), watch);
-    let by_reading = || match whole {
+    let by_reading = || match is_whole {
         true => watched(claims::by_reading(CLAIMS, case), watch),
         false => watched(Vec::new(), watch),
     };
     let friction =
-        || case.model().target().filter(|_| whole).map_or(Vec::new(), |_| friction(case));
+        || case.model().target().filter(|_| is_whole).map_or(Vec::new(), |_| friction(case));
     let prices = || prices::on(case, watch);
     // All at once, the longest first: each alone would end with one long run on one core.
     let (prices, (findings, (readings, (claims, (by_reading, (variants, friction)))))) =
@@ -139,8 +132,8 @@ fn made(case: &Case, places: &Range, whole: bool, watch: &(dyn Fn() + Sync)) -> 
             rayon::join(findings, || rayon::join(readings, || rayon::join(claims, others)))
         });
     let (equilibrium, reference) = rayon::join(
-        || case.equilibrium().map(|solution| compared(solution, whole)),
-        || case.reference().map(|solution| compared(solution, whole)),
+        || case.equilibrium().map(|solution| compared(solution, is_whole)),
+        || case.reference().map(|solution| compared(solution, is_whole)),
     );
     Audit {
         claims,
@@ -163,7 +156,7 @@ fn watched<T>(computed: T, watch: &(dyn Fn() + Sync)) -> T {
     computed
 }
 
-fn compared(solution: &Solution, whole: bool) -> Compared {
+fn compared(solution: &Solution, is_whole: bool) -> Compared {
     Compared {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
@@ -172,7 +165,7 @@ fn compared(solution: &Solution, whole: bool) -> Compared {
         overlap: report::tables::overlap(solution),
         mesh_error: variants::mesh_error(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
-        rounding: if whole { perturbed(solution) } else { None },
+        rounding: if is_whole { perturbed(solution) } else { None },
     }
 }
 
@@ -182,13 +175,13 @@ fn friction(case: &Case) -> Vec<FrictionContact> {
         let friction = Friction::new(*mu).expect("the coefficients are not negative");
         let request = case.request(Variant::Unilateral).equilibrium();
         let contact = ContactModel { friction, ..request.contact };
-        let solution = solve(&request.contact(contact), &mut |_| ());
-        let nodes = solution.map_err(NoFigures::fails).and_then(|solution| {
-            match perturbed(&solution).is_some_and(|found| found.decides()) {
-                true => Err(NoFigures::Rounding),
-                false => Ok(solution.in_contact().cloned().collect()),
+        let nodes = match solve(&request.contact(contact), &mut |_| ()) {
+            Err(why) => Err(NoFigures::fails(why)),
+            Ok(run) if perturbed(&run).is_some_and(|found| found.decides()) => {
+                Err(NoFigures::Rounding)
             }
-        });
+            Ok(run) => Ok(run.in_contact().cloned().collect()),
+        };
         FrictionContact { friction, nodes }
     };
     FRICTION.par_iter().map(rubbing).collect()

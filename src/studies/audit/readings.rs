@@ -59,7 +59,11 @@ type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
     let cases = || [case].into_iter().chain(case.equivalents());
-    let as_read: Vec<(&Case, AsRead)> = cases().map(|case| (case, AsRead::new(case))).collect();
+    let as_read = |case| AsRead {
+        mirror: initial(case, case.reading()),
+        blank: executed(case, &Settings::default()),
+    };
+    let as_read: Vec<(&Case, AsRead)> = cases().map(|case| (case, as_read(case))).collect();
     let effect = |(row, other)| {
         let mut effects = as_read.iter().map(|(case, own)| Effect::new(row, other, case, own));
         effects.next().expect("the case itself").repeated(effects)
@@ -73,13 +77,6 @@ struct AsRead {
     mirror: Result<Initial, Error>,
     /// Executed under a blank worksheet's settings.
     blank: Result<Initial, Box<Failure>>,
-}
-
-impl AsRead {
-    fn new(case: &Case) -> Self {
-        let (mirror, blank) = (initial(case, case.reading()), executed(case, &Settings::default()));
-        AsRead { mirror, blank }
-    }
 }
 
 /// The values of the ambiguities that differ from what a case is read by, each with the reading that it
@@ -128,10 +125,15 @@ impl Effect {
         as_read: &AsRead,
     ) -> Self {
         let own = case.published_variant();
-        let variant = match row.trial {
-            Trial::OwnVariant | Trial::EveryShape => Some(own),
-            Trial::Printed => Some(Variant::Printed),
-            Trial::Worksheet | Trial::Strains => None,
+        let (variant, of) = match row.trial {
+            Trial::OwnVariant | Trial::EveryShape => {
+                (Some(own), format!("displacement under {own}"))
+            }
+            Trial::Printed => {
+                (Some(Variant::Printed), format!("displacement under {}", Variant::Printed))
+            }
+            Trial::Worksheet => (None, "listings executed once".into()),
+            Trial::Strains => (None, format!("von Mises strain under {own}")),
         };
         let run = variant.and_then(|variant| case.run(variant).ok());
         let mut effect = Effect {
@@ -146,96 +148,83 @@ impl Effect {
             variant,
             apart: false,
             unsettled: false,
-            of: match row.trial {
-                Trial::OwnVariant | Trial::EveryShape => format!("displacement under {own}"),
-                Trial::Printed => format!("displacement under {}", Variant::Printed),
-                Trial::Worksheet => "listings executed once".into(),
-                Trial::Strains => format!("von Mises strain under {own}"),
-            },
+            of,
             failure: None,
         };
-        let outcome = match row.trial {
-            Trial::OwnVariant => effect.mirror(case, as_read, &reading, own),
-            Trial::Printed => effect.mirror(case, as_read, &reading, Variant::Printed),
-            Trial::EveryShape => effect.every_shape(case, &reading, own),
-            Trial::Worksheet => effect.worksheet(case, as_read, value.change),
-            Trial::Strains => effect.strains(case, own),
-        };
+        let outcome = effect.measure(row.trial, value.change, reading, case, as_read);
         effect.failure = outcome.err().map(NoFigures::fails);
         effect
     }
 
-    /// The mirror under the reading, beside the mirror under the default one.
-    fn mirror<'a>(
+    fn measure<'a>(
         &mut self,
+        trial: Trial,
+        change: Change,
+        reading: Reading,
         case: &'a Case,
         as_read: &'a AsRead,
-        reading: &Reading,
-        variant: Variant,
     ) -> Outcome<'a> {
-        self.compare(as_read.mirror.as_ref()?, &initial(case, reading)?);
-        let request = case.request(variant).reading(*reading);
-        let other = solve(&request, &mut |_| ())?;
-        self.equilibrium_error = equilibrium_error(case, &request, &other);
-        self.apart = other.model.plane != case.model().plane;
-        self.unsettled = other.last().cycle.as_ref().is_some_and(|cycle| cycle.length > 1);
-        let own = case.run(variant).map_err(|why| format!("as it is read: {why}"))?;
-        self.displacement = Some(largest_difference(own, &other));
-        Ok(())
-    }
-
-    /// The shapes of a variant once more under the reading, which can only make `c_cnt` fail, or
-    /// leave everything as it is.
-    fn every_shape<'a>(
-        &mut self,
-        case: &'a Case,
-        reading: &Reading,
-        variant: Variant,
-    ) -> Outcome<'a> {
-        let solution = case.run(variant)?;
-        for step in &solution.steps {
-            let call = Call::c_cnt(&solution.model, reading, &step.shape)
-                .map_err(|why| format!("iteration {}: {why}", step.k))?;
-            if case.scene.contact.status.is_printed() {
-                let Detail::Published(own) = &step.detail else {
-                    unreachable!("a published variant")
-                };
-                assert_eq!(call.pairs, own.pairs.whole(), "{} changes no value", self.reading);
+        let own = case.run(self.variant.unwrap_or(case.published_variant()));
+        match trial {
+            // The mirror under the reading, beside the mirror under the default one.
+            Trial::OwnVariant | Trial::Printed => {
+                self.compare(as_read.mirror.as_ref()?, &initial(case, &reading)?);
+                let variant = self.variant.expect("the trial runs one");
+                let request = case.request(variant).reading(reading);
+                let other = solve(&request, &mut |_| ())?;
+                self.equilibrium_error = equilibrium_error(case, &request, &other);
+                self.apart = other.model.plane != case.model().plane;
+                self.unsettled = other.last().cycle.as_ref().is_some_and(|cycle| cycle.length > 1);
+                let own = own.map_err(|why| format!("as it is read: {why}"))?;
+                self.displacement = Some(max_displacement(&(&own.u - &other.u)));
+            }
+            // The shapes of a variant once more under the reading, which can only make `c_cnt` fail, or
+            // leave everything as it is.
+            Trial::EveryShape => {
+                let solution = own?;
+                for step in &solution.steps {
+                    let call = Call::c_cnt(&solution.model, &reading, &step.shape)
+                        .map_err(|why| format!("iteration {}: {why}", step.k))?;
+                    if case.scene.contact.status.is_printed() {
+                        let Detail::Published(own) = &step.detail else {
+                            unreachable!("a published variant")
+                        };
+                        assert_eq!(
+                            call.pairs,
+                            own.pairs.whole(),
+                            "{} changes no value",
+                            self.reading
+                        );
+                    }
+                }
+                (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));
+                self.equilibrium_error = equilibrium_error(case, &solution.request, solution);
+            }
+            // The listings under other settings of the worksheet, beside those under a blank one's.
+            Trial::Worksheet => {
+                let mut settings = Settings::default();
+                change.set(&mut settings);
+                let changed = executed(case, &settings)?;
+                let blank = as_read.blank.as_ref();
+                let blank = blank
+                    .map_err(|why| format!("runs; under a blank worksheet it fails: {why}"))?;
+                self.compare(blank, &changed);
+            }
+            // The von Mises strain by the formula of the von Mises stress on strains, divided by 1 + nu,
+            // beside the default: the largest difference of a triangle.
+            Trial::Strains => {
+                let solution = own?;
+                let model = &*solution.model;
+                let other =
+                    solution.elements.iter().zip(&model.triangles).map(|(state, triangle)| {
+                        let (nu, epsilon) = (triangle.material.nu, &state.epsilon);
+                        let other =
+                            element::von_mises_strain_by_stress_formula(model.plane, nu, epsilon);
+                        (state.von_mises_strain - other).abs()
+                    });
+                self.displacement = Some(other.fold(0.0, f64::max));
             }
         }
-        (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));
-        self.equilibrium_error = equilibrium_error(case, &solution.request, solution);
-        Ok(())
-    }
-
-    /// The listings under other settings of the worksheet, beside those under a blank one's.
-    fn worksheet<'a>(
-        &mut self,
-        case: &'a Case,
-        as_read: &'a AsRead,
-        change: Change,
-    ) -> Outcome<'a> {
-        let mut settings = Settings::default();
-        change.set(&mut settings);
-        let changed = executed(case, &settings)?;
-        let blank = as_read.blank.as_ref();
-        let blank =
-            blank.map_err(|why| format!("runs; under a blank worksheet it fails: {why}"))?;
-        self.compare(blank, &changed);
-        Ok(())
-    }
-
-    /// R10: the von Mises strain by the formula of the von Mises stress on strains, divided by
-    /// 1 + nu, beside the default: the largest difference of a triangle.
-    fn strains<'a>(&mut self, case: &'a Case, variant: Variant) -> Outcome<'a> {
-        let solution = case.run(variant)?;
-        let model = &*solution.model;
-        let other = solution.elements.iter().zip(&model.triangles).map(|(state, triangle)| {
-            let (nu, epsilon) = (triangle.material.nu, &state.epsilon);
-            let other = element::von_mises_strain_by_stress_formula(model.plane, nu, epsilon);
-            (state.von_mises_strain - other).abs()
-        });
-        self.displacement = Some(other.fold(0.0, f64::max));
         Ok(())
     }
 
@@ -286,9 +275,4 @@ fn equilibrium_error(case: &Case, request: &Request, run: &Solution) -> Option<f
     }
     let other = solve(&request.equilibrium(), &mut |_| ()).ok()?;
     Some(apart(run, &other).energy_relative)
-}
-
-/// Largest |u| between two displacement fields, length.
-fn largest_difference(a: &Solution, b: &Solution) -> f64 {
-    max_displacement(&(&a.u - &b.u))
 }

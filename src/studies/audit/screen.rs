@@ -9,7 +9,7 @@ use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::range::is_example;
 use crate::audit::variants::{End, PressedAcross, VariantRow};
-use crate::audit::{Assumption, Audit, Compared};
+use crate::audit::{Assumption, Audit};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
 use paper::mirror::Reading;
@@ -75,9 +75,15 @@ impl<'a> Screen<'a> {
     /// Collects the parts.
     pub fn new(audit: &'a Audit, conclusion: &Conclusion, scene: &Scene) -> Self {
         let others = of_the_paper(&audit.variants).filter(|(_, row)| !is_nearest(conclusion, row));
+        let error = conclusion.fields.as_ref().and_then(|of| of.errors.mesh_energy_relative);
         let contact = conclusion.coupled.as_ref().map(|_| OfContact {
             runs: runs(audit, scene),
-            mesh_error: error_of_the_mesh(conclusion),
+            mesh_error: error.map(|error| {
+                format!(
+                    "Error of the mesh in the energy norm: {}, {UNDERESTIMATE}.",
+                    percent(error)
+                )
+            }),
             others: others.filter_map(|(_, row)| evidence(row, scene)).collect(),
             statements: statements(&audit.claims),
             faults: faults(&audit.prices),
@@ -90,6 +96,10 @@ impl<'a> Screen<'a> {
 /// Reports the first screen.
 pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     let under = claims::under(&conclusion.reading);
+    let name = &scene.word;
+    let more = format!(
+        "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
+    );
     let Screen { verdict, contact } = Screen::new(audit, conclusion, scene);
     let report = Report::titled(format!(
         "Audit of Filipov & Khomenko, \"Plane contact by the finite element method\", on scene {}{under}",
@@ -99,7 +109,7 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
     .heading("Verdict")
     .notes(verdict);
     let Some(OfContact { runs, mesh_error, others, statements, faults, assumed }) = contact else {
-        return report.line(more(scene));
+        return report.line(more);
     };
     report
         .table(RUNS, runs)
@@ -120,7 +130,7 @@ pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
             assumed_in(scene),
             assumed.iter().map(Assumption::to_string).collect::<Vec<_>>().join("; ")
         ))
-        .line(more(scene))
+        .line(more)
 }
 
 /// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
@@ -151,16 +161,14 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
     let range = (is_example && conclusion.reading == Reading::default()).then(conclusion::recorded);
     let strongest = of_the_paper(&audit.variants).filter(|(_, row)| is_nearest(conclusion, row));
     let strongest = strongest.filter_map(|(_, row)| evidence(row, scene));
-    let other_code = audit.claims.iter().find(|judged| judged.claim.id == "P13");
-    let other_code =
-        other_code.filter(|judged| is_example && judged.measured.verdict == Verdict::NotCheckable);
-    let other_code =
-        other_code.map(|_| "Agreement with the commercial code cannot be checked (P13).".into());
-    let overlap = audit.equilibrium.as_ref().and_then(|found| found.overlap.clone());
-    let overlap =
-        overlap.map(|what| format!("Of the equilibrium that runs are compared with: {what}"));
+    let is_unknown = |judged: &JudgedClaim| {
+        judged.claim.id == "P13" && judged.measured.verdict == Verdict::NotCheckable
+    };
+    let other_code = (is_example && audit.claims.iter().any(is_unknown))
+        .then(|| "Agreement with the commercial code cannot be checked (P13).".into());
+    let overlap = audit.equilibrium.iter().filter_map(|found| found.overlap.as_ref());
     overlap
-        .into_iter()
+        .map(|what| format!("Of the equilibrium that runs are compared with: {what}"))
         .chain([coupled])
         .chain(nearest)
         .chain(range)
@@ -193,10 +201,24 @@ fn runs(audit: &Audit, scene: &Scene) -> Table {
     let bodies: Vec<&str> = scene.model.bodies.iter().map(|body| body.name.as_str()).collect();
     let stress =
         format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
-    let rows = of_the_paper(&audit.variants)
-        .map(|(_, row)| run(row))
-        .chain(audit.equilibrium.as_ref().map(equilibrium))
-        .chain(is_example(scene).then(calculix));
+    let equilibrium = audit.equilibrium.as_ref().map(|found| {
+        let share = found.target_share.map(Cell::percent).into();
+        let stresses = stresses(&found.bodies, found.mesh_error).into();
+        vec![
+            "equilibrium".into(),
+            share,
+            found.in_contact.to_string().into(),
+            stresses,
+            Cell::Empty,
+        ]
+    });
+    // CalculiX's recorded figures, which no run of this audit makes.
+    let calculix = is_example(scene).then(|| {
+        let stresses = RECORDED.map(|(_, stress)| stress.to_string()).join(" / ");
+        vec!["CalculiX".into(), Cell::Empty, Cell::Empty, stresses.into()]
+    });
+    let of_the_paper = of_the_paper(&audit.variants).map(|(_, row)| run(row));
+    let rows = of_the_paper.chain(equilibrium).chain(calculix);
     Table::new(["run", "load passed on", "nodes in contact", &stress, "error, energy norm"], rows)
 }
 
@@ -227,32 +249,9 @@ fn run(row: &VariantRow) -> Vec<Cell> {
     }
 }
 
-fn equilibrium(found: &Compared) -> Vec<Cell> {
-    let nodes = found.in_contact.to_string();
-    vec![
-        "equilibrium".into(),
-        found.target_share.map(Cell::percent).into(),
-        nodes.into(),
-        stresses(&found.bodies, found.mesh_error).into(),
-        Cell::Empty,
-    ]
-}
-
-/// CalculiX's recorded figures, which no run of this audit makes.
-fn calculix() -> Vec<Cell> {
-    let stresses = RECORDED.map(|(_, stress)| stress.to_string()).join(" / ");
-    vec!["CalculiX".into(), Cell::Empty, Cell::Empty, stresses.into()]
-}
-
 fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
     let each = bodies.iter().map(|body| figure(body.max_von_mises_stress, error));
     each.collect::<Vec<_>>().join(" / ")
-}
-
-fn error_of_the_mesh(conclusion: &Conclusion) -> Option<String> {
-    let error = conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
-    let error = percent(error);
-    Some(format!("Error of the mesh in the energy norm: {error}, {UNDERESTIMATE}."))
 }
 
 /// Says what is wrong with a run that passes a load on: which node is pressed across an open gap, which ends inside
@@ -273,9 +272,9 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
     let across = across.map(|PressedAcross { node, pressure, gap }| {
         let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
-        let (gap, tolerance) = (length(gap), scene.model.contact.tolerance);
+        let (gap, c_tol) = (length(gap), scene.model.contact.tolerance);
         format!(
-            "node {node} is pressed with {pressure} across an open gap of {gap} (c_tol {tolerance})"
+            "node {node} is pressed with {pressure} across an open gap of {gap} (c_tol {c_tol})"
         )
     });
     let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
@@ -284,11 +283,8 @@ fn evidence(row: &VariantRow, scene: &Scene) -> Option<String> {
     });
     let pulls = (!pulling.is_empty())
         .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
-    let mirrored = asymmetry.filter(|part| *part > 0.0).map(|part| {
-        format!(
-            "the symmetric scene answers unsymmetrically, by {} of the largest |u|",
-            percent(part)
-        )
+    let mirrored = asymmetry.filter(|part| *part > 0.0).map(percent).map(|part| {
+        format!("the symmetric scene answers unsymmetrically, by {part} of the largest |u|")
     });
     let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
     let unsettled = if row.end.is_unsettled() { " (unsettled)" } else { "" };
@@ -304,8 +300,7 @@ fn statements(judged: &[JudgedClaim]) -> Table {
         let ids = found.map(|judged| format!("{}{}", judged.claim.id, mark(judged.claim.is_ours)));
         Cell::from(ids.collect::<Vec<_>>().join(" "))
     };
-    let scopes =
-        Scope::ALL.iter().filter(|scope| judged.iter().any(|judged| judged.scope == **scope));
+    let scopes = Scope::ALL.iter().filter(|scope| judged.iter().any(|own| own.scope == **scope));
     let rows = scopes.map(|scope| {
         let cells = Verdict::ALL.iter().map(|verdict| of(*scope, *verdict));
         std::iter::once(scope.to_string().into()).chain(cells).collect()
@@ -331,29 +326,16 @@ fn faults(prices: &Result<Vec<Price>, String>) -> Result<Faults<'_>, String> {
     let rounding = of(Weight::Rounding).map(|price| (Weight::Rounding.to_string(), price));
     let own = prices[0].outcome.from_equilibrium();
     let own = own.map_or("no equilibrium to compare with".into(), percent);
-    let free = prices::of_weight(prices, Weight::Free);
+    let as_far = "these cost nothing: the corrected algorithm is as far, without friction";
+    let mut others = vec![[own, listed(prices::of_weight(prices, Weight::Free)), as_far.into()]];
     let none = prices::of_weight(prices, Weight::NoFault);
-    let free = [
-        own,
-        listed(free),
-        "these cost nothing: the corrected algorithm is as far, without friction".into(),
-    ];
-    let none = (!none.is_empty())
-        .then(|| ["none".into(), listed(none), "no fault here, as no node slides".into()]);
-    Ok(Faults {
-        dear: fatal.chain(shifts).chain(rounding).collect(),
-        others: std::iter::once(free).chain(none).collect(),
-    })
+    if !none.is_empty() {
+        others.push(["none".into(), listed(none), "no fault here, as no node slides".into()]);
+    }
+    Ok(Faults { dear: fatal.chain(shifts).chain(rounding).collect(), others })
 }
 
 /// Says what stands before the assumptions.
 pub fn assumed_in(scene: &Scene) -> &'static str {
     if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" }
-}
-
-fn more(scene: &Scene) -> String {
-    let name = &scene.word;
-    format!(
-        "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
-    )
 }

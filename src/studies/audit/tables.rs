@@ -2,20 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::audit::claims::table as claims;
-use crate::audit::claims::{JudgedClaim, UnderReading};
 use crate::audit::conclusion::Conclusion;
 use crate::audit::conclusion::words::{self as conclusion, Answer};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::findings::{Evidence, Finding, Repair};
-use crate::audit::prices::Price;
 use crate::audit::prices::table as prices;
 use crate::audit::range::is_example;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Assumption, Audit, Compared, FrictionContact};
+use crate::audit::{Audit, Compared, FrictionContact};
 use engine::{BodySummary, Cycle};
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -269,68 +267,34 @@ pub struct Document<'a> {
     answers: [Answer; 5],
     /// What the answers are made of.
     conclusion: &'a Conclusion,
-    claims: &'a [JudgedClaim],
-    /// The claims where the paper is read otherwise.
-    by_reading: &'a [UnderReading],
-    assumptions: &'a [Assumption],
-    readings: &'a [Effect],
-    findings: Vec<FindingRow<'a>>,
-    /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
-    prices: &'a Result<Vec<Price>, String>,
-    variants: &'a [VariantRow],
-    equilibrium: &'a Option<Compared>,
-    reference: &'a Option<Compared>,
-    #[serde(skip_serializing_if = "<[String]>::is_empty")]
-    unsolved: &'a [String],
-    friction: &'a [FrictionContact],
+    #[serde(flatten)]
+    audit: &'a Audit,
 }
 
 /// A finding on a scene.
 #[derive(Serialize)]
 pub struct FindingRow<'a> {
+    /// The finding.
     #[serde(flatten)]
-    finding: &'a Finding,
+    pub finding: &'a Finding,
+    /// What the scene shows of it.
     #[serde(flatten)]
-    measured: &'a Evidence,
+    pub measured: &'a Evidence,
 }
 
-impl<'a> FindingRow<'a> {
-    /// Puts a finding beside what a scene shows of it.
-    pub fn new(finding: &'a Finding, measured: &'a Evidence) -> Self {
-        FindingRow { finding, measured }
-    }
-}
-
-impl<'a> Document<'a> {
-    /// Collects the results of an audit of `scene`.
-    pub fn new(audit: &'a Audit, conclusion: &'a Conclusion, scene: &'a Scene) -> Self {
-        Document {
-            scene: &scene.name,
-            answers: conclusion::answers(audit, conclusion, scene),
-            conclusion,
-            claims: &audit.claims,
-            by_reading: &audit.by_reading,
-            assumptions: &audit.assumptions,
-            readings: &audit.readings,
-            findings: audit.findings.iter().map(|(f, m)| FindingRow::new(f, m)).collect(),
-            prices: &audit.prices,
-            variants: &audit.variants,
-            equilibrium: &audit.equilibrium,
-            reference: &audit.reference,
-            unsolved: &audit.unsolved,
-            friction: &audit.friction,
-        }
-    }
+/// Writes the findings of an audit, a row each.
+pub(super) fn rows<S: Serializer>(
+    findings: &[(&'static Finding, Evidence)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer
+        .collect_seq(findings.iter().map(|(finding, measured)| FindingRow { finding, measured }))
 }
 
 /// Returns the audit of a scene as JSON.
 pub fn json(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> String {
-    json::line(Some(scene), &Document::new(audit, conclusion, scene))
-}
-
-/// Returns what a scene shows of one finding as JSON.
-pub fn finding_json(finding: &Finding, measured: &Evidence, scene: &Scene) -> String {
-    json::line(Some(scene), &FindingRow::new(finding, measured))
+    let answers = conclusion::answers(audit, conclusion, scene);
+    json::line(Some(scene), &Document { scene: &scene.name, answers, conclusion, audit })
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.
@@ -341,9 +305,28 @@ pub fn explanation(
     reading: &Reading,
 ) -> Report {
     let value = measured.figure(short);
+    let quotation = match finding.listing.parse::<Which>() {
+        Err(_) => Report::default().note("none: it is in what the paper does around the listings"),
+        Ok(which) => {
+            let lines = which.text().lines().filter(|line| !line.starts_with('#'));
+            let printed: Vec<&str> = lines.map(str::trim_start).collect();
+            let line = |n: &usize| format!("{} {n:>2}  {}\n", which.name(), printed[n - 1]);
+            Report::default().code(finding.lines.iter().map(line).collect::<String>())
+        }
+    };
+    let repair = match &finding.edit {
+        Repair::Edit { text } => {
+            let lines = text.lines().filter(|line| !line.starts_with('#'));
+            let lines: String = lines.map(|line| format!("{line}\n")).collect();
+            Report::default().heading("The repair as an edit of the listing").code(lines)
+        }
+        Repair::None { reason } => {
+            Report::default().heading("No edit of a listing repairs it").note(*reason)
+        }
+    };
     Report::titled(format!("{}: {}", finding.id, finding.title))
         .heading("Listing")
-        .then(quotation(finding))
+        .then(quotation)
         .heading(format!(
             "On scene {}{}: {} ({value}: {})",
             scene.name,
@@ -356,29 +339,5 @@ pub fn explanation(
         .note(finding.why)
         .heading("A repair")
         .note(finding.repair)
-        .then(repair(&finding.edit))
-}
-
-/// Reports the repair as an edit of a listing, or why there is none.
-fn repair(edit: &Repair) -> Report {
-    match edit {
-        Repair::Edit { text } => {
-            let lines = text.lines().filter(|line| !line.starts_with('#'));
-            let lines: String = lines.map(|line| format!("{line}\n")).collect();
-            Report::default().heading("The repair as an edit of the listing").code(lines)
-        }
-        Repair::None { reason } => {
-            Report::default().heading("No edit of a listing repairs it").note(*reason)
-        }
-    }
-}
-
-/// Quotes the lines of a finding.
-fn quotation(finding: &Finding) -> Report {
-    let Ok(which) = finding.listing.parse::<Which>() else {
-        return Report::default().note("none: it is in what the paper does around the listings");
-    };
-    let printed: Vec<&str> = which.text().lines().filter(|line| !line.starts_with('#')).collect();
-    let line = |n: &usize| format!("{} {n:>2}  {}\n", which.name(), printed[n - 1].trim_start());
-    Report::default().code(finding.lines.iter().map(line).collect::<String>())
+        .then(repair)
 }

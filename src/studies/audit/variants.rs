@@ -103,18 +103,25 @@ impl End {
         else {
             return Vec::new();
         };
-        let count = |n: usize| Some(n as f64);
-        let distance = distance.as_ref().map(|from| from.energy_relative);
-        let depth = penetration.as_ref().map(|found| found.relative);
-        let period = cycle.as_ref().map(|cycle| cycle.length as f64);
-        let largest = |k: usize| bodies.iter().map(move |body| sizes(body)[k]).fold(0.0, f64::max);
-        let of_bodies = bodies.iter().flat_map(|body| {
-            let sizes = sizes(body).into_iter().enumerate();
-            sizes.map(move |(k, size)| Some(over(size, largest(k))))
-        });
-        let last = in_contact.last().copied().and_then(count);
-        let others = [*target_share, distance, *friction_needed, depth, period];
-        [vec![last, count(pulling.len())], others.to_vec(), of_bodies.collect()].concat()
+        let mut figures = vec![
+            in_contact.last().map(|n| *n as f64),
+            Some(pulling.len() as f64),
+            *target_share,
+            distance.as_ref().map(|from| from.energy_relative),
+            *friction_needed,
+            penetration.as_ref().map(|found| found.relative),
+            cycle.as_ref().map(|cycle| cycle.length as f64),
+        ];
+        let sizes: [fn(&BodySummary) -> f64; 3] = [
+            |body| body.max_displacement,
+            |body| body.max_von_mises_stress,
+            |body| body.max_von_mises_strain,
+        ];
+        for size in sizes {
+            let largest = bodies.iter().map(size).fold(0.0, f64::max);
+            figures.extend(bodies.iter().map(|body| Some(over(size(body), largest))));
+        }
+        figures
     }
 }
 
@@ -199,11 +206,6 @@ fn asymmetry(solution: &Solution) -> Option<f64> {
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let end = |variant| repeated(case, |case| end(case, variant));
     Variant::ALL.par_iter().map(|v| VariantRow { variant: *v, end: end(*v) }).collect()
-}
-
-/// Returns the sizes of a body's fields at the end.
-fn sizes(body: &BodySummary) -> [f64; 3] {
-    [body.max_displacement, body.max_von_mises_stress, body.max_von_mises_strain]
 }
 
 /// Returns how far a run is from the equilibrium; what is rounding alone is 0.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::confocal::{self, Ring};
+use super::confocal;
 use super::line::{between, part};
 use super::parameters::parameters;
 use super::rows::Rows;
@@ -72,7 +72,13 @@ impl Hertz {
         check::count("size", self.size, 4)?;
         check::positive("radius", self.radius)?;
         check::positive("load", self.load)?;
-        self.check_half_width()?;
+        let (a, most) = (self.half_width(), self.radius / 4.0);
+        if a <= 1e-3 * self.radius || a >= most || a.is_nan() {
+            let a = six_digits(a);
+            let what = format!("the contact's half width {a} mm is outside 0.001 to 0.25 radii");
+            let fix = "choose a load for which Hertz's theory holds";
+            return Err(InputError::new("load", what, fix));
+        }
         let mut mesh = MeshBuilder::default();
         self.add_block(&mut mesh);
         let top = self.add_cylinder(&mut mesh);
@@ -86,16 +92,6 @@ impl Hertz {
             .restrain("cylinder_axis", &[Axis::X])
             .force(top, [0.0, -self.load / 2.0])
             .contact(Contact { geometry: Geometry::Initial, ..frictionless() }))
-    }
-
-    fn check_half_width(&self) -> Result<()> {
-        let (a, most) = (self.half_width(), self.radius / 4.0);
-        if a > 1e-3 * self.radius && a < most {
-            return Ok(());
-        }
-        let what =
-            format!("the contact's half width {} mm is outside 0.001 to 0.25 radii", six_digits(a));
-        Err(InputError::new("load", what, "choose a load for which Hertz's theory holds"))
     }
 
     /// Half width of the face, length.
@@ -134,8 +130,21 @@ impl Hertz {
     fn add_cylinder(&self, mesh: &mut MeshBuilder) -> usize {
         let (r, c) = (self.radius, self.face());
         let mut rings = confocal::rings(self.segments(), (6.0 * r / c).acosh());
-        coarsen(&mut rings);
-        let mut rows = confocal::rows(mesh, c, &rings, |p| onto_disk(p, 2.0 * r));
+        // The segments of the last rings are halved, down to the four of the fan at the top.
+        let mut segments = rings[rings.len() - 1].segments;
+        let halvings = (segments.div_ceil(4) as f64).log2().ceil() as usize;
+        let from = rings.len() - halvings;
+        for ring in &mut rings[from..] {
+            segments = segments.div_ceil(2);
+            ring.segments = segments;
+        }
+        // From the upper half plane onto the disk that touches it at the origin, conformally; far away goes to the top.
+        let onto_disk = |[x, y]: [f64; 2]| {
+            let (p, q) = (1.0 + y / (2.0 * r), x / (2.0 * r));
+            let norm = p * p + q * q;
+            [(x * p - y * q) / norm, (x * q + y * p) / norm]
+        };
+        let mut rows = confocal::rows(mesh, c, &rings, onto_disk);
         let top = mesh.node([0.0, 2.0 * r]);
         rows.0.push(vec![top]);
         mesh.join_all("cylinder", &rows.0);
@@ -163,24 +172,4 @@ fn sides(b: f64, n: usize) -> Vec<[f64; 2]> {
     let side = (0..right).map(|k| [b, part(0.0, -2.0 * b, k, right)]);
     let bottom = (0..=n - right).map(|k| [part(b, 0.0, k, n - right), -2.0 * b]);
     side.chain(bottom).collect()
-}
-
-/// From the upper half plane onto the disk of diameter `d` that touches it at the origin; far away
-/// goes to the top. Conformal.
-fn onto_disk([x, y]: [f64; 2], d: f64) -> [f64; 2] {
-    let (p, q) = (1.0 + y / d, x / d);
-    let norm = p * p + q * q;
-    [(x * p - y * q) / norm, (x * q + y * p) / norm]
-}
-
-/// Halves the segments of the last rings, down to the few of the fan at the top.
-fn coarsen(rings: &mut [Ring]) {
-    let fewest = 4;
-    let mut segments = rings[rings.len() - 1].segments;
-    let halvings = (segments.div_ceil(fewest) as f64).log2().ceil() as usize;
-    let from = rings.len() - halvings;
-    for ring in &mut rings[from..] {
-        segments = segments.div_ceil(2);
-        ring.segments = segments;
-    }
 }

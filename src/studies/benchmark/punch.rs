@@ -43,8 +43,20 @@ impl Punch {
         check::count("foundation", self.foundation, 4)?;
         check::between("outer", self.outer, [2.0, 1e4])?;
         let mut mesh = MeshBuilder::default();
-        self.add_foundation(&mut mesh);
-        self.add_punch(&mut mesh);
+        let rings = confocal::rings(self.foundation, self.outer.acosh());
+        let foundation = confocal::rows(&mut mesh, 1.0, &rings, |[x, y]| [x, -y]);
+        mesh.join_all("foundation", &foundation.0);
+        mesh.edges("outer", foundation.last());
+        mesh.edges("foundation_axis", &foundation.ends());
+        mesh.edges("target", &confocal::surface(&mesh, &foundation, 1.5));
+        // The columns of the punch are the foundation's angles, from the axis to the corner.
+        let (n, rows) = (self.punch, self.punch.div_ceil(2));
+        let punch = Rows::grid(&mut mesh, "punch", [n, rows], |i, j| {
+            [quarter(n - i, n)[0], part(0.0, 1.0, j, rows)]
+        });
+        mesh.edges("contact", punch.first());
+        mesh.edges("top", punch.last());
+        mesh.edges("punch_axis", &punch.starts());
         Ok(scene("punch", mesh, Plane::Strain)
             .title("Flat punch on a half plane")
             .material("foundation", 1000.0, 0.3)
@@ -54,25 +66,5 @@ impl Punch {
             .restrain("punch_axis", &[Axis::X])
             .pressure("top", 1.0)
             .contact(frictionless()))
-    }
-
-    fn add_foundation(&self, mesh: &mut MeshBuilder) {
-        let rings = confocal::rings(self.foundation, self.outer.acosh());
-        let rows = confocal::rows(mesh, 1.0, &rings, |[x, y]| [x, -y]);
-        mesh.join_all("foundation", &rows.0);
-        mesh.edges("outer", rows.last());
-        mesh.edges("foundation_axis", &rows.ends());
-        mesh.edges("target", &confocal::surface(mesh, &rows, 1.5));
-    }
-
-    /// Adds the punch; its columns are the foundation's angles, from the axis to the corner.
-    fn add_punch(&self, mesh: &mut MeshBuilder) {
-        let (n, rows) = (self.punch, self.punch.div_ceil(2));
-        let punch = Rows::grid(mesh, "punch", [n, rows], |i, j| {
-            [quarter(n - i, n)[0], part(0.0, 1.0, j, rows)]
-        });
-        mesh.edges("contact", punch.first());
-        mesh.edges("top", punch.last());
-        mesh.edges("punch_axis", &punch.starts());
     }
 }

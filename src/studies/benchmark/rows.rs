@@ -28,15 +28,10 @@ impl Rows {
     }
 
     pub fn starts(&self) -> Vec<usize> {
-        self.column(0)
+        self.0.iter().map(|row| row[0]).collect()
     }
 
     pub fn ends(&self) -> Vec<usize> {
         self.0.iter().map(|row| row[row.len() - 1]).collect()
-    }
-
-    /// Node `i`, from 0, of each row.
-    pub fn column(&self, i: usize) -> Vec<usize> {
-        self.0.iter().map(|row| row[i]).collect()
     }
 }

@@ -95,7 +95,21 @@ impl Strand {
         let mut mesh = MeshBuilder::default();
         self.add_block(&mut mesh);
         self.add_stamp(&mut mesh);
-        Ok(self.on(mesh))
+        let Strand { duct, strand, .. } = self;
+        let title = format!("Strand of radius {strand} mm in a duct of radius {duct} mm");
+        Ok(scene("strand", mesh, Plane::Strain)
+            .title(title)
+            .units("mm", "MPa", "N")
+            .material("block", 30000.0, 0.2)
+            .material("stamp", 210000.0, 0.3)
+            .restrain("left", &[Axis::X])
+            .restrain("right", &[Axis::X])
+            .restrain("bottom", &[Axis::Y])
+            .restrain("top", &[Axis::Y])
+            .restrain("stamp_axis", &[Axis::X])
+            .pressure("stamp_top", 6.3)
+            .contact(Contact::new("stamp_arc", "duct_wall", 0.001))
+            .variant(Variant::Stepped))
     }
 
     /// Checks the parameters.
@@ -111,31 +125,8 @@ impl Strand {
         let coarsest = (COARSEST * self.strand).min(ACROSS * (SIDE - self.duct));
         check::between("size", self.size, [FINEST, coarsest])?;
         check::between("top", self.top, TOP)?;
-        self.check_above_the_centre()
-    }
-
-    /// Returns the scene on a mesh.
-    fn on(&self, mesh: MeshBuilder) -> SceneBuilder {
-        let Strand { duct, strand, .. } = self;
-        let title = format!("Strand of radius {strand} mm in a duct of radius {duct} mm");
-        scene("strand", mesh, Plane::Strain)
-            .title(title)
-            .units("mm", "MPa", "N")
-            .material("block", 30000.0, 0.2)
-            .material("stamp", 210000.0, 0.3)
-            .restrain("left", &[Axis::X])
-            .restrain("right", &[Axis::X])
-            .restrain("bottom", &[Axis::Y])
-            .restrain("top", &[Axis::Y])
-            .restrain("stamp_axis", &[Axis::X])
-            .pressure("stamp_top", 6.3)
-            .contact(Contact::new("stamp_arc", "duct_wall", 0.001))
-            .variant(Variant::Stepped)
-    }
-
-    /// Checks that the chords of the upper wall leave the disc room where it rises above its centre:
-    /// there the two are as far apart as their radii at least.
-    fn check_above_the_centre(&self) -> Result<()> {
+        // Chords of the upper wall leave the disc room where it rises above its centre: there the two are as far
+        // apart as their radii at least.
         let Strand { duct, strand, size, top } = *self;
         let height = ((strand * top - duct) / duct).max(0.0);
         let chord = size * (1.0 + (ROOF - 1.0) * height);
@@ -156,7 +147,13 @@ impl Strand {
     /// Adds the block, its sides and the duct's wall, all counter-clockwise.
     fn add_block(&self, mesh: &mut MeshBuilder) {
         let (r, n) = (self.duct, self.edges());
-        let size = |p| self.size_in_block(p);
+        // Longer with the height on the upper half of the wall, and with the distance from the wall.
+        let size = |[x, y]: [f64; 2]| {
+            let distance = x.hypot(y);
+            let height = (y / distance).max(0.0);
+            let at_wall = self.size * (1.0 + (ROOF - 1.0) * height);
+            (at_wall + GROWTH * (distance - self.duct).max(0.0)).min(FAR * self.size)
+        };
         let side = |a, b| graded(straight(a, b), size);
         let curves = [
             side([0.0, -SIDE], [SIDE, -SIDE]),
@@ -169,32 +166,27 @@ impl Strand {
         ];
         let block = Mirrored::add(mesh, "block", &curves, size);
         let (bottom, right, top, upper_wall, lower_wall) = (0, 1, 2, 4, 5);
-        mesh.edges("bottom", &reversed(block.left(bottom)));
-        mesh.edges("bottom", block.right(bottom));
-        mesh.edges("right", block.right(right));
-        mesh.edges("top", block.right(top));
-        mesh.edges("top", &reversed(block.left(top)));
-        mesh.edges("left", &reversed(block.left(right)));
-        mesh.edges("duct_wall", block.left(lower_wall));
-        mesh.edges("duct_wall", &reversed(block.right(lower_wall)));
-        mesh.edges("duct_wall", &reversed(block.right(upper_wall)));
-        mesh.edges("duct_wall", block.left(upper_wall));
-    }
-
-    /// Target edge length in the block, mm: longer with the height on the upper half of the wall,
-    /// and with the distance from the wall.
-    fn size_in_block(&self, [x, y]: [f64; 2]) -> f64 {
-        let distance = x.hypot(y);
-        let height = (y / distance).max(0.0);
-        let at_wall = self.size * (1.0 + (ROOF - 1.0) * height);
-        (at_wall + GROWTH * (distance - self.duct).max(0.0)).min(FAR * self.size)
+        mesh.edges("bottom", &reversed(&block.left[bottom]));
+        mesh.edges("bottom", &block.right[bottom]);
+        mesh.edges("right", &block.right[right]);
+        mesh.edges("top", &block.right[top]);
+        mesh.edges("top", &reversed(&block.left[top]));
+        mesh.edges("left", &reversed(&block.left[right]));
+        mesh.edges("duct_wall", &block.left[lower_wall]);
+        mesh.edges("duct_wall", &reversed(&block.right[lower_wall]));
+        mesh.edges("duct_wall", &reversed(&block.right[upper_wall]));
+        mesh.edges("duct_wall", &block.left[upper_wall]);
     }
 
     /// Adds the stamp, its arc, what the disc has above its centre, and its top counter-clockwise, its
     /// axis upwards. The contact surface is the arc below the centre.
     fn add_stamp(&self, mesh: &mut MeshBuilder) {
         let (r, n, lowest) = (self.strand, self.edges(), -self.duct);
-        let size = |p| self.size_in_stamp(p);
+        // Longer with the distance from its arc.
+        let size = |[x, y]: [f64; 2]| {
+            let depth = self.strand - x.hypot(y + self.duct - self.strand);
+            self.size * self.strand / self.duct + GROWTH * depth.max(0.0)
+        };
         let at = |[cos, sin]: [f64; 2]| [r * sin, lowest + r * (1.0 - cos)];
         // The angle from the lowest point to the end of the top, in right angles.
         let end = (1.0 - self.top).acos() / FRAC_PI_2;
@@ -212,17 +204,11 @@ impl Strand {
         curves.push(graded(straight([x, flat], [0.0, flat]), size));
         curves.push(graded(straight([0.0, flat], [0.0, lowest]), size));
         let stamp = Mirrored::add(mesh, "stamp", &curves, size);
-        mesh.edges("stamp_arc", &reversed(stamp.left(arc)));
-        mesh.edges("stamp_arc", stamp.right(arc));
-        mesh.edges("stamp_top", stamp.right(top));
-        mesh.edges("stamp_top", &reversed(stamp.left(top)));
-        mesh.edges("stamp_axis", &reversed(stamp.right(axis)));
-    }
-
-    /// Target edge length in the stamp, mm: longer with the distance from its arc.
-    fn size_in_stamp(&self, [x, y]: [f64; 2]) -> f64 {
-        let depth = self.strand - x.hypot(y + self.duct - self.strand);
-        self.size * self.strand / self.duct + GROWTH * depth.max(0.0)
+        mesh.edges("stamp_arc", &reversed(&stamp.left[arc]));
+        mesh.edges("stamp_arc", &stamp.right[arc]);
+        mesh.edges("stamp_top", &stamp.right[top]);
+        mesh.edges("stamp_top", &reversed(&stamp.left[top]));
+        mesh.edges("stamp_axis", &reversed(&stamp.right[axis]));
     }
 }
 

@@ -56,11 +56,6 @@ impl DeckArgs {
         waiting("solving", || engine::solve(&request, &mut |_| ()))
     }
 
-    /// Returns whether something is asked for that only a deck has.
-    pub fn is_of_calculix(&self) -> bool {
-        self.penalty.is_some() || self.contact != ContactKind::default()
-    }
-
     /// The run that a field is compared with: that of the variant that is asked for, else the equilibrium.
     pub fn reference(&self, scene: &Scene) -> Result<Request> {
         match self.variant {

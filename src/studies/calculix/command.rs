@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::calculix::table::{self as report, Compared};
-use crate::calculix::{self, Comparison, Fields};
+use crate::calculix::{self, Comparison, ContactKind, Fields};
 use crate::field;
 use base::error::InputError;
 use base::exit::ExitStatus;
@@ -74,12 +74,10 @@ enum Other {
 
 fn other(text: &str) -> Result<Other, String> {
     let path = PathBuf::from(text);
-    match path.extension() {
-        None => {
-            text.parse().map(Other::Code).map_err(|why| format!("{why}, and no .csv or .vtu file"))
-        }
-        Some(_) => Ok(Other::Field(path)),
+    if path.extension().is_some() {
+        return Ok(Other::Field(path));
     }
+    text.parse().map(Other::Code).map_err(|why| format!("{why}, and no .csv or .vtu file"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -95,7 +93,8 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         Other::Code(Code::Calculix) => beside_calculix(args).map(|()| ExitStatus::Done),
         Other::Field(path) => {
             let Args { ccx, out, deck, .. } = args;
-            if ccx.is_some() || out.is_some() || deck.is_of_calculix() {
+            let is_deck = deck.penalty.is_some() || deck.contact != ContactKind::default();
+            if ccx.is_some() || out.is_some() || is_deck {
                 let what = "--contact, --penalty, --ccx and --out belong to --with calculix";
                 return Err(InputError::new("--with", what, "leave them out").into());
             }

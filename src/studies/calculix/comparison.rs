@@ -24,8 +24,10 @@ pub struct Comparison {
 }
 
 /// A difference, place by place: at nodes or at triangles.
+#[derive(Serialize)]
 pub struct Difference<Place> {
     /// Every place, in order, and the difference there.
+    #[serde(skip)]
     pub at: Vec<(Place, f64)>,
     /// The largest difference, and where it is.
     pub largest: Largest<Place>,
@@ -74,6 +76,11 @@ impl Comparison {
             [0, 1, 3].into_iter().map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
         };
         let von_mises = [ours.von_mises(), theirs.von_mises()];
+        let body = |body: &Body| {
+            let stresses = |of: &Vec<f64>| largest(body.triangles.iter().map(|id| of[id.index()]));
+            let [ours, calculix] = von_mises.each_ref().map(stresses);
+            BodyStress { name: body.name.clone(), ours, calculix }
+        };
         let u = ours.u.iter().zip(&theirs.u).map(apart);
         let stress = ours.sigma.iter().zip(&theirs.sigma).map(stressed);
         let (u_scale, stress_scale) =
@@ -81,7 +88,7 @@ impl Comparison {
         Comparison {
             displacement: Difference::new(model.node_ids().zip(u).collect(), u_scale),
             stress: Difference::new(model.triangle_ids().zip(stress).collect(), stress_scale),
-            bodies: bodies(model, &von_mises),
+            bodies: model.bodies.iter().map(body).collect(),
             von_mises,
             ours,
             theirs,
@@ -114,15 +121,6 @@ impl<Place: Copy> Difference<Place> {
 /// Returns a share of a scale; None where that is 0, or too small.
 fn over(difference: f64, scale: f64) -> Option<f64> {
     finite(difference / scale)
-}
-
-fn bodies(model: &Model, von_mises: &[Vec<f64>; 2]) -> Vec<BodyStress> {
-    let row = |body: &Body| {
-        let [ours, calculix] =
-            von_mises.each_ref().map(|of| largest(body.triangles.iter().map(|id| of[id.index()])));
-        BodyStress { name: body.name.clone(), ours, calculix }
-    };
-    model.bodies.iter().map(row).collect()
 }
 
 fn largest(of: impl Iterator<Item = f64>) -> f64 {

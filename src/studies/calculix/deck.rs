@@ -2,6 +2,7 @@
 
 use super::problem::{Contact, Equation, Pair, Problem};
 use base::error::{InputError, Result};
+use engine::support_constraints;
 use problem::element::Plane;
 use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
 use problem::modelling::Friction;
@@ -22,36 +23,37 @@ const STICK_SLOPE: f64 = 0.1;
 /// The surfaces of a pair bound no triangle.
 pub fn deck(problem: &Problem) -> Result<String> {
     let model = problem.model;
-    let own = Equation::of_supports(model);
+    let own = Equation::of_constraints(model, &support_constraints(model, 1.0));
     let contact = match problem.contact {
         Contact::Equations(equations, _) => equation_cards(model, &[&own[..], equations].concat()),
         Contact::Pair(_) if !model.has_contact() => equation_cards(model, &own),
         Contact::Pair(pair) => equation_cards(model, &own) + &pair_cards(model, pair)?,
     };
-    let before = heading(problem) + &nodes(model) + &elements(model);
-    Ok(before + &contact + &restraints(model) + &step(problem))
-}
-
-/// Comment lines: the scene's title, the plane problem, and how the bodies touch.
-fn heading(problem: &Problem) -> String {
+    // Comment lines: the scene's title, the plane problem, and how the bodies touch.
     let words: Vec<&str> = problem.scene.title.split_whitespace().collect();
     let title: String = words.join(" ").chars().take(100).collect();
-    let contact = match problem.contact {
+    let touch = match problem.contact {
         Contact::Equations(equations, _) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
             format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
         }
     };
-    format!("** {title}\n** plane {}; contact: {contact}\n", problem.model.plane)
-}
-
-fn nodes(model: &Model) -> String {
-    let mut text = String::from("*NODE, NSET=NODES\n");
+    let mut text = format!("** {title}\n** plane {}; contact: {touch}\n", model.plane);
+    text += "*NODE, NSET=NODES\n";
     for node in model.node_ids() {
         let [x, y] = model.coordinates(node).map(field);
         text += &format!("{node},{x},{y}\n");
     }
-    text
+    text += &(elements(model) + &contact + "*BOUNDARY\n");
+    for (dof, restraint) in model.all_dofs().zip(model.restraints()) {
+        match restraint {
+            Restraint::Free => (),
+            Restraint::Fixed => {
+                text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
+            }
+        }
+    }
+    Ok(text + &step(problem))
 }
 
 /// The triangles of each material, in the order in which the materials come.
@@ -151,19 +153,6 @@ fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> R
         return Err(InputError::new("contact", what, "name edges of the bodies"));
     }
     Ok(text)
-}
-
-fn restraints(model: &Model) -> String {
-    let mut text = String::from("*BOUNDARY\n");
-    for (dof, restraint) in model.all_dofs().zip(model.restraints()) {
-        match restraint {
-            Restraint::Free => (),
-            Restraint::Fixed => {
-                text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
-            }
-        }
-    }
-    text
 }
 
 /// One static step with the loads on the displacements that are not restrained.

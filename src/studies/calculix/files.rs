@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::table::{Compared, WORST};
-use crate::calculix::{BodyStress, Comparison, Contact, Difference, Largest, Pair};
+use crate::calculix::{BodyStress, Comparison, Contact, Difference, Pair};
 use base::error::Result;
 use base::files::write_all;
 use engine::estimates::Certainty;
@@ -86,8 +86,8 @@ pub struct Document<'a> {
     plane: Plane,
     contact: ContactRow,
     decks: usize,
-    displacement: Differences<NodeId>,
-    stress: Differences<TriangleId>,
+    displacement: &'a Difference<NodeId>,
+    stress: &'a Difference<TriangleId>,
     bodies: &'a [BodyStress],
     /// The nodes with the largest differences, the largest first.
     worst_nodes: Vec<NodeId>,
@@ -103,19 +103,6 @@ enum ContactRow {
     Equation { equations: usize },
     /// CalculiX's own contact: its penalty, stress/length.
     Pair { penalty: f64, friction: Friction },
-}
-
-/// The largest difference, and the root of the mean of the squares of all.
-#[derive(Serialize)]
-struct Differences<Place> {
-    largest: Largest<Place>,
-    rms: f64,
-}
-
-impl<Place: Copy> From<&Difference<Place>> for Differences<Place> {
-    fn from(of: &Difference<Place>) -> Self {
-        Differences { largest: of.largest, rms: of.rms }
-    }
 }
 
 /// The displacements of a node, length.
@@ -147,25 +134,21 @@ fn document(compared: &Compared, nodes: &[NodeRow], elements: &[ElementRow]) -> 
         certainty: compared.certainty,
         calculix: compared.version,
         plane: model.plane,
-        contact: contact_row(compared.contact),
+        contact: match compared.contact {
+            Contact::Equations(all, _) => ContactRow::Equation { equations: all.len() },
+            Contact::Pair(Pair { penalty, friction }) => {
+                ContactRow::Pair { penalty: *penalty, friction: *friction }
+            }
+        },
         decks: compared.decks,
-        displacement: (&comparison.displacement).into(),
-        stress: (&comparison.stress).into(),
+        displacement: &comparison.displacement,
+        stress: &comparison.stress,
         bodies: &comparison.bodies,
         worst_nodes: comparison.displacement.worst(WORST),
         nodes,
         elements,
     };
     json::line(Some(scene), &document)
-}
-
-fn contact_row(contact: &Contact) -> ContactRow {
-    match contact {
-        Contact::Equations(all, _) => ContactRow::Equation { equations: all.len() },
-        Contact::Pair(Pair { penalty, friction }) => {
-            ContactRow::Pair { penalty: *penalty, friction: *friction }
-        }
-    }
 }
 
 fn nodes(comparison: &Comparison) -> Vec<NodeRow> {
@@ -179,22 +162,18 @@ fn nodes(comparison: &Comparison) -> Vec<NodeRow> {
 
 fn elements(comparison: &Comparison) -> Vec<ElementRow> {
     let row = |&(n, difference): &(TriangleId, f64)| {
-        let [ours, theirs] = of_triangle(comparison, n).map(|values| measured(&values));
+        // Only stresses are known of CalculiX.
+        let [ours, theirs] = [0, 1].map(|of| {
+            let [x, y, z, xy, ..] = [&comparison.ours, &comparison.theirs][of].sigma[n.index()];
+            let von_mises = comparison.von_mises[of][n.index()];
+            let state = TriangleState::stressed([x, y, xy, z], von_mises);
+            measured(&TriangleValues::new(&state))
+        });
         let ours = ours.into_iter().map(|(name, value)| (name.to_string(), value));
         let theirs = theirs.into_iter().map(|(name, value)| (format!("{name}_calculix"), value));
         ElementRow { n, difference, values: ours.chain(theirs).collect() }
     };
     comparison.stress.at.iter().map(row).collect()
-}
-
-/// Returns the values of a triangle by this program, and by CalculiX, of which only stresses are known.
-fn of_triangle(comparison: &Comparison, id: TriangleId) -> [TriangleValues; 2] {
-    let Comparison { ours, theirs, von_mises, .. } = comparison;
-    let k = id.index();
-    let state = |[x, y, z, xy, ..]: [f64; 6], von_mises| {
-        TriangleValues::new(&TriangleState::stressed([x, y, xy, z], von_mises))
-    };
-    [state(ours.sigma[k], von_mises[0][k]), state(theirs.sigma[k], von_mises[1][k])]
 }
 
 fn nodes_csv(rows: &[NodeRow]) -> String {

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use base::choices;
 use base::error::{InputError, Result};
 use engine::Detail;
-use engine::{Constraint, Motion, Solution, Step, support_constraints};
+use engine::{Constraint, Motion, Solution};
 use paper::mirror::Schedule;
 use problem::model::{Dof, Model, NodeId};
 use problem::modelling::{Friction, Variant};
@@ -89,7 +89,7 @@ impl Contact {
         let share = 1.0 / carried.len() as f64;
         let mut states: Vec<(Vec<Equation>, f64)> = Vec::new();
         for step in &solution.steps[carried] {
-            let equations = Equation::of_step(&solution.model, step);
+            let equations = Equation::of_constraints(&solution.model, &step.constraints);
             let same = states.iter().position(|(other, _)| *other == equations);
             let before = same.map_or(0.0, |k| states.remove(k).1);
             states.push((equations, before + share));
@@ -115,17 +115,13 @@ impl Pair {
     pub fn new(model: &Model, penalty: Option<f64>, friction: Friction) -> Self {
         let suits = || {
             let moduli = model.triangles.iter().map(|triangle| triangle.material.e);
-            Self::STIFFNESS * moduli.fold(0.0, f64::max) / mean_edge(model)
+            let mean_edge = match model.contact.target.len() {
+                0 => 1.0,
+                n => model.target_edges().map(|edge| model.length(edge)).sum::<f64>() / n as f64,
+            };
+            Self::STIFFNESS * moduli.fold(0.0, f64::max) / mean_edge
         };
         Pair { penalty: penalty.unwrap_or_else(suits), friction }
-    }
-}
-
-/// Mean length of the target's edges; 1 where there is none.
-fn mean_edge(model: &Model) -> f64 {
-    match model.contact.target.len() {
-        0 => 1.0,
-        count => model.target_edges().map(|edge| model.length(edge)).sum::<f64>() / count as f64,
     }
 }
 
@@ -140,16 +136,9 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Returns the equations of the nodes that are in contact in an iteration.
-    pub fn of_step(model: &Model, step: &Step) -> Vec<Equation> {
-        let of = |constraint: &Constraint| Equation::of_constraint(model, constraint);
-        step.constraints.iter().flat_map(of).collect()
-    }
-
-    /// Returns the equations of what no degree of freedom alone holds.
-    pub fn of_supports(model: &Model) -> Vec<Equation> {
-        let constraints = support_constraints(model, 1.0);
-        constraints.iter().flat_map(|held| Equation::of_constraint(model, held)).collect()
+    /// Returns the equations of constraints: those of an iteration, or of what no degree of freedom alone holds.
+    pub fn of_constraints(model: &Model, constraints: &[Constraint]) -> Vec<Equation> {
+        constraints.iter().flat_map(|one| Equation::of_constraint(model, one)).collect()
     }
 
     /// The equations of a constraint: one along its normal, or one in each direction in which its

@@ -24,8 +24,13 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
     let mut points: Vec<Vec<[f64; 6]>> = vec![Vec::new(); triangles];
     let mut block = Block::Other;
     for line in text.lines().filter(|line| !line.trim().is_empty()) {
-        if line.trim_start().starts_with(|c: char| c.is_ascii_alphabetic()) {
-            block = heading(line);
+        let words = line.trim_start();
+        if words.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            block = match words {
+                words if words.starts_with("displacements") => Block::Displacements,
+                words if words.starts_with("stresses") => Block::Stresses,
+                _ => Block::Other,
+            };
             continue;
         }
         match block {
@@ -47,23 +52,12 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
     }
     let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
     let stresses = points.iter().enumerate();
-    let stresses = stresses.map(|(k, of)| mean(of).ok_or_else(|| missing("element", k + 1)));
+    let stresses = stresses.map(|(k, points)| {
+        let sum = |c: usize| points.iter().map(|point| point[c]).sum::<f64>();
+        let mean = std::array::from_fn(|c| sum(c) / points.len() as f64);
+        (!points.is_empty()).then_some(mean).ok_or_else(|| missing("element", k + 1))
+    });
     Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
-}
-
-/// The mean of the stresses at the integration points of an element; nothing without any.
-fn mean(points: &[[f64; 6]]) -> Option<[f64; 6]> {
-    let count = points.len() as f64;
-    let sum = |c: usize| points.iter().map(|point| point[c]).sum::<f64>();
-    (!points.is_empty()).then(|| std::array::from_fn(|c| sum(c) / count))
-}
-
-fn heading(line: &str) -> Block {
-    match line.trim_start() {
-        line if line.starts_with("displacements") => Block::Displacements,
-        line if line.starts_with("stresses") => Block::Stresses,
-        _ => Block::Other,
-    }
 }
 
 fn entry<'a, T>(of: &'a mut [T], number: usize, line: &str) -> Result<&'a mut T> {

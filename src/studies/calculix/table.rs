@@ -39,21 +39,8 @@ pub struct Compared<'a> {
 
 /// Reports the differences in tables.
 pub fn report(compared: &Compared) -> Report {
-    let Compared { scene, comparison, .. } = compared;
-    Report::titled(&scene.title)
-        .then(heading(compared))
-        .table(
-            "Largest differences: of a node's displacement, over CalculiX's largest; of sigma_x, sigma_y \
-             or tau_xy of a triangle, over CalculiX's largest von Mises stress",
-            differences(compared),
-        )
-        .table(quantity("Largest von Mises stress", &scene.units.stress), bodies(comparison))
-        .table("The worst nodes", worst(compared))
-}
-
-fn heading(compared: &Compared) -> Report {
-    let Compared { scene, model, variant, version, .. } = compared;
-    let report = Report::default()
+    let Compared { scene, model, variant, version, comparison, .. } = compared;
+    let report = Report::titled(&scene.title)
         .line(format!(
             "scene {}, variant {variant}, beside CalculiX {version}; plane {}; {} nodes, {} triangles",
             scene.name,
@@ -68,7 +55,16 @@ fn heading(compared: &Compared) -> Report {
             "Plane stress: CalculiX lets triangles share their thickness at nodes, and so differs.",
         ),
     };
-    certainty(compared.certainty).into_iter().fold(report, Report::line)
+    certainty(compared.certainty)
+        .into_iter()
+        .fold(report, Report::line)
+        .table(
+            "Largest differences: of a node's displacement, over CalculiX's largest; of sigma_x, sigma_y \
+             or tau_xy of a triangle, over CalculiX's largest von Mises stress",
+            differences(compared),
+        )
+        .table(quantity("Largest von Mises stress", &scene.units.stress), bodies(comparison))
+        .table("The worst nodes", worst(compared))
 }
 
 /// Says how the bodies touch in what CalculiX ran.

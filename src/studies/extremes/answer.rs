@@ -37,12 +37,6 @@ fn solve(scene: &SceneBuilder, variant: Variant, scalar: ScalarName) -> Result<A
 }
 
 impl Answer {
-    /// Displacements, relative to the largest of their body.
-    fn displacement(&self, exact: &Answer) -> Verdict {
-        let of_body = |dofs: &Vec<usize>| self.error(exact, dofs);
-        Verdict::of_error(exact.bodies.iter().map(of_body).fold(0.0, f64::max))
-    }
-
     /// Largest error over the largest displacement of a body; infinite where the exact one is 0 and
     /// this is not.
     fn error(&self, exact: &Answer, dofs: &[usize]) -> f64 {
@@ -69,7 +63,10 @@ pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Ve
     let is_unilateral = variant == Variant::Unilateral;
     let known = if is_unilateral { Variant::Tied } else { variant };
     Ok(match Error::found(solve(&scene, known, ScalarName::Exact))? {
-        Some(exact) if answer.in_contact == exact.in_contact => answer.displacement(&exact),
+        Some(exact) if answer.in_contact == exact.in_contact => {
+            let errors = exact.bodies.iter().map(|dofs| answer.error(&exact, dofs));
+            Verdict::of_error(errors.fold(0.0, f64::max))
+        }
         Some(_) if is_unilateral => Verdict::Unknown,
         Some(_) => Verdict::of_status(false),
         None => Verdict::Wrong("exact refuses"),

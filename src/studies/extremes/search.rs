@@ -47,13 +47,6 @@ impl Search {
         Search { a: [0.0, 0.0], b: [3.0, 1.0], n, moved: [[0.0; 2]; 3], c_tll }
     }
 
-    /// The same with a gap as far below the tolerance as this one is above it.
-    fn below_tolerance(&self) -> Search {
-        let ([ax, ay], [bx, by], [nx, ny]) = (self.a, self.b, self.n);
-        let line = ay + (nx - ax) * (by - ay) / (bx - ax);
-        Search { n: [nx, 2.0 * (line + self.c_tll) - ny], ..*self }
-    }
-
     /// What `c_cnt` finds of the node: `yt`, and whether it is in contact.
     fn printed<T: Scalar>(&self) -> Result<(T, bool), Error> {
         let scene = self.scene().build()?;
@@ -137,7 +130,11 @@ impl Quantity {
             }
             Quantity::Status => {
                 let mut right = true;
-                for search in [&search, &search.below_tolerance()] {
+                // The same with a gap as far below the tolerance as this one is above it.
+                let ([ax, ay], [bx, by], [nx, ny]) = (search.a, search.b, search.n);
+                let line = ay + (nx - ax) * (by - ay) / (bx - ax);
+                let below = Search { n: [nx, 2.0 * (line + search.c_tll) - ny], ..search };
+                for search in [&search, &below] {
                     let (_, found) = search.printed::<T>()?;
                     let Ok((_, exact)) = search.printed::<Exact>() else { return Ok(refused) };
                     right &= found == exact;

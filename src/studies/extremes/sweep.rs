@@ -26,15 +26,6 @@ struct Method {
 type Measure = dyn Fn(f64) -> Result<Verdict, Error> + Send + Sync;
 
 impl Method {
-    fn new(
-        name: String,
-        scalar: ScalarName,
-        measure: impl Fn(f64) -> Result<Verdict, Error> + Send + Sync + 'static,
-    ) -> Self {
-        let carried = f64::from(scalar.properties().digits.expect("exact numbers are not tried"));
-        Method { name, carried, measure: Box::new(measure) }
-    }
-
     /// Whether a verdict counts as broken.
     fn is_broken(&self, verdict: &Verdict) -> bool {
         verdict.breaks_down(LEAST.min(self.carried / 2.0))
@@ -43,6 +34,11 @@ impl Method {
     fn verdict(&self, value: f64) -> Verdict {
         (self.measure)(value).unwrap_or_else(Verdict::from).at_most(self.carried)
     }
+}
+
+/// The digits that a scalar carries.
+fn carried(scalar: ScalarName) -> f64 {
+    f64::from(scalar.properties().digits.expect("exact numbers are not tried"))
 }
 
 /// Judges a quantity of a search.
@@ -71,8 +67,8 @@ fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
     });
     let others = others.map(|variant| (*variant, ScalarName::F64));
     let method = |(variant, scalar): (Variant, ScalarName)| {
-        let measure = move |x| answer::judge(&blocks(x), variant, scalar);
-        Method::new(format!("{variant} {scalar}"), scalar, measure)
+        let measure = Box::new(move |x| answer::judge(&blocks(x), variant, scalar));
+        Method { name: format!("{variant} {scalar}"), carried: carried(scalar), measure }
     };
     tied.chain(others).map(method).collect()
 }
@@ -80,7 +76,8 @@ fn on_blocks(blocks: fn(f64) -> Blocks) -> Vec<Method> {
 /// What is tried on a search: each quantity in each scalar.
 fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> {
     let method = |(of, (scalar, judge)): (Quantity, (ScalarName, OfSearch))| {
-        Method::new(format!("{} {scalar}", of.name()), scalar, move |x| judge(of, search(x)))
+        let measure = Box::new(move |x| judge(of, search(x)));
+        Method { name: format!("{} {scalar}", of.name()), carried: carried(scalar), measure }
     };
     let each = quantities.iter().flat_map(|of| tried().map(|scalar| (*of, scalar)));
     each.map(method).collect()

@@ -30,19 +30,18 @@ pub fn report(measured: &[SweepTable]) -> Report {
 
 /// Draws the digits that each method keeps against the magnitude.
 pub fn picture(measured: &SweepTable) -> String {
-    let series: Vec<Series> = measured.columns.iter().map(|of| curve(measured, of)).collect();
+    let curve = |column: &Column| {
+        let points = measured.magnitudes.iter().zip(&column.verdicts);
+        let points = points.filter_map(|(x, v)| Some([*x, v.digits(column.carried)?])).collect();
+        Series { name: column.name.clone(), points, style: Style::Dotted }
+    };
+    let series: Vec<Series> = measured.columns.iter().map(curve).collect();
     let axes = [
         Axis { label: measured.magnitude, logarithmic: true },
         Axis { label: "digits kept", logarithmic: false },
     ];
     let caption = "A curve has a gap where a run is refused; 0 is an answer without a right digit.";
     chart(measured.title, axes, &series, &[caption.into()])
-}
-
-fn curve(measured: &SweepTable, column: &Column) -> Series {
-    let points = measured.magnitudes.iter().zip(&column.verdicts);
-    let points = points.filter_map(|(x, v)| Some([*x, v.digits(column.carried)?])).collect();
-    Series { name: column.name.clone(), points, style: Style::Dotted }
 }
 
 /// Returns a row for each method: the digits where the sweep is kindest, and where it breaks down.

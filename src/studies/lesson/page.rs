@@ -58,7 +58,7 @@ impl Measured {
             let error = Some(price.outcome.error()).filter(|error| error.is_finite());
             json!({ "scene": scene, "name": price.name, "weight": price.weight, "error": error })
         };
-        let mut row = json!(FindingRow::new(self.finding, &self.evidence));
+        let mut row = json!(FindingRow { finding: self.finding, measured: &self.evidence });
         row["prices"] = self.prices.iter().map(price).collect();
         row
     }

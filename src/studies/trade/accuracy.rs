@@ -72,26 +72,25 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Er
     }
     let (mut attempts, mut failure) = (Vec::new(), None);
     for arithmetic in precisions {
-        let outcome = match not_run(request, arithmetic.scalar, accuracy) {
-            Some(why) => Outcome::NotRun(why),
-            None => match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
-                Ok(solution) => {
-                    let bound = relative_bound(&solution);
-                    attempts.push(Attempt { arithmetic, outcome: Outcome::Bound(bound) });
-                    if bound <= accuracy {
-                        let mesh = Discretisation::new(&solution.model, &solution.elements);
-                        return Ok(AccurateSolution { mesh: mesh.relative(), solution, attempts });
-                    }
-                    continue;
+        let mut add = |outcome| attempts.push(Attempt { arithmetic, outcome });
+        if let Some(why) = not_run(request, arithmetic.scalar, accuracy) {
+            add(Outcome::NotRun(why));
+            continue;
+        }
+        match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
+            Ok(solution) => {
+                let bound = relative_bound(&solution);
+                add(Outcome::Bound(bound));
+                if bound <= accuracy {
+                    let mesh = Discretisation::new(&solution.model, &solution.elements);
+                    return Ok(AccurateSolution { mesh: mesh.relative(), solution, attempts });
                 }
-                Err(why) => {
-                    let words = why.to_string().lines().next().unwrap_or_default().into();
-                    failure = Some(why);
-                    Outcome::Failed(words)
-                }
-            },
-        };
-        attempts.push(Attempt { arithmetic, outcome });
+            }
+            Err(why) => {
+                add(Outcome::Failed(why.to_string().lines().next().unwrap_or_default().into()));
+                failure = Some(why);
+            }
+        }
     }
     let ran = attempts.iter().any(|attempt| matches!(attempt.outcome, Outcome::Bound(_)));
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
@@ -112,18 +111,15 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
         true => by(scalar, Solver::DenseLu),
         false => sparse(scalar),
     };
-    let tried = ScalarName::ALL.iter().copied().filter(|scalar| is_tried(*scalar));
-    tried.filter(runs).map(arithmetic).collect()
-}
-
-/// Whether a scalar is tried: those that bound their own rounding. `f64-bounded` stands for f64, whose digits it
-/// has. `f32` is dearer than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with
-/// equal peak memory, as f64 has the better solver.
-fn is_tried(scalar: ScalarName) -> bool {
-    match scalar {
+    // Those that bound their own rounding: `f64-bounded` stands for f64, whose digits it has. `f32` is dearer
+    // than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with equal peak memory, as
+    // f64 has the better solver.
+    let bounds = |scalar: &ScalarName| match scalar {
         ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => true,
         ScalarName::F32 | ScalarName::F64 | ScalarName::F64x2 => false,
-    }
+    };
+    let tried = ScalarName::ALL.iter().copied().filter(bounds);
+    tried.filter(runs).map(arithmetic).collect()
 }
 
 /// Returns why it is pointless to run in `scalar`.

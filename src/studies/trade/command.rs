@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::trade::table as report;
 use crate::trade::{self, Options, Varied};
+use ::report::json;
 use base::files;
 use base::plain::shown;
 use engine::Request;
@@ -72,7 +73,7 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let measured = trade::measure(&request, &options, watch)?;
     bar.finish();
-    let json = report::json(&scene, &measured);
+    let json = json::line(Some(&scene), &measured);
     if is_written {
         let mut written = vec![("trade.json", &json)];
         let picture = report::picture(&measured);

@@ -46,8 +46,12 @@ impl Errors {
                 Errors::new(&solution, truth)
             }
             (Half, Own) => {
+                // The whole in the terms of its half.
                 let half = symmetry::half(scene).expect("its half was run");
-                Errors::new(solution, &restricted(truth, &half, solution))
+                let u = half.nodes.iter().flat_map(|node| node.components(&truth.u));
+                let elements = half.triangles.iter().map(|id| truth.elements[id.index()].clone());
+                let u = DVector::from_iterator(2 * half.nodes.len(), u);
+                Errors::new(solution, &solution.with_fields(u, elements.collect()))
             }
             (
                 Own | Tolerance(_) | Iterations(_) | Status(_) | Coupling(_) | Refined(_) | Half,
@@ -80,11 +84,4 @@ pub(super) fn prolonged(coarse: Solution, meshes: &[Refined], finest: &Solution)
         elements = elements.into_iter().flat_map(|state| std::iter::repeat_n(state, 4)).collect();
     }
     finest.with_fields(u, elements)
-}
-
-/// A solution of the whole in the terms of its half, which `of_half` solves.
-fn restricted(whole: &Solution, half: &symmetry::Half, of_half: &Solution) -> Solution {
-    let u = half.nodes.iter().flat_map(|node| node.components(&whole.u));
-    let elements = half.triangles.iter().map(|id| whole.elements[id.index()].clone());
-    of_half.with_fields(DVector::from_iterator(2 * half.nodes.len(), u), elements.collect())
 }

@@ -33,9 +33,8 @@ pub struct Options {
 /// The scene cannot be refined. A trial that fails is a row that says why.
 pub fn measure(request: &Request, options: &Options, watch: impl Fn(&str)) -> Result<Trade, Error> {
     let Request { scene, .. } = request;
-    let reference = scene.model.target();
-    let reference = reference.map(|_| solve(&request.equilibrium(), &mut |_| ())).transpose();
-    let (reference, no_reference) = match reference {
+    let equilibrium = scene.model.target().map(|_| solve(&request.equilibrium(), &mut |_| ()));
+    let (reference, no_reference) = match equilibrium.transpose() {
         Ok(found) => (found, None),
         Err(why) => (None, Some(why.to_string())),
     };
@@ -105,18 +104,15 @@ fn timed(
             watch(&format!("{} {} {}", trial.parameter, trial.variant, trial.label));
         }
     }
-    Ok(trials.par_iter().zip(runs).map(|(trial, run)| judged(trial.parameter, run)).collect())
-}
-
-/// A run with what rounding decides in it, where its parameter judges.
-fn judged(parameter: Varied, run: Run) -> Run {
-    match run.solution {
-        Ok(solution) if judges(parameter) => {
+    // What rounding decides in it, where its parameter judges.
+    let judged = |(trial, run): (&Trial, Run)| match run.solution {
+        Ok(solution) if judges(trial.parameter) => {
             let (solution, certainty) = certain(solution);
             Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
         }
         solution => Run { solution, ..run },
-    }
+    };
+    Ok(trials.par_iter().zip(runs).map(judged).collect())
 }
 
 /// A solution without all steps but the last.
@@ -152,6 +148,11 @@ impl Bench<'_> {
         let (trial, run) = (&self.trials[place], &self.runs[place]);
         let solution = run.solution.as_ref().ok();
         let last = solution.and_then(|solution| solution.steps.last());
+        // The trial of the same variant where the scene has the parameter; parameters that change the mesh
+        // have their own measure.
+        let is_mesh = matches!(trial.parameter, Varied::Mesh | Varied::Symmetry);
+        let same = |other: &Trial| !is_mesh && other.own && other.variant == trial.variant;
+        let unchanged = self.trials.iter().position(same);
         Row {
             label: trial.label.clone(),
             variant: trial.variant,
@@ -161,33 +162,24 @@ impl Bench<'_> {
             seconds: solution.map(|_| median(&run.seconds)),
             runs: run.seconds.len(),
             error: match trial.against {
-                ErrorReference::Trial(best) => self.between(place, self.best_that_ran(place, best)),
+                ErrorReference::Trial(best) if trial.parameter == Varied::Symmetry => {
+                    self.between(place, Some(best))
+                }
+                // Where it failed, the last trial before it that did not.
+                ErrorReference::Trial(best) => {
+                    let ran = |k: &usize| self.runs[*k].solution.is_ok();
+                    self.between(place, (place..=best).rev().find(ran))
+                }
                 ErrorReference::Reference => {
                     solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
                 }
             },
-            change: self.between(place, self.unchanged(trial)),
+            change: self.between(place, unchanged),
             certainty: run.certainty,
             own: trial.own,
             pareto: false,
             failure: run.solution.as_ref().err().cloned(),
         }
-    }
-
-    /// `best`, or where it failed the last trial before it that did not.
-    fn best_that_ran(&self, place: usize, best: usize) -> Option<usize> {
-        if self.trials[place].parameter == Varied::Symmetry {
-            return Some(best);
-        }
-        (place..=best).rev().find(|k| self.runs[*k].solution.is_ok())
-    }
-
-    /// The trial of the same variant where the scene has the parameter; parameters that change the mesh have
-    /// their own measure.
-    fn unchanged(&self, trial: &Trial) -> Option<usize> {
-        let mesh = matches!(trial.parameter, Varied::Mesh | Varied::Symmetry);
-        let same = |other: &Trial| !mesh && other.own && other.variant == trial.variant;
-        self.trials.iter().position(same)
     }
 
     /// How far the run at `place` is from that at `best`; nothing where one of them failed.
@@ -223,19 +215,18 @@ impl Bench<'_> {
             let bodies = summaries(solution);
             bodies.iter().map(|body| body.max_von_mises_stress).fold(0.0, f64::max)
         };
+        // Differences relative to the last value.
+        let of_values = |quantity, values: Vec<f64>| {
+            let last = values.last().copied().unwrap_or(1.0);
+            let differences = values.windows(2).map(|pair| over(pair[0] - pair[1], last).abs());
+            Order::fit(quantity, differences.collect(), 1)
+        };
         vec![
             Order::fit("energy norm", neighbours.collect(), 2),
             of_values("largest displacement", displacements),
             of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
         ]
     }
-}
-
-/// The order in which the differences of `values` fall, relative to the last.
-fn of_values(quantity: &'static str, values: Vec<f64>) -> Order {
-    let last = values.last().copied().unwrap_or(1.0);
-    let differences = values.windows(2).map(|pair| over(pair[0] - pair[1], last).abs());
-    Order::fit(quantity, differences.collect(), 1)
 }
 
 /// The middle one of `times`, or the mean of the two in the middle.
@@ -248,12 +239,11 @@ fn median(times: &[f64]) -> f64 {
 
 /// Marks the rows that no other is quicker and nearer than, from the times of each one's runs.
 fn mark_front(rows: &mut [Row], times: impl Fn(usize) -> [f64; 2]) {
-    let place = |row: &Row| row.seconds.and(row.error).map(|e| e.displacement);
-    let (at, points): (Vec<usize>, Vec<Point>) = rows
-        .iter()
-        .enumerate()
-        .filter_map(|(k, row)| Some((k, Point { seconds: times(k), error: place(row)? })))
-        .unzip();
+    let point = |(k, row): (usize, &Row)| {
+        let error = row.seconds.and(row.error)?.displacement;
+        Some((k, Point { seconds: times(k), error }))
+    };
+    let (at, points): (Vec<usize>, Vec<Point>) = rows.iter().enumerate().filter_map(point).unzip();
     for (k, front) in at.into_iter().zip(pareto(&points)) {
         rows[k].pareto = front;
     }

@@ -3,16 +3,9 @@
 use crate::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade};
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
-use problem::scene::Scene;
-use report::json;
 use report::model::{Cell, Report, Table};
 use report::numbers::reason;
 use report::picture::{Axis, Series, Style, chart};
-
-/// Returns the content of `trade.json`.
-pub fn json(scene: &Scene, trade: &Trade) -> String {
-    json::line(Some(scene), trade)
-}
 
 /// Reports a table for each parameter.
 pub fn report(trade: &Trade) -> Report {
@@ -146,19 +139,17 @@ pub fn reached(reached: &AccurateSolution, accuracy: f64) -> Report {
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
         format!("{scalar} by {solver}: {outcome}")
     });
-    Report::default()
-        .heading(format!("Accuracy {accuracy:e} asked of the displacements, rounding alone"))
-        .notes(attempts)
-        .note(error_of_mesh(reached.mesh, accuracy))
-}
-
-fn error_of_mesh(error: f64, accuracy: f64) -> String {
-    if !error.is_finite() {
-        return "What the mesh adds is unknown: it is too small for an estimate.".into();
-    }
-    let verdict = match error > accuracy {
+    let verdict = match reached.mesh > accuracy {
         true => "larger than what was asked, and no precision fixes that: refine the mesh",
         false => "not larger than what was asked",
     };
-    format!("The mesh's own error is about {error:.0e} in the energy norm: {verdict}.")
+    Report::default()
+        .heading(format!("Accuracy {accuracy:e} asked of the displacements, rounding alone"))
+        .notes(attempts)
+        .note(match reached.mesh {
+            error if error.is_finite() => {
+                format!("The mesh's own error is about {error:.0e} in the energy norm: {verdict}.")
+            }
+            _ => "What the mesh adds is unknown: it is too small for an estimate.".into(),
+        })
 }

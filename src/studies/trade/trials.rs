@@ -118,19 +118,49 @@ pub fn trials(request: &Request, parameter: Varied) -> Vec<Trial> {
         return Vec::new();
     }
     match parameter {
-        Varied::Arithmetic => arithmetic(request),
-        Varied::Solver => solvers(request),
+        Varied::Arithmetic => {
+            use ScalarName::{Bounded, Exact, F32, F64, F64x2};
+            let mut tried = vec![
+                ("f32", sparse(F32)),
+                ("f64", sparse(F64)),
+                ("f64 with a bound", sparse(Bounded)),
+                ("f64x2", sparse(F64x2)),
+            ];
+            if request.scene.model.free_dofs() <= most_exact(request) {
+                tried.push(("exact", sparse(Exact)));
+            }
+            against_the_last(parameter, request, &tried)
+        }
+        Varied::Solver => {
+            let tried = [
+                ("dense-lu", by(ScalarName::F64, Solver::DenseLu)),
+                ("sparse-lu", by(ScalarName::F64, Solver::SparseLu)),
+                ("sparse-cholesky", sparse(ScalarName::F64)),
+                ("f64x2 to compare", sparse(ScalarName::F64x2)),
+            ];
+            against_the_last(parameter, request, &tried)
+        }
         Varied::Mesh => meshes(&request.scene),
         Varied::Symmetry => halves(request, contact),
         Varied::Tolerance => {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
             let place = |c: f64| (format!("{c:e}"), Setting::Tolerance(c));
-            turned(parameter, &CARRYING[..2], &tolerances(own), own, place)
+            let mut values = TOLERANCES.to_vec();
+            if !values.contains(&own) {
+                values.push(own);
+                values.sort_by(f64::total_cmp);
+            }
+            turned(parameter, &CARRYING[..2], &values, own, place)
         }
         Varied::Iterations => {
             let place = |n: usize| (n.to_string(), Setting::Iterations(n));
             let own = request.iterations;
-            turned(parameter, &CARRYING[..2], &iterations(own), own, place)
+            let mut values = ITERATIONS.to_vec();
+            // One more shows what a cycle of two does.
+            values.extend([own, own + 1]);
+            values.sort_unstable();
+            values.dedup();
+            turned(parameter, &CARRYING[..2], &values, own, place)
         }
         Varied::Status => {
             let place = |rule: StatusRule| (rule.to_string(), Setting::Status(rule));
@@ -161,15 +191,12 @@ fn turned<T: Copy + PartialEq>(
     own: T,
     place: impl Fn(T) -> (String, Setting),
 ) -> Vec<Trial> {
-    let trial = |(variant, value): (Variant, T)| {
-        let (label, setting) = place(value);
-        Trial { setting, own: value == own, ..Trial::new(parameter, label, variant) }
+    let trial = |(variant, value): (&Variant, &T)| {
+        let (label, setting) = place(*value);
+        Trial { setting, own: *value == own, ..Trial::new(parameter, label, *variant) }
     };
-    let of = |variant: &Variant| {
-        let variant = *variant;
-        values.iter().map(move |value| (variant, *value))
-    };
-    variants.iter().flat_map(of).map(trial).collect()
+    let each = variants.iter().flat_map(|variant| values.iter().map(move |value| (variant, value)));
+    each.map(trial).collect()
 }
 
 /// Numbers of type `scalar`, solved by sparse Cholesky.
@@ -193,43 +220,18 @@ pub(super) fn most_exact(request: &Request) -> usize {
     cost::most_equations(growing, request.iterations).min(EXACT)
 }
 
-fn arithmetic(request: &Request) -> Vec<Trial> {
-    use ScalarName::*;
-    let mut arithmetics = vec![
-        ("f32", sparse(F32)),
-        ("f64", sparse(F64)),
-        ("f64 with a bound", sparse(Bounded)),
-        ("f64x2", sparse(F64x2)),
-    ];
-    if request.scene.model.free_dofs() <= most_exact(request) {
-        arithmetics.push(("exact", sparse(Exact)));
-    }
-    against_the_last(Varied::Arithmetic, request, arithmetics)
-}
-
-fn solvers(request: &Request) -> Vec<Trial> {
-    use {ScalarName::*, Solver::*};
-    let arithmetics = vec![
-        ("dense-lu", by(F64, DenseLu)),
-        ("sparse-lu", by(F64, SparseLu)),
-        ("sparse-cholesky", sparse(F64)),
-        ("f64x2 to compare", sparse(F64x2)),
-    ];
-    against_the_last(Varied::Solver, request, arithmetics)
-}
-
 fn against_the_last(
     parameter: Varied,
     request: &Request,
-    arithmetics: Vec<(&str, Arithmetic)>,
+    arithmetics: &[(&str, Arithmetic)],
 ) -> Vec<Trial> {
     let against = ErrorReference::Trial(arithmetics.len() - 1);
-    let trial = |(label, arithmetic): (&str, Arithmetic)| Trial {
-        arithmetic,
+    let trial = |(label, arithmetic): &(&str, Arithmetic)| Trial {
+        arithmetic: *arithmetic,
         against,
-        ..Trial::new(parameter, label, measured_variant(request))
+        ..Trial::new(parameter, *label, measured_variant(request))
     };
-    arithmetics.into_iter().map(trial).collect()
+    arithmetics.iter().map(trial).collect()
 }
 
 /// Meshes, each with its reference solution, which has no path of the load to follow.
@@ -243,26 +245,6 @@ fn meshes(scene: &Scene) -> Vec<Trial> {
         ..Trial::new(Varied::Mesh, format!("h / {}", 1 << times), Variant::Unilateral)
     };
     (0..count).map(trial).collect()
-}
-
-/// The tolerances that are tried, the scene's `own` among them.
-fn tolerances(own: f64) -> Vec<f64> {
-    let mut values = TOLERANCES.to_vec();
-    if !values.contains(&own) {
-        values.push(own);
-        values.sort_by(f64::total_cmp);
-    }
-    values
-}
-
-/// The numbers of iterations that are tried, the scene's `own` among them, and one more, which
-/// shows what a cycle of two does.
-fn iterations(own: usize) -> Vec<usize> {
-    let mut values = ITERATIONS.to_vec();
-    values.extend([own, own + 1]);
-    values.sort_unstable();
-    values.dedup();
-    values
 }
 
 /// The whole scene, then its half, under each variant.

@@ -28,11 +28,6 @@ fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
     rows.map(|row| row.split(" | ").collect())
 }
 
-/// Returns the cells of the rows of the table of statuses whose first cell begins with `first`.
-fn status_rows(first: &str) -> Vec<Vec<&'static str>> {
-    rows(STATUSES).filter(|cells| cells[0].starts_with(first)).collect()
-}
-
 /// Says how the estimate of the error of the mesh compares with the error.
 pub(super) fn how_good_is_the_estimate() -> String {
     let last = |cells: Vec<&str>| cells.last().and_then(|cell| cell.parse().ok());
@@ -63,8 +58,7 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
     let Penetration { node, in_contact, depth, relative } =
         Penetration::of(solution).ok_or("no contact node faces the target")?;
     let pulling = pulling(&solution.contact, solution.model.load.amax());
-    let is_true = relative < NOTICEABLE && pulling.is_empty();
-    let verdict = true_if(is_true);
+    let verdict = true_if(relative < NOTICEABLE && pulling.is_empty());
     let pulls = match pulling.len() {
         0 => "no node in contact pulls".to_string(),
         1 => "1 node in contact pulls".into(),
@@ -73,14 +67,13 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
     let status = if in_contact { "in contact" } else { "not in contact" };
     let tolerance = solution.model.contact.tolerance;
     let beside = if depth < tolerance { "below" } else { "not below" };
-    let detail = match verdict {
-        _ if depth == 0.0 => format!("{variant}: nothing penetrates; {pulls}"),
-        Verdict::True | Verdict::TrueOnlyIf | Verdict::False | Verdict::NotCheckable => format!(
-            "{variant}: node {node}, {status}, ends {depth:.1e} inside the target, {beside} c_tol \
-             ({tolerance:.1e}); {pulls}"
+    let inside = match depth == 0.0 {
+        true => "nothing penetrates".into(),
+        false => format!(
+            "node {node}, {status}, ends {depth:.1e} inside the target, {beside} c_tol ({tolerance:.1e})"
         ),
     };
-    let measured = Evidence::new(verdict, relative, detail);
+    let measured = Evidence::new(verdict, relative, format!("{variant}: {inside}; {pulls}"));
     Ok(Evidence { variant: Some(variant), ..measured }.on([(variant.name(), solution)]))
 }
 
@@ -96,19 +89,11 @@ pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
 
 /// Leaves the number out where runs with a little more and a little less friction do not confirm it.
 pub(super) fn confirmed(case: &Case, measured: Evidence) -> Evidence {
-    match measured.number {
-        Some(_) if !case.is_least_friction() => {
-            let detail =
-                "runs with a little more and a little less friction do not confirm the value";
-            Evidence {
-                verdict: Verdict::NotCheckable,
-                number: None,
-                detail: detail.into(),
-                ..measured
-            }
-        }
-        _ => measured,
+    if measured.number.is_none() || case.is_least_friction() {
+        return measured;
     }
+    let detail = "runs with a little more and a little less friction do not confirm the value";
+    Evidence { verdict: Verdict::NotCheckable, number: None, detail: detail.into(), ..measured }
 }
 
 /// The contact nodes of C7's scene that find another edge where both bodies are moved far away together.
@@ -132,7 +117,7 @@ pub(super) fn searches_current(case: &Case) -> Outcome<'_> {
 
 /// The share of the nodes in contact that the sign rule misses where the stamp jumped to twice c_tll.
 pub(super) fn signs_go_wrong(_: &Case) -> Outcome<'_> {
-    let rows = status_rows("2");
+    let rows: Vec<_> = rows(STATUSES).filter(|cells| cells[0].starts_with('2')).collect();
     let [below, above] = &rows[..] else { return Err("no such depth".into()) };
     let share =
         |row: &[&str]| Ok::<_, ParseFloatError>(row[3].parse::<f64>()? / row[2].parse::<f64>()?);
@@ -144,7 +129,7 @@ pub(super) fn signs_go_wrong(_: &Case) -> Outcome<'_> {
 
 /// Operations of the intersection over those of the sign rule.
 pub(super) fn fewer_operations(_: &Case) -> Outcome<'_> {
-    let rows = status_rows("operations");
+    let rows = rows(STATUSES).filter(|cells| cells[0].starts_with("operations"));
     let row = rows.last().ok_or("no such row")?;
     let quotient: f64 = row[5].parse()?;
     measured(true_if(quotient > 1.0), quotient, row[0])
@@ -189,17 +174,15 @@ pub(super) fn error_of_the_reading(case: &Case) -> Outcome<'_> {
         runs.map(|run| (apart(run, equilibrium).energy_relative, run)).collect();
     let nearest = nearest(&distances).ok_or("no variant of the paper runs")?;
     let least = distances[nearest[0]].0;
-    let variants: Vec<Variant> = nearest.iter().map(|k| distances[*k].1.request.variant).collect();
-    let detail = match &variants[..] {
+    let runs = nearest.iter().map(|k| (distances[*k].1.request.variant.name(), distances[*k].1));
+    let names: Vec<&str> = runs.clone().map(|(name, _)| name).collect();
+    let detail = match names[..] {
         [variant] => format!("{variant} is the nearest variant"),
-        _ => {
-            let names: Vec<&str> = variants.iter().map(|variant| variant.name()).collect();
-            format!("{} are equally near", names.join(" and "))
-        }
+        _ => format!("{} are equally near", names.join(" and ")),
     };
     let measured = Evidence::new(true_if(least < NOTICEABLE), least, detail);
-    let measured = Evidence { variant: Some(variants[0]), ..measured };
-    let runs = variants.iter().zip(&nearest).map(|(variant, k)| (variant.name(), distances[*k].1));
+    let variant = Some(distances[nearest[0]].1.request.variant);
+    let measured = Evidence { variant, ..measured };
     Ok(measured.on(runs.chain([("equilibrium", equilibrium)])))
 }
 

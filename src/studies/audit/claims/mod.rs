@@ -17,7 +17,7 @@ use serde::Serialize;
 pub(super) use measures::nearest;
 pub use register::CLAIMS;
 
-use super::case::{Case, variant_index};
+use super::case::Case;
 use super::evidence::{BY_ROUNDING, Measured, repeated};
 use super::findings::{self, FINDINGS};
 use super::range::{ParameterValue, Range};
@@ -252,7 +252,6 @@ pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<JudgedClaim> 
 impl Claim {
     /// Measures the claim on a scene and on the inputs that mean the same. Where a run fails, the detail says so.
     pub fn measure(&self, case: &Case) -> Evidence {
-        let not_checkable = |why: &str| Evidence::new(Verdict::NotCheckable, None, why);
         match self.measure {
             Measure::Refuted(id) => by_finding(id, Verdict::False, None, *case.reading()),
             Measure::Finding(id, verdict, words) => {
@@ -260,7 +259,7 @@ impl Claim {
             }
             Measure::Scene(measure) => on_scene(case, measure),
             Measure::Confirmed(measure, confirmed) => confirmed(case, on_scene(case, measure)),
-            Measure::Nothing(reason) => not_checkable(reason),
+            Measure::Nothing(reason) => Evidence::new(Verdict::NotCheckable, None, reason),
         }
     }
 
@@ -281,29 +280,21 @@ impl Claim {
             Basis::Runs if !elsewhere.is_empty() && same => Scope::Range,
             Basis::Runs => Scope::OneScene,
         };
+        let command = self.command.iter().map(|word| word.replace("SCENE", &case.scene.word));
+        let reading = case.reading().to_string();
+        let reading = (!reading.is_empty() && self.basis.is_of_reading()).then_some(reading);
+        let option = reading.into_iter().flat_map(|reading| ["--reading".to_string(), reading]);
+        let variant = measured.variant.unwrap_or(Variant::ALL[0]);
+        let place = Variant::ALL.iter().position(|other| *other == variant).unwrap_or_default();
+        let at = if measured.number.is_some() { self.at } else { &[] };
         JudgedClaim {
             claim: self.clone(),
-            command: self.command(case),
-            at: self.pointers(&measured),
+            command: command.chain(option).collect(),
+            at: at.iter().map(|at| at.replace("VARIANT", &place.to_string())).collect(),
             measured,
             scope,
             elsewhere,
         }
-    }
-
-    /// The arguments of a command that prints the number of the claim on a case.
-    fn command(&self, case: &Case) -> Vec<String> {
-        let words = self.command.iter().map(|word| word.replace("SCENE", &case.scene.word));
-        let reading = case.reading().to_string();
-        let reading = (!reading.is_empty() && self.basis.is_of_reading()).then_some(reading);
-        let option = reading.into_iter().flat_map(|reading| ["--reading".to_string(), reading]);
-        words.chain(option).collect()
-    }
-
-    fn pointers(&self, measured: &Evidence) -> Vec<String> {
-        let place = measured.variant.map_or(0, variant_index).to_string();
-        let at = if measured.number.is_some() { self.at } else { &[] };
-        at.iter().map(|pointer| pointer.replace("VARIANT", &place)).collect()
     }
 }
 

@@ -11,7 +11,6 @@ use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
-use report::json;
 use report::layout::listed;
 use report::model::{Report, Table};
 use report::numbers::{or_dash, percent, short};
@@ -63,11 +62,10 @@ pub fn report(
         let heading = format!("{id}: {what}: {}", judged.measured.verdict);
         report.then(Report::default().heading(heading).deeper(1)).then(entry(judged))
     };
-    let report = report.then(other_readings(claims, by_reading));
-    claims
-        .iter()
-        .fold(report.heading("Each claim in full (`audit --claim P12` explains one)"), entry)
-        .table("Assumptions", assumptions)
+    let report = report
+        .then(other_readings(claims, by_reading))
+        .heading("Each claim in full (`audit --claim P12` explains one)");
+    claims.iter().fold(report, entry).table("Assumptions", assumptions)
 }
 
 /// One claim on a scene.
@@ -136,15 +134,28 @@ pub fn under(reading: &Reading) -> String {
     if *reading == Reading::default() { String::new() } else { format!(", under {reading}") }
 }
 
-/// Returns one claim on a scene as JSON.
-pub fn claim_json(claim: &Document, scene: &Scene) -> String {
-    json::line(Some(scene), claim)
-}
-
 /// Reports a claim: its words, what is judged, and what came of it.
 fn entry(judged: &JudgedClaim) -> Report {
     let Claim { place, quote, translation, condition, threshold, number, basis, .. } = judged.claim;
     let value = judged.measured.figure(short);
+    let errors = &judged.measured.mesh_errors;
+    let each = errors.iter().map(|MeshError { run, energy_relative }| {
+        format!("{run} {}", or_dash(*energy_relative, percent))
+    });
+    let errors = (!errors.is_empty()).then(|| {
+        format!(
+            "error of the mesh in the energy norm, {UNDERESTIMATE}: {}. The verdict is on this mesh: it does not say \
+             how far the runs are from the exact solution",
+            listed(each)
+        )
+    });
+    let (command, at) = (judged.command.join(" "), judged.at.join(" over "));
+    let at = if at.is_empty() { at } else { format!(", at {at}") };
+    let printed_by = match basis {
+        Basis::Random => Some("measured by a test: plane-contact guide statuses".into()),
+        Basis::Nothing => None,
+        Basis::Listing | Basis::Runs => Some(format!("printed by: plane-contact {command}{at}")),
+    };
     Report::default()
         .note(format!("the paper, {place}: «{quote}»"))
         .note(format!("in English: \"{translation}\""))
@@ -153,41 +164,14 @@ fn entry(judged: &JudgedClaim) -> Report {
         .note(format!("verdict: {}, {basis}; scope: {}", judged.measured.words(), judged.scope))
         .note(format!("value: {value} = {number}"))
         .note(format!("beside it: {}", judged.measured.detail))
-        .notes(error_of_the_mesh(&judged.measured.mesh_errors))
-        .notes(printed_by(judged))
-}
-
-/// Says the error of the mesh in each run that was measured.
-fn error_of_the_mesh(errors: &[MeshError]) -> Option<String> {
-    let each = errors.iter().map(|MeshError { run, energy_relative }| {
-        format!("{run} {}", or_dash(*energy_relative, percent))
-    });
-    (!errors.is_empty()).then(|| {
-        format!(
-            "error of the mesh in the energy norm, {UNDERESTIMATE}: {}. The verdict is on this mesh: it does not say \
-             how far the runs are from the exact solution",
-            listed(each)
-        )
-    })
+        .notes(errors)
+        .notes(printed_by)
 }
 
 /// Counts the statements, and the sentences of the paper in which they stand.
 pub fn counts() -> String {
     let sentences: BTreeSet<&str> = CLAIMS.iter().map(|claim| claim.place).collect();
     format!("{} statements in {} sentences", CLAIMS.len(), sentences.len())
-}
-
-/// Names the command that prints the value, or the table that has it; nothing where there is no value.
-fn printed_by(judged: &JudgedClaim) -> Option<String> {
-    let (command, at) = (judged.command.join(" "), judged.at.join(" over "));
-    match judged.claim.basis {
-        Basis::Random => Some("measured by a test: plane-contact guide statuses".into()),
-        Basis::Nothing => None,
-        Basis::Listing | Basis::Runs => {
-            let at = if at.is_empty() { at } else { format!(", at {at}") };
-            Some(format!("printed by: plane-contact {command}{at}"))
-        }
-    }
 }
 
 /// Returns the verdicts with their values.

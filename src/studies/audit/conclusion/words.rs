@@ -12,9 +12,7 @@ use crate::audit::prices::table as prices;
 use crate::audit::prices::{Price, Weight};
 use crate::audit::range::{self, Recorded, is_example};
 use engine::BodySummary;
-use engine::estimates::BodyEstimates;
 use paper::mirror::Reading;
-use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::layout::{counted, first_line, listed};
 use report::model::Report;
@@ -95,14 +93,12 @@ pub fn coupling(coupled: Option<&Coupled>) -> String {
                     let share = percent(*share);
                     format!("{entries}, and under printed {share} of the load reaches the target.")
                 }
+                (None, Some(NoFigures::Rounding)) => {
+                    format!("{entries}; printed is {BY_ROUNDING}.")
+                }
                 (None, Some(why)) => {
-                    let what = match why {
-                        NoFigures::Fails(_) => {
-                            format!("stops: {}", why.in_short().trim_end_matches('.'))
-                        }
-                        NoFigures::Rounding => format!("is {BY_ROUNDING}"),
-                    };
-                    format!("{entries}; printed {what}.")
+                    let why = why.in_short().trim_end_matches('.');
+                    format!("{entries}; printed stops: {why}.")
                 }
                 (None, None) => format!("{entries}."),
             }
@@ -132,10 +128,9 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
         None => "Not decided here: no variant of the paper has a result.".into(),
         Some(Nearest { runs, tried, failed, by_rounding, apart }) => {
             let word = if runs[0].energy < NOTICEABLE { "Yes, within 1 %" } else { "No" };
-            let stop = if *failed == 0 {
-                String::new()
-            } else {
-                format!("; {}", counted(*failed, "stops", "stop"))
+            let stop = match failed {
+                0 => String::new(),
+                n => format!("; {}", counted(*n, "stops", "stop")),
             };
             let decided = match by_rounding {
                 0 => String::new(),
@@ -171,40 +166,48 @@ fn nearest(conclusion: &Conclusion, scene: &Scene) -> Answer {
 /// Names a run.
 fn named(NearRun { variant, reading, unsettled, .. }: &NearRun) -> String {
     let unsettled = if *unsettled { " (unsettled: it alternates)" } else { "" };
-    match reading {
-        None => format!("{variant} under the default reading{unsettled}"),
-        Some(reading) => format!("{variant} under the reading {reading}{unsettled}"),
-    }
+    let reading = reading.as_ref().map_or("default reading".into(), |r| format!("reading {r}"));
+    format!("{variant} under the {reading}{unsettled}")
 }
 
 fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
-    let fields = fields.as_ref();
-    let answer = match fields {
-        None => "Not decided here: there is no contact, or no equilibrium to compare with.".into(),
-        Some(fields) => {
+    let difference = fields.as_ref().and_then(|fields| fields.difference);
+    let answer = match (fields, difference) {
+        (None, _) => {
+            "Not decided here: there is no contact, or no equilibrium to compare with.".into()
+        }
+        (Some(fields), None) => {
             let own = in_its_place(fields, scene);
-            match fields.difference {
-                Some(difference) => {
-                    let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
-                    format!(
-                        "{word}. Under {} the largest von Mises stress is {}. The largest von Mises strain is {}. \
-                         One of these values differs by {} from that of the equilibrium on the same mesh.{} {own}",
-                        nearest_variants(&fields.variants, fields.by_rounding),
-                        largest_stress(fields, scene),
-                        listed(fields.theirs.iter().map(|body| strain(body, fields))),
-                        percent(difference),
-                        if fields.unsettled {
-                            " The run is unsettled: its contact state alternates."
-                        } else {
-                            ""
-                        }
-                    )
+            format!("Not decided here: no variant of the paper has a result. {own}")
+        }
+        (Some(fields), Some(difference)) => {
+            let word = if difference < NOTICEABLE { "Yes, within 1 %" } else { "No" };
+            let variants = match &fields.variants[..] {
+                [variant] if fields.by_rounding => {
+                    format!("{variant}, the nearest variant on which rounding does not decide,")
                 }
-                None => format!("Not decided here: no variant of the paper has a result. {own}"),
-            }
+                [variant] => format!("{variant}, the nearest variant,"),
+                all => format!("{} ({} are equally near)", all[0], listed(all)),
+            };
+            let stresses = fields.theirs.iter().map(|body| {
+                let error = fields.errors.mesh_energy_relative;
+                let stress = figure(body.max_von_mises_stress, error);
+                format!("{} in body {}", with_unit(&stress, &scene.units.stress), body.name)
+            });
+            let unsettled = match fields.unsettled {
+                true => " The run is unsettled: its contact state alternates.",
+                false => "",
+            };
+            format!(
+                "{word}. Under {variants} the largest von Mises stress is {}. The largest von Mises strain is {}. \
+                 One of these values differs by {} from that of the equilibrium on the same mesh.{unsettled} {}",
+                listed(stresses),
+                listed(fields.theirs.iter().map(|body| strain(body, fields))),
+                percent(difference),
+                in_its_place(fields, scene)
+            )
         }
     };
-    let difference = fields.and_then(|fields| fields.difference);
     Answer {
         question: "May its fields of von Mises stress and strain be trusted?",
         answer,
@@ -213,18 +216,6 @@ fn fields(Conclusion { fields, .. }: &Conclusion, scene: &Scene) -> Answer {
              nearest variant and the equilibrium",
         command: format!("audit {} --json", scene.word),
         at: difference.map(|_| "/conclusion/fields/difference".into()),
-    }
-}
-
-/// Names the variants that are nearest.
-fn nearest_variants(variants: &[Variant], by_rounding: bool) -> String {
-    match variants {
-        [variant] if by_rounding => {
-            format!("{variant}, the nearest variant on which rounding does not decide,")
-        }
-        [variant] => format!("{variant}, the nearest variant,"),
-        [first, ..] => format!("{first} ({} are equally near)", listed(variants)),
-        [] => unreachable!("a variant ran"),
     }
 }
 
@@ -243,7 +234,11 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
         let scale = 10f64.powi(decimals as i32);
         let centre = body.centre.map(|x| (x * scale).round() / scale + 0.0);
         let at = with_unit(&coordinates(centre, decimals), &scene.units.length);
-        format!("{stress} in body {} at {at}{}", body.name, error_of_mesh(error))
+        let diverges = match error.no_limit.as_ref().filter(|point| point.is_largest) {
+            Some(point) => format!(" (it diverges under refinement, at node {})", point.node),
+            None => String::new(),
+        };
+        format!("{stress} in body {} at {at}{diverges}", body.name)
     });
     let limit = match is_example(scene) {
         true => " `plane-contact guide limit` says what finer meshes with true arcs lead to.",
@@ -258,42 +253,24 @@ fn in_its_place(fields: &Fields, scene: &Scene) -> String {
     )
 }
 
-/// Says where a largest stress diverges; nothing where it does not.
-fn error_of_mesh(error: &BodyEstimates) -> String {
-    let point = error.no_limit.as_ref().filter(|point| point.is_largest);
-    point.map_or(String::new(), |point| {
-        format!(" (it diverges under refinement, at node {})", point.node)
-    })
-}
-
-fn largest_stress(fields: &Fields, scene: &Scene) -> String {
-    listed(fields.theirs.iter().map(|body| {
-        let stress = figure(body.max_von_mises_stress, fields.errors.mesh_energy_relative);
-        format!("{} in body {}", with_unit(&stress, &scene.units.stress), body.name)
-    }))
-}
-
 fn strain(body: &BodySummary, fields: &Fields) -> String {
     let strain = figure(body.max_von_mises_strain, fields.errors.mesh_energy_relative);
     format!("{strain} in body {}", body.name)
 }
 
 fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) -> Answer {
-    let known = match prices {
-        Ok(prices) => match prices::unsound(prices) {
-            Some(why) => Err(format!("Not decided here: {why}.")),
-            None => Ok(prices),
-        },
+    let known = match prices.as_ref().map(|prices| (prices, prices::unsound(prices))) {
+        Ok((prices, None)) => Ok(prices),
+        Ok((_, Some(why))) => Err(format!("Not decided here: {why}.")),
         Err(why) => Err(format!("Not measured here: {}", first_line(why))),
     };
     let answer = match &known {
         Err(why) => why.clone(),
         Ok(prices) => {
-            let own = match prices[0].outcome.from_equilibrium() {
-                Some(own) => format!("is {} from the equilibrium", percent(own)),
-                None => "cannot be compared, as there is no equilibrium under the scene's friction"
-                    .into(),
-            };
+            let own = prices[0].outcome.from_equilibrium().map_or(
+                "cannot be compared, as there is no equilibrium under the scene's friction".into(),
+                |own| format!("is {} from the equilibrium", percent(own)),
+            );
             let none = prices::of_weight(prices, Weight::NoFault);
             let no_fault = if none.is_empty() {
                 String::new()
@@ -309,7 +286,12 @@ fn costs(prices: &Result<Vec<Price>, String>, unpriced: &[&str], scene: &Scene) 
                  shapes.",
                 prices.len() - 1,
                 or_none(prices::of_weight(prices, Weight::Fatal)),
-                or_none(shifts(prices).into_iter().map(|k| shift(&prices[k]))),
+                or_none(shifts(prices).into_iter().map(|k| {
+                    let Price { name, outcome, .. } = &prices[k];
+                    let name = name.as_deref().expect("the corrected algorithm shifts nothing");
+                    let settles = if outcome.is_settled() { "" } else { " (does not settle)" };
+                    format!("{name} {}{settles}", or_dash(outcome.from_equilibrium(), percent))
+                })),
                 or_none(prices::of_weight(prices, Weight::Rounding)),
                 or_none(prices::of_weight(prices, Weight::Free)),
                 or_none(unpriced)
@@ -338,14 +320,6 @@ pub fn shifts(prices: &[Price]) -> Vec<usize> {
     let distance = |k: &usize| prices[*k].outcome.from_equilibrium().unwrap_or(0.0);
     shifting.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     shifting
-}
-
-/// Says how far a fault leaves the solution from the equilibrium.
-fn shift(price: &Price) -> String {
-    let name = price.name.as_deref().expect("the corrected algorithm shifts nothing");
-    let far = or_dash(price.outcome.from_equilibrium(), percent);
-    let settles = if price.outcome.is_settled() { "" } else { " (does not settle)" };
-    format!("{name} {far}{settles}")
 }
 
 /// Lists words, or says that there are none.
@@ -403,17 +377,15 @@ fn open(conclusion: &Conclusion, scene: &Scene) -> Answer {
                 0 => "no verdict changes".to_string(),
                 _ => format!("the verdicts that change are those on {}", listed(changes)),
             };
+            let from = true_from.iter().map(|(id, value)| {
+                format!(" {id} is true at each clearance tried from {value} mm on.")
+            });
             format!(
                 "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} \
                  from the equilibrium; {verdicts}.{}",
                 percent(*least),
                 percent(*most),
-                true_from
-                    .iter()
-                    .map(|(id, value)| {
-                        format!(" {id} is true at each clearance tried from {value} mm on.")
-                    })
-                    .collect::<String>()
+                from.collect::<String>()
             )
         }
     };

@@ -7,7 +7,7 @@ use mathcad::SparseSquare;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::element::area;
-use problem::model::{EdgeId, Model, NodeId, TriangleId};
+use problem::model::{EdgeId, Model, TriangleId};
 use problem::modelling::Variant;
 
 /// A shape: coordinates of each node, length.
@@ -94,14 +94,9 @@ pub(super) fn dy(call: &Call, i: usize) -> usize {
     usize::from(call.statuses[i].in_contact)
 }
 
-/// A node's coordinates in a shape, length.
-pub(super) fn coordinates(shape: &Shape, node: NodeId) -> [f64; 2] {
-    shape[node.index()]
-}
-
 /// The coordinates of the ends of an edge in a shape, length.
 pub(super) fn ends(model: &Model, shape: &Shape, edge: EdgeId) -> [[f64; 2]; 2] {
-    model.edge(edge).nodes.map(|node| coordinates(shape, node))
+    model.edge(edge).nodes.map(|node| shape[node.index()])
 }
 
 /// Vertical distance from `point` up to the line through `ends`; nothing where that is vertical.
@@ -112,9 +107,9 @@ pub(super) fn rise([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> Option<f64> {
 
 /// Whether entry `i` of the contact surface lies inside a triangle of the target, not on a side.
 pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
-    let point = coordinates(shape, model.contact.nodes[i]);
+    let point = shape[model.contact.nodes[i].index()];
     let inside = |id: &TriangleId| {
-        let [a, b, c] = model.triangle(*id).nodes.map(|node| coordinates(shape, node));
+        let [a, b, c] = model.triangle(*id).nodes.map(|node| shape[node.index()]);
         [[a, b], [b, c], [c, a]].iter().all(|[p, q]| area(&[*p, *q, point]) > 0.0)
     };
     model.target().is_some_and(|target| target.triangles.iter().any(inside))
@@ -124,7 +119,7 @@ pub(super) fn inside_target(model: &Model, shape: &Shape, i: usize) -> bool {
 /// above. Nothing for a vertical edge, or one that bounds no triangle.
 pub(super) fn inner_sign(model: &Model, shape: &Shape, edge: EdgeId) -> Option<f64> {
     let third = model.sides.beside(model.edge(edge).nodes).first()?.third;
-    rise(ends(model, shape, edge), coordinates(shape, third)).map(f64::signum)
+    rise(ends(model, shape, edge), shape[third.index()]).map(f64::signum)
 }
 
 /// The unit normal of a target edge that points away from the target.

@@ -124,22 +124,14 @@ impl Measured for Evidence {
 
 impl Evidence {
     /// Returns a measure of the verdict `present` or `not triggered here`.
-    fn present_if(
-        is_present: bool,
-        number: impl Into<Option<f64>>,
-        detail: impl Into<String>,
-    ) -> Self {
+    fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
         Evidence::new(verdict, number, detail)
     }
 
     /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
     /// finding needs.
-    fn must_be_present(
-        is_present: bool,
-        number: impl Into<Option<f64>>,
-        detail: impl Into<String>,
-    ) -> Self {
+    fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
         let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
         Evidence::new(verdict, number, detail)
     }

@@ -23,7 +23,7 @@ pub const FINDINGS: &[Finding] = &[
               contact",
         repair: "order the two coordinates first: min − c_tll .. max + c_tll",
         edit: edit!("repairs/C1.edit"),
-        before: Preparation::Model("each target edge reversed", turn_target),
+        before: Preparation::Model("each target edge reversed", |model| *model = turned(model)),
         number: "contact nodes that get or lose a target edge or dy = 1 once every target edge is reversed",
         measure: search::turned_edges,
     },
@@ -272,7 +272,9 @@ pub const FINDINGS: &[Finding] = &[
         why: "the matrix is singular: one stray point of the mesh is enough",
         repair: "set the 1 in a loop over nodes",
         edit: edit!("repairs/K4.edit"),
-        before: Preparation::Model("with one more node, which belongs to no triangle", add_orphan),
+        before: Preparation::Model("with one more node, which belongs to no triangle", |model| {
+            model.add_node([1.0, 0.0], Restraint::Free);
+        }),
         number: "rows of zeros that one such node adds",
         measure: stiffness::orphan,
     },
@@ -355,10 +357,6 @@ pub const FINDINGS: &[Finding] = &[
     },
 ];
 
-fn turn_target(model: &mut Model) {
-    *model = turned(model);
-}
-
 /// Turns the scene about the middle between x = 0 and x = 1, so that the target lies above the stamp.
 fn turn_scene(model: &mut Model) {
     model.nodes.iter_mut().for_each(|[x, y]| [*x, *y] = [1.0 - *x, -*y]);
@@ -380,8 +378,4 @@ fn release_stamp(model: &mut Model) {
     let stamp = model.body_of(model.contact.nodes[0]).expect("a contact node is of a body");
     let dofs: Vec<_> = stamp.nodes.iter().flat_map(|node| node.dofs()).collect();
     dofs.iter().for_each(|dof| model.restrain(*dof, Restraint::Free));
-}
-
-fn add_orphan(model: &mut Model) {
-    model.add_node([1.0, 0.0], Restraint::Free);
 }

@@ -1,12 +1,12 @@
 //! Findings of the search for a target edge: c_cnt 1-10.
 
 use super::experiment::{
-    Shape, at_calls, at_shapes, c_cnt, coordinates, count_nodes, dy, ends, inside_target, rise,
+    Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, rise,
 };
 use super::{Evidence, Outcome};
 use crate::audit::Case;
 use engine::contact::turned;
-use paper::door::{Call, ContactStatus};
+use paper::door::ContactStatus;
 use problem::model::{EdgeId, Model};
 
 /// C1: the target edges reversed.
@@ -46,25 +46,18 @@ fn compared<'a>(
 /// edge stops the listing.
 pub(super) fn vertical_distance(case: &Case) -> Outcome<'_> {
     at_shapes(case, |shape| match c_cnt(case, case.model(), shape) {
-        Ok(call) => Ok(near_a_slope(case.model(), shape, &call)),
+        Ok(call) => Ok(count_nodes(case.model(), |i| {
+            let status = call.statuses[i];
+            let [a, b] = ends(case.model(), shape, status.edge.filter(|_| !status.in_contact)?);
+            let cosine = (b[0] - a[0]).abs() / (b[0] - a[0]).hypot(b[1] - a[1]);
+            let (yt, along) = (status.distance, status.distance * cosine);
+            let words = || format!("yt {yt:.3e}, cos t {cosine:.3}, along the normal {along:.3e}");
+            (yt.abs() * cosine < case.model().contact.tolerance).then(words)
+        })),
         Err(failure) if failure.line == 10 => {
             Ok(Evidence::present_if(true, 0.0, failure.to_string()))
         }
         Err(failure) => Err(failure),
-    })
-}
-
-fn near_a_slope(model: &Model, shape: &Shape, call: &Call) -> Evidence {
-    let cosine = |edge: EdgeId| {
-        let [a, b] = ends(model, shape, edge);
-        (b[0] - a[0]).abs() / (b[0] - a[0]).hypot(b[1] - a[1])
-    };
-    count_nodes(model, |i| {
-        let status = call.statuses[i];
-        let (yt, cosine) = (status.distance, cosine(status.edge.filter(|_| !status.in_contact)?));
-        let words =
-            || format!("yt {yt:.3e}, cos t {cosine:.3}, along the normal {:.3e}", yt * cosine);
-        (yt.abs() * cosine < model.contact.tolerance).then(words)
     })
 }
 
@@ -97,7 +90,7 @@ pub(super) fn missed_near(case: &Case) -> Outcome<'_> {
 /// The smallest vertical distance of entry `i` of the contact surface from the target edges that it
 /// is over or under.
 fn nearest(model: &Model, shape: &Shape, i: usize) -> f64 {
-    let point = coordinates(shape, model.contact.nodes[i]);
+    let point = shape[model.contact.nodes[i].index()];
     let distance = |edge: &EdgeId| {
         let [a, b] = ends(model, shape, *edge);
         let over = a[0].min(b[0]) <= point[0] && point[0] <= a[0].max(b[0]);

@@ -1,7 +1,7 @@
 //! Findings of the contact status: c_cnt 15-18.
 
 use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
-use super::{Evidence, Outcome};
+use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
 use mathcad::Conjunction;
 use paper::door::Call;
@@ -20,10 +20,8 @@ pub(super) fn upside_down(case: &Case) -> Outcome<'_> {
         let mirrored = c_cnt(case, case.model(), &with_y(shape, |_, y| -y))?;
         Ok(count_nodes(case.model(), |i| {
             let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
-            let words = || {
-                let [own, other] = [&as_is, &mirrored].map(|call| dy(call, i));
-                format!("yt {:.3e} dy {own}, upside down dy {other}", as_is.statuses[i].distance)
-            };
+            let [dy, down] = [own, other].map(|status| usize::from(status.in_contact));
+            let words = || format!("yt {:.3e} dy {dy}, upside down dy {down}", own.distance);
             (own.edge == other.edge && own.in_contact != other.in_contact).then(words)
         }))
     })
@@ -60,7 +58,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
         let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
         let on_edge = count_nodes(&model, |i| touches(i).then(|| words(i)));
         if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
-            return Ok(Evidence::must_be_present(false, on_edge.number, on_edge.detail));
+            return Ok(Evidence { verdict: Verdict::Contradicted, ..on_edge });
         }
         let by_sign = count_nodes(&model, |i| flagged(i).then(|| words(i))).detail;
         let detail = format!("{}; flagged by lines 17-18: {by_sign}", on_edge.detail);
@@ -93,7 +91,9 @@ pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
     let model = case.model();
     at_shapes(case, |shape| {
         let call = c_cnt(case, model, shape)?;
-        let noise = noise(shape);
+        // What rounding may leave of a difference of coordinates: yt takes some ten operations.
+        let largest = shape.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let noise = 16.0 * f64::EPSILON * largest;
         let on_edge =
             |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance.abs() <= noise;
         let touching = |node: NodeId| {
@@ -110,12 +110,6 @@ pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
             (!on_edge(i) && up != down).then(words)
         }))
     })
-}
-
-/// What rounding may leave of a difference of coordinates: yt takes some ten operations.
-fn noise(shape: &Shape) -> f64 {
-    let largest = shape.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    16.0 * f64::EPSILON * largest
 }
 
 /// C15: nodes flagged only because a neighbour that is itself within c_tll has yt > 0.

@@ -8,51 +8,46 @@ use super::experiment::{
 use super::{Evidence, Outcome, Verdict};
 use crate::audit::Case;
 use engine::linear::SparseCholesky;
-use engine::{Constraint, Detail, Elimination, Solution, Stiffness, max_displacement};
-use mathcad::SparseSquare;
+use engine::{Constraint, Detail, Elimination, Stiffness, max_displacement};
 use paper::door::{self, Call};
 use paper::mirror::Failure;
-use problem::model::{Body, Model, NodeId, Restraint, TriangleId};
+use problem::model::{Model, NodeId, Restraint, TriangleId};
 use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
 pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
-    let mjs = first_in_contact(case)?.km(case.reading())?;
-    let joins: usize = case.model().bodies.iter().map(|body| joins(&mjs, body)).sum();
-    Ok(Evidence::must_be_present(joins == 0, joins as f64, target_moves(case)))
-}
-
-/// Entries of `mjs` in a row of `body` and a column of another.
-fn joins(mjs: &SparseSquare, body: &Body) -> usize {
-    let mut of_body = vec![false; mjs.size()];
-    body.nodes.iter().flat_map(|n| n.dofs()).for_each(|dof| of_body[dof.index()] = true);
-    mjs.entries().filter(|(row, column, _)| of_body[*row] && !of_body[*column]).count()
-}
-
-fn target_moves(case: &Case) -> String {
-    let (Ok(solution), Some(target)) = (case.run(Variant::Printed), case.model().target()) else {
-        return "printed does not run".into();
+    let (model, mjs) = (case.model(), first_in_contact(case)?.km(case.reading())?);
+    let mut joins = 0;
+    for body in &model.bodies {
+        let mut of_body = vec![false; mjs.size()];
+        body.nodes.iter().flat_map(|n| n.dofs()).for_each(|dof| of_body[dof.index()] = true);
+        joins += mjs.entries().filter(|(i, j, _)| of_body[*i] && !of_body[*j]).count();
+    }
+    let detail = match (case.run(Variant::Printed), model.target()) {
+        (Ok(solution), Some(target)) => {
+            let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
+            let largest = target.nodes.iter().map(norm).fold(0.0, f64::max);
+            let most = max_displacement(&solution.u);
+            format!("printed: the target moves by {largest:e}, the stamp by {most:.3e}")
+        }
+        _ => "printed does not run".into(),
     };
-    let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
-    let largest = target.nodes.iter().map(norm).fold(0.0, f64::max);
-    let most = max_displacement(&solution.u);
-    format!("printed: the target moves by {largest:e}, the stamp by {most:.3e}")
+    Ok(Evidence::must_be_present(joins == 0, joins as f64, detail))
 }
 
-/// The weights of the linked nodes of a triangle, in its order: pair 1 or 2 of k_cnt.
-fn linked(model: &Model, call: &Call, id: TriangleId, pair: usize) -> Vec<f64> {
-    let rows = model.triangle(id).nodes.into_iter().map(|node| call.row(node));
-    let of_pair = rows.map(|row| (row[2 * pair - 2], row[2 * pair - 1]));
-    of_pair.filter(|(mate, _)| *mate > 0.0).map(|(_, weight)| weight).collect()
-}
-
-/// The additions (triangle, pair) of which `is` is true of the linked nodes' weights, in words.
+/// The additions (triangle, pair 1 or 2 of k_cnt) of which `is` is true of the weights of the linked nodes, in the
+/// triangle's order; in words.
 fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(TriangleId, String)> {
-    let all = model.triangle_ids().flat_map(|id| [1, 2].map(|pair| (id, pair)));
-    all.map(|(id, pair)| (id, pair, linked(model, call, id, pair)))
-        .filter(|(_, _, weights)| is(weights))
-        .map(|(id, pair, weights)| (id, format!("triangle {id}, pair {pair}: weights {weights:?}")))
-        .collect()
+    let mut found = Vec::new();
+    for (id, pair) in model.triangle_ids().flat_map(|id| [(id, 1), (id, 2)]) {
+        let rows = model.triangle(id).nodes.into_iter().map(|node| call.row(node));
+        let linked = rows.filter(|row| row[2 * pair - 2] > 0.0);
+        let weights: Vec<f64> = linked.map(|row| row[2 * pair - 1]).collect();
+        if is(&weights) {
+            found.push((id, format!("triangle {id}, pair {pair}: weights {weights:?}")));
+        }
+    }
+    found
 }
 
 /// K2: triangles with two linked nodes of different weight.
@@ -140,7 +135,10 @@ pub(super) fn pulls(case: &Case) -> Outcome<'_> {
     // What eq. (1) adds at each equation; at a restrained one the support's reaction is part of it.
     let force = Stiffness::new(model, |x| x).times(&solution.u) - &model.load;
     let rounding = ROUNDING * force.amax();
-    let statuses = last_statuses(solution);
+    let statuses = match &solution.last().detail {
+        Detail::Published(step) => door::statuses(&solution.model, &step.pairs.whole()),
+        Detail::Unilateral(_) => Vec::new(),
+    };
     let push = |i: usize| {
         let away = statuses[i].edge.and_then(|edge| away(model, &model.nodes, edge));
         let away = away.unwrap_or_default();
@@ -153,20 +151,16 @@ pub(super) fn pulls(case: &Case) -> Outcome<'_> {
     }))
 }
 
-/// What `c_cnt` found in the last step of a published variant.
-fn last_statuses(solution: &Solution) -> Vec<door::ContactStatus> {
-    match &solution.last().detail {
-        Detail::Published(step) => door::statuses(&solution.model, &step.pairs.whole()),
-        Detail::Unilateral(_) => Vec::new(),
-    }
-}
-
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
 pub(super) fn hinge(case: &Case) -> Outcome<'_> {
     let call = first_in_contact(case)?;
     let stiffness = Stiffness::new(case.model(), |x| x);
     let linked = door::linked(&call.sheet, &call.pairs);
-    let restraints = released(case.model(), case.model().contact.nodes[0]);
+    let mut restraints = case.model().restraints().to_vec();
+    let stamp = case.model().body_of(case.model().contact.nodes[0]);
+    for dof in stamp.into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {
+        restraints[dof.index()] = Restraint::Free;
+    }
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few: Vec<Constraint> =
@@ -182,13 +176,4 @@ pub(super) fn hinge(case: &Case) -> Outcome<'_> {
     });
     let detail = format!("one linked node: {one}; two: {two}");
     Ok(Evidence::must_be_present(singular[0] == Some(true), most as f64, detail))
-}
-
-/// The restraints, none of them on the body of `node`.
-fn released(model: &Model, node: NodeId) -> Vec<Restraint> {
-    let mut restraints = model.restraints().to_vec();
-    for dof in model.body_of(node).into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {
-        restraints[dof.index()] = Restraint::Free;
-    }
-    restraints
 }

@@ -3,9 +3,9 @@
 use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, mjs};
 use super::{Evidence, Outcome};
 use crate::audit::Case;
-use engine::{Detail, Step};
-use paper::door::{Call, NodeToSegment, linked, worksheet};
-use problem::model::{Model, NodeId};
+use engine::Detail;
+use paper::door::{NodeToSegment, linked, worksheet};
+use problem::model::NodeId;
 use problem::modelling::Variant;
 
 /// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants.
@@ -14,7 +14,9 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
     for variant in Variant::OF_THE_PAPER {
         let Ok(solution) = case.run(*variant) else { continue };
         for step in &solution.steps {
-            for NodeToSegment { node, masters } in found_in(&solution.model, step) {
+            let Detail::Published(found) = &step.detail else { continue };
+            let sheet = worksheet(&solution.model, |x| x);
+            for NodeToSegment { node, masters } in linked(&sheet, &found.pairs.whole()) {
                 let [k1, k2] = masters.map(|(_, weight)| weight);
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
                 if outside > furthest.number.unwrap_or(0.0).max(ROUNDING) {
@@ -28,35 +30,22 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
     Ok(furthest)
 }
 
-/// The nodes in contact that `c_cnt` found in a step.
-fn found_in(model: &Model, step: &Step) -> Vec<NodeToSegment> {
-    match &step.detail {
-        Detail::Published(found) => linked(&worksheet(model, |x| x), &found.pairs.whole()),
-        Detail::Unilateral(_) => Vec::new(),
-    }
-}
-
 /// C7: target nodes that stand for two or more contact nodes.
 pub(super) fn shared_nodes(case: &Case) -> Outcome<'_> {
     let model = case.model();
     at_calls(case, |_, call| {
-        let constrained = constrained_by(model, call);
+        // For each node the numbers of the contact nodes of which it is a master node.
+        let mut constrained = vec![Vec::new(); model.nodes.len()];
+        for bound in linked(&call.sheet, &call.pairs) {
+            for (master, _) in bound.masters {
+                constrained[master.index()].push(bound.node.number());
+            }
+        }
         count(model.node_ids().zip(&constrained).filter(|(_, by)| by.len() > 1).map(|(n, by)| {
             let row = call.row(n).map(|x| x.to_string()).join(" ");
             format!("node {n}: mates {by:?}, k_cnt {row}")
         }))
     })
-}
-
-/// For each node the numbers of the contact nodes of which it is a master node.
-fn constrained_by(model: &Model, call: &Call) -> Vec<Vec<usize>> {
-    let mut constrained = vec![Vec::new(); model.nodes.len()];
-    for bound in linked(&call.sheet, &call.pairs) {
-        for (master, _) in bound.masters {
-            constrained[master.index()].push(bound.node.number());
-        }
-    }
-    constrained
 }
 
 /// C12: the sum of the weights of a node that `cnt` lists more than once.
