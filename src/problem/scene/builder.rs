@@ -5,11 +5,11 @@ use std::path::Path;
 use super::description::{Axis, Contact, Description, Load, LoadKind, Material, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
-use super::{Scene, file, gmsh, orphans, source};
+use super::{Scene, file, gmsh};
 use crate::element::Plane;
 use crate::model::NodeId;
 use crate::modelling::Variant;
-use base::error::Result;
+use base::error::{InputError, Result};
 use base::files;
 
 /// A scene before it is checked, from code or from a scene file.
@@ -58,7 +58,7 @@ impl SceneBuilder {
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
         let mut description = file::parse(text)?;
-        let mesh = source::mesh(&mut description, beside)?;
+        let mesh = file::mesh(&mut description, beside)?;
         Ok(SceneBuilder { name: name.into(), mesh, description })
     }
 
@@ -164,7 +164,8 @@ impl SceneBuilder {
         self
     }
 
-    /// Checks the scene and builds it.
+    /// Checks the scene and builds it. Nodes that belong to no triangle are refused, or dropped with the points and
+    /// edges on them; every node keeps its number.
     ///
     /// # Errors
     /// The mesh, the description, or the two together are at fault.
@@ -177,9 +178,24 @@ impl SceneBuilder {
         let SceneBuilder { name, mut mesh, mut description } = self;
         mesh.check()?;
         let dropped = mesh.orphans();
-        if !dropped.is_empty() {
-            orphans::drop(&mut mesh, &dropped, &mut description)?;
+        let is_dropped = |n: &usize| dropped.binary_search(n).is_ok();
+        if !dropped.is_empty() && !description.drop_orphans {
+            let named = mesh.named(&dropped);
+            let nodes = match dropped.len() {
+                1 => format!("node {named} belongs"),
+                _ => format!("nodes {named} belong"),
+            };
+            let what = format!("{nodes} to no triangle (finding K4: Km would be singular)");
+            let fix =
+                "remove what is in none (in Gmsh: Mesh.SaveAll = 0), or set \"drop_orphans\": true";
+            return Err(InputError::new("the mesh's nodes", what, fix));
         }
+        if let Some((place, n)) = description.named_nodes().into_iter().find(|(_, n)| is_dropped(n))
+        {
+            let what = format!("node {} belongs to no triangle and was dropped", mesh.named(&[*n]));
+            return Err(InputError::new(place, what, "name a node of a triangle"));
+        }
+        mesh.elements.retain(|element| !element.nodes.iter().any(is_dropped));
         let dropped = dropped.into_iter().map(NodeId::from_number).collect();
         Scene::assemble(&name, description, mesh, dropped)
     }

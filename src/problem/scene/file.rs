@@ -2,15 +2,19 @@
 
 use std::fmt;
 
+use schemars::generate::SchemaSettings;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
 use super::description::{Description, Material, Materials};
+use super::gmsh;
 use super::groups::GroupRef;
+use super::mesh::Mesh;
 use super::surface::Surface;
 use base::error::{InputError, Result};
-use base::files::json;
+use base::files::{json, kind_of};
+use base::limits;
 
 /// Scene files, of which the mesh is another file.
 pub const SCENE: json::Kind =
@@ -22,6 +26,62 @@ pub const SCENE: json::Kind =
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
     to_be_chosen(text).map_or_else(|| json::read(text, &SCENE), Err)
+}
+
+/// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file
+/// in the scene file's folder.
+///
+/// # Errors
+/// The fields name no source, or two; the file cannot be read; a row of a table has another
+/// form.
+pub fn mesh(
+    scene: &mut Description,
+    beside: impl Fn(&str) -> Result<Vec<u8>, String>,
+) -> Result<Mesh> {
+    let name = match (scene.mesh.take(), scene.node.take(), scene.elements.take()) {
+        (Some(name), None, None) => name,
+        (None, Some(node), Some(elem)) => return Mesh::from_tables(&node, &elem),
+        _ => {
+            let what = "the scene needs either mesh, or node and elem";
+            let fix = "give \"mesh\": \"file.msh\", or the two tables";
+            return Err(InputError::new("fields mesh, node, elem", what, fix));
+        }
+    };
+    let file = beside(&name).map_err(|why| {
+        let what = format!("the mesh file {name:?} cannot be read: {why}");
+        InputError::new(
+            "field mesh",
+            what,
+            "the path is resolved beside the scene file, in its folder or below",
+        )
+    })?;
+    let place = format!("mesh {name:?}");
+    let numbers = file.iter().filter(|byte| byte.is_ascii_whitespace()).count();
+    limits::MESH.check(numbers, &place)?;
+    let mut mesh = gmsh::read(&file).map_err(|error| {
+        let mut fix = "save the mesh again from Gmsh";
+        let what = if let Some(expected) = &error.expected
+            && expected.starts_with("$MeshFormat")
+        {
+            // A file that is no mesh may hold secrets of who runs the scene.
+            fix = "save a mesh from Gmsh: gmsh part.geo -2 makes part.msh of the geometry part.geo";
+            let but = kind_of(&file).map_or(String::new(), |found| format!(" but {found}"));
+            format!("it is no mesh of Gmsh{but}: expected {expected}")
+        } else {
+            error.to_string()
+        };
+        InputError::new(&place, what, fix)
+    })?;
+    mesh.adapt(scene).map_err(|error| error.within(&place))?;
+    Ok(mesh)
+}
+
+/// Returns the JSON Schema (draft 2020-12) of a scene file: what has a default may be left out.
+pub fn schema() -> String {
+    let settings = SchemaSettings::draft2020_12().for_deserialize();
+    let mut schema = settings.into_generator().into_root_schema_for::<Description>();
+    schema.insert("title".into(), "a scene file".into());
+    serde_json::to_string_pretty(&schema).expect("a schema has string keys") + "\n"
 }
 
 /// Returns the text of a scene file with `description` and the mesh file `mesh` beside it: a line

@@ -8,10 +8,9 @@ use serde_json::{Value, json};
 
 use super::check;
 use super::description::{Description, Material, Materials};
-use super::file::text_of;
+use super::file::{self, text_of};
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
-use super::source;
 use super::surface::Surface;
 use crate::element::Plane;
 use crate::model::{Bounds, NodeId, Sides};
@@ -51,7 +50,7 @@ struct Curve {
 pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let mut description =
         Description { mesh: Some(name.into()), ..Description::new(Plane::Strain) };
-    let mesh = source::mesh(&mut description, |_| Ok(file.to_vec()))?;
+    let mesh = file::mesh(&mut description, |_| Ok(file.to_vec()))?;
     mesh.check()?;
     let groups = Groups::new(&mesh);
     let mut notes = Vec::new();

@@ -11,38 +11,66 @@ use crate::model::{Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
 
-/// The load of a scene, on all 2R degrees of freedom, restrained ones included, force.
-pub struct Loading {
-    /// Its parts, in the order of the scene file.
-    pub forces: Vec<Force>,
-    /// What they come to in `f64`.
-    pub total: DVector<f64>,
-    /// The place of the load of each part in the scene file.
-    pub of: Vec<usize>,
-    /// What each stage adds; there is at least one.
-    pub stages: Vec<DVector<f64>>,
-}
-
-/// Returns what `loads` come to.
+/// Puts `loads` on the model: their parts, their sum, and what each stage adds. Returns the place of the load of each
+/// part in the scene file.
 ///
 /// # Errors
 /// An edge of a load bounds no triangle or two, a number is not finite, or no load belongs to a stage
 /// before the last one.
-pub fn loading(mesh: &Mesh, groups: &Groups, model: &Model, loads: &[Load]) -> Result<Loading> {
-    let count: usize = loads.iter().map(|load| count(groups, load)).sum();
-    limits::LOADED.check(count, "loads")?;
+pub fn apply(
+    mesh: &Mesh,
+    groups: &Groups,
+    model: &mut Model,
+    loads: &[Load],
+) -> Result<Vec<usize>> {
+    let count = loads.iter().map(|load| match &load.kind {
+        LoadKind::Force { .. } => 1,
+        LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
+            groups.places(1, on, "").map_or(1, <[u32]>::len)
+        }
+    });
+    limits::LOADED.check(count.sum(), "loads")?;
     let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
     for (k, load) in loads.iter().enumerate() {
-        let own = parts(mesh, groups, &model.sides, load, &load_field(k))?;
+        let place = format!("loads[{k}]");
+        let own = match &load.kind {
+            LoadKind::Force { node, force } => {
+                mesh.check_node(*node, &format!("{place}.node"))?;
+                vec![Force::Node(NodeId::from_number(*node), *force)]
+            }
+            LoadKind::Pressure { on, pressure } => {
+                on_edges(groups, &model.sides, on, &place, |edge| Force::Pressure(edge, *pressure))?
+            }
+            LoadKind::Traction { on, traction } => {
+                on_edges(groups, &model.sides, on, &place, |edge| Force::Traction(edge, *traction))?
+            }
+        };
         add(&own, &mut total, model, k)?;
         forces.push(own);
     }
-    let mut stages = vec![DVector::zeros(model.dofs()); stages(loads, model)?];
+    // Restraints displace nodes in the first stage.
+    let displaced = model.oblique().any(|(_, hold)| hold.displacement != 0.0).then_some(1);
+    let numbers: BTreeSet<usize> =
+        loads.iter().map(|load| load.stage.unwrap_or(1)).chain(displaced).collect();
+    let last = numbers.last().copied().unwrap_or(1);
+    if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
+        let place = format!("loads[{k}].stage");
+        return Err(InputError::new(place, "stages count from 1", "give 1 or more"));
+    }
+    if let Some(k) = (1..=loads.len().min(last)).find(|k| !numbers.contains(k)) {
+        let what = format!("no load has stage {k}, but one has stage {last}");
+        let fix = "number the stages 1, 2, ... without a gap";
+        return Err(InputError::new("loads", what, fix));
+    }
+    limits::STAGES.check(last * model.dofs(), "loads")?;
+    let mut stages = vec![DVector::zeros(model.dofs()); last];
     for (k, (load, own)) in loads.iter().zip(&forces).enumerate() {
         add(own, &mut stages[load.stage.unwrap_or(1) - 1], model, k)?;
     }
     let of = forces.iter().enumerate().flat_map(|(k, own)| vec![k; own.len()]).collect();
-    Ok(Loading { forces: forces.into_iter().flatten().collect(), of, total, stages })
+    model.forces = forces.into_iter().flatten().collect();
+    (model.load, model.stages) = (total, stages);
+    Ok(of)
 }
 
 /// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the contact surfaces.
@@ -73,7 +101,7 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
     for k in of.iter().copied().collect::<BTreeSet<usize>>() {
         let parts =
             || model.forces.iter().zip(of).filter(|(_, of)| **of == k).map(|(part, _)| part);
-        let (all, place) = (parts().count(), load_field(k));
+        let (all, place) = (parts().count(), format!("loads[{k}]"));
         match parts().filter(|part| is_taken(part)).count() {
             0 => {}
             taken => notes.push(format!(
@@ -109,10 +137,6 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
     notes
 }
 
-fn load_field(k: usize) -> String {
-    format!("loads[{k}]")
-}
-
 /// Adds the parts `own` of load `k` to the forces `f`.
 fn add(own: &[Force], f: &mut DVector<f64>, model: &Model, k: usize) -> Result<()> {
     own.iter().for_each(|force| force.add_to(f, model, &|x| x));
@@ -120,59 +144,8 @@ fn add(own: &[Force], f: &mut DVector<f64>, model: &Model, k: usize) -> Result<(
     if dofs.all(|dof| f[dof.index()].is_finite()) {
         return Ok(());
     }
-    Err(InputError::new(load_field(k), "the load is too large to represent", "choose other units"))
-}
-
-/// Returns the number of stages of the load.
-fn stages(loads: &[Load], model: &Model) -> Result<usize> {
-    // Restraints displace nodes in the first stage.
-    let displaced = model.oblique().any(|(_, hold)| hold.displacement != 0.0).then_some(1);
-    let numbers: BTreeSet<usize> =
-        loads.iter().map(|load| load.stage.unwrap_or(1)).chain(displaced).collect();
-    let last = numbers.last().copied().unwrap_or(1);
-    if let Some(k) = loads.iter().position(|load| load.stage == Some(0)) {
-        let place = format!("{}.stage", load_field(k));
-        return Err(InputError::new(place, "stages count from 1", "give 1 or more"));
-    }
-    if let Some(k) = (1..=loads.len().min(last)).find(|k| !numbers.contains(k)) {
-        let what = format!("no load has stage {k}, but one has stage {last}");
-        let fix = "number the stages 1, 2, ... without a gap";
-        return Err(InputError::new("loads", what, fix));
-    }
-    limits::STAGES.check(last * model.dofs(), "loads")?;
-    Ok(last)
-}
-
-/// Returns the number of parts that a load has.
-fn count(groups: &Groups, load: &Load) -> usize {
-    match &load.kind {
-        LoadKind::Force { .. } => 1,
-        LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
-            groups.places(1, on, "").map_or(1, <[u32]>::len)
-        }
-    }
-}
-
-/// Returns the parts of one load: one for its node, or for each of its edges.
-fn parts(
-    mesh: &Mesh,
-    groups: &Groups,
-    sides: &Sides,
-    load: &Load,
-    place: &str,
-) -> Result<Vec<Force>> {
-    match &load.kind {
-        LoadKind::Force { node, force } => {
-            mesh.check_node(*node, &format!("{place}.node"))?;
-            Ok(vec![Force::Node(NodeId::from_number(*node), *force)])
-        }
-        LoadKind::Pressure { on, pressure } => {
-            on_edges(groups, sides, on, place, |edge| Force::Pressure(edge, *pressure))
-        }
-        LoadKind::Traction { on, traction } => {
-            on_edges(groups, sides, on, place, |edge| Force::Traction(edge, *traction))
-        }
-    }
+    let what = "the load is too large to represent";
+    Err(InputError::new(format!("loads[{k}]"), what, "choose other units"))
 }
 
 /// Returns the `part` of each edge of a group; it receives the edge with the body on its left.

@@ -18,12 +18,9 @@ mod groups;
 mod hashes;
 mod load;
 mod mesh;
-mod orphans;
 mod refine;
 mod scene_file;
-mod schema;
 mod slit;
-mod source;
 mod support;
 pub mod surface;
 pub mod symmetry;
@@ -40,6 +37,7 @@ pub use description::{
     Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
 };
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
+pub use file::schema;
 pub use first::{FirstScene, first};
 pub use groups::GroupRef;
 use groups::Groups;
@@ -47,7 +45,6 @@ pub use hashes::{sha256, sha256_of, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
 pub use refine::Refined;
 pub use scene_file::SceneFile;
-pub use schema::schema;
 pub use surface::Surface;
 
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
@@ -207,9 +204,8 @@ impl Scene {
         check::supports(&mesh, &model)?;
         check::restrained_bodies(&model)?;
         fold::check(&mesh, &model)?;
-        let loading = load::loading(&mesh, &physical, &model, &description.loads)?;
-        (model.forces, model.load, model.stages) = (loading.forces, loading.total, loading.stages);
-        let in_vain = load::in_vain(&model, &loading.of);
+        let load_of_part = load::apply(&mesh, &physical, &mut model, &description.loads)?;
+        let in_vain = load::in_vain(&model, &load_of_part);
         let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
         let notes = notes.chain(units::misfit(&description.units));
         let notes = notes.chain(support::narrow(&mesh, &model.supports)).chain(in_vain);

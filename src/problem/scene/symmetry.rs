@@ -36,21 +36,21 @@ pub struct Half {
 
 /// Returns half of `scene`; None where it is not symmetric about a vertical line.
 pub fn half(scene: &Scene) -> Option<Half> {
-    let model = &scene.model;
-    let (mirror, _) = symmetric(model)?;
+    let whole = &*scene.model;
+    images(whole)?;
+    let line = Line::of(whole);
     let right =
-        |id: &TriangleId| model.triangle(*id).nodes.into_iter().all(|node| mirror.side(node) >= 0);
-    let triangles: Vec<TriangleId> = model.triangle_ids().filter(right).collect();
+        |id: &TriangleId| whole.triangle(*id).nodes.iter().all(|node| line.side(*node) >= 0);
+    let triangles: Vec<TriangleId> = whole.triangle_ids().filter(right).collect();
     let nodes: BTreeSet<NodeId> =
-        triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
+        triangles.iter().flat_map(|id| whole.triangle(*id).nodes).collect();
     let nodes: Vec<NodeId> = nodes.into_iter().collect();
-    let model = Restriction::new(&mirror, &nodes, &triangles).model();
     let scene = Scene {
         name: scene.name.clone(),
         word: scene.word.clone(),
         title: scene.title.clone(),
         units: scene.units.clone(),
-        model: Arc::new(model),
+        model: Arc::new(restricted(&line, &nodes, &triangles)),
         iterations: scene.iterations,
         variant: scene.variant,
         contact: scene.contact,
@@ -58,24 +58,11 @@ pub fn half(scene: &Scene) -> Option<Half> {
         coupling_is_missing: scene.coupling_is_missing,
         source: None,
     };
-    Some(Half { scene, nodes, triangles, at: mirror.at })
+    Some(Half { scene, nodes, triangles, at: line.at })
 }
 
-/// Returns the mirror image of each node; None where the model is not symmetric about a vertical line.
-pub fn images(model: &Model) -> Option<Vec<NodeId>> {
-    symmetric(model).map(|(_, Images(images))| images)
-}
-
-fn symmetric(model: &Model) -> Option<(Mirror<'_>, Images)> {
-    let mirror = Mirror::new(model)?;
-    let images = mirror.images()?;
-    let is_symmetric =
-        mirror.triangles(&images) && mirror.surfaces(&images) && mirror.conditions(&images);
-    is_symmetric.then_some((mirror, images))
-}
-
-/// The line about which a model may be symmetric.
-struct Mirror<'a> {
+/// The only line about which a model may be symmetric.
+struct Line<'a> {
     model: &'a Model,
     /// The x coordinate of the line, length.
     at: f64,
@@ -83,24 +70,10 @@ struct Mirror<'a> {
     place: f64,
 }
 
-struct Images(Vec<NodeId>);
-
-impl Images {
-    fn image(&self, node: NodeId) -> NodeId {
-        self.0[node.index()]
-    }
-}
-
-impl<'a> Mirror<'a> {
-    /// Finds the only possible line; None where a triangle lies across it.
-    fn new(model: &'a Model) -> Option<Self> {
+impl<'a> Line<'a> {
+    fn of(model: &'a Model) -> Self {
         let all = model.bounds();
-        let mirror = Mirror { model, at: all.centre()[0], place: PLACE * all.larger_side() };
-        let across = |triangle: &Triangle| {
-            let sides = triangle.nodes.map(|node| mirror.side(node));
-            sides.contains(&1) && sides.contains(&-1)
-        };
-        (!model.triangles.iter().any(across)).then_some(mirror)
+        Line { model, at: all.centre()[0], place: PLACE * all.larger_side() }
     }
 
     /// Returns -1 for a node left of the line, 0 on it, 1 right of it.
@@ -108,208 +81,161 @@ impl<'a> Mirror<'a> {
         let x = self.model.coordinates(node)[0] - self.at;
         if x.abs() <= self.place { 0 } else { x.signum() as i32 }
     }
+}
 
-    /// Returns the distance of node `m` from the place of the image of node `n`, length.
-    fn distance(&self, n: NodeId, m: NodeId) -> f64 {
-        let ([nx, ny], [mx, my]) = (self.model.coordinates(n), self.model.coordinates(m));
-        (2.0 * self.at - nx - mx).hypot(ny - my)
-    }
-
-    /// Returns the image of each node; None where a node has none.
-    fn images(&self) -> Option<Images> {
-        let cell = |x: f64| (x / (4.0 * self.place)).round() as i64;
-        let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
-        for n in self.model.node_ids().filter(|n| !self.model.is_dropped(*n)) {
-            cells.entry(self.model.coordinates(n).map(cell)).or_default().push(n);
+/// Returns the mirror image of each node; None where the model is not symmetric about a vertical line.
+pub fn images(model: &Model) -> Option<Vec<NodeId>> {
+    let line = Line::of(model);
+    let Line { at, place, .. } = line;
+    for triangle in &model.triangles {
+        let sides = triangle.nodes.map(|node| line.side(node));
+        if sides.contains(&1) && sides.contains(&-1) {
+            return None;
         }
-        let body = |n: NodeId| self.model.bodies.iter().position(|b| b.has(n));
-        let image = |n: NodeId| {
-            if self.model.is_dropped(n) {
-                return Some(n);
-            }
-            let [x, y] = self.model.coordinates(n);
-            let [x, y] = [cell(2.0 * self.at - x), cell(y)];
-            let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
-            let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
-            let found: Vec<NodeId> = near.filter(|&m| self.distance(n, m) <= self.place).collect();
-            // Where bodies touch, two nodes are at one place: a body on the line is its own image.
-            match found.as_slice() {
-                [one] => Some(*one),
-                several => several.iter().copied().find(|&m| body(m) == body(n)),
-            }
+    }
+    // The image of a node is looked up in the cells of a grid around its place.
+    let cell = |x: f64| (x / (4.0 * place)).round() as i64;
+    let mut cells: HashMap<[i64; 2], Vec<NodeId>> = HashMap::new();
+    for n in model.node_ids().filter(|n| !model.is_dropped(*n)) {
+        cells.entry(model.coordinates(n).map(cell)).or_default().push(n);
+    }
+    let body = |n: NodeId| model.bodies.iter().position(|b| b.has(n));
+    let mut images = Vec::with_capacity(model.nodes.len());
+    for n in model.node_ids() {
+        if model.is_dropped(n) {
+            images.push(n);
+            continue;
+        }
+        let [nx, ny] = model.coordinates(n);
+        let [x, y] = [cell(2.0 * at - nx), cell(ny)];
+        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x + i, y + j]));
+        let near = around.filter_map(|at| cells.get(&at)).flatten().copied();
+        let is_there = |m: &NodeId| {
+            let [mx, my] = model.coordinates(*m);
+            (2.0 * at - nx - mx).hypot(ny - my) <= place
         };
-        let images = Images(self.model.node_ids().map(image).collect::<Option<_>>()?);
-        let returns = |n: NodeId| images.image(images.image(n)) == n;
-        self.model.node_ids().all(returns).then_some(images)
-    }
-
-    fn triangles(&self, images: &Images) -> bool {
-        let key = |mut nodes: [NodeId; 3], triangle: &Triangle| {
-            nodes.sort_unstable();
-            (nodes, triangle.material.e.to_bits(), triangle.material.nu.to_bits())
-        };
-        let triangles = || self.model.triangles.iter();
-        let all: HashSet<_> = triangles().map(|t| key(t.nodes, t)).collect();
-        triangles().all(|t| all.contains(&key(t.nodes.map(|n| images.image(n)), t)))
-    }
-
-    fn surfaces(&self, images: &Images) -> bool {
-        let contact: HashSet<NodeId> = self.model.contact.nodes.iter().copied().collect();
-        let target: HashSet<[NodeId; 2]> =
-            self.model.target_edges().map(|edge| unordered(edge.nodes)).collect();
-        contact.iter().all(|n| contact.contains(&images.image(*n)))
-            && target.iter().all(|edge| target.contains(&unordered(edge.map(|n| images.image(n)))))
-    }
-
-    fn conditions(&self, images: &Images) -> bool {
-        let model = self.model;
-        let same_load = |load: &DVector<f64>| {
-            let near = LOAD * load.amax();
-            model.node_ids().all(|n| {
-                let ([nx, ny], [mx, my]) = (n.components(load), images.image(n).components(load));
-                (nx + mx).abs() <= near && (ny - my).abs() <= near
-            })
-        };
-        let of = |dof: Dof| model.restraints[dof.index()];
-        let same_restraints = |n: NodeId| {
-            let mut pairs = n.dofs().into_iter().zip(images.image(n).dofs());
-            pairs.all(|(one, other)| match (of(one), of(other)) {
-                (Restraint::Free, Restraint::Free) | (Restraint::Fixed, Restraint::Fixed) => true,
-                (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
-            })
-        };
-        model.oblique().next().is_none()
-            && model.node_ids().all(same_restraints)
-            && model.stages.iter().all(same_load)
-    }
-}
-
-/// A half of a model, with nodes on the line restrained in x and with half of their load.
-struct Restriction<'a> {
-    mirror: &'a Mirror<'a>,
-    nodes: &'a [NodeId],
-    triangles: &'a [TriangleId],
-    edges: Vec<EdgeId>,
-    /// The number in the half of each node of the whole model.
-    number: HashMap<NodeId, NodeId>,
-}
-
-impl<'a> Restriction<'a> {
-    fn new(mirror: &'a Mirror<'a>, nodes: &'a [NodeId], triangles: &'a [TriangleId]) -> Self {
-        let number: HashMap<NodeId, NodeId> =
-            nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
-        let whole = mirror.model;
-        let inside = |id: &EdgeId| whole.edge(*id).nodes.iter().all(|n| number.contains_key(n));
-        let edges = EdgeId::all(whole.edges.len()).filter(inside).collect();
-        Restriction { mirror, nodes, triangles, edges, number }
-    }
-
-    fn model(&self) -> Model {
-        let whole = self.mirror.model;
-        let triangles: Vec<Triangle> = self.triangles.iter().map(|id| self.triangle(*id)).collect();
-        let edges = whole.edges.iter().filter_map(|edge| {
-            Some(Edge { nodes: self.renumbered(edge.nodes)?, number: edge.number })
+        let found: Vec<NodeId> = near.filter(is_there).collect();
+        // Where bodies touch, two nodes are at one place: a body on the line is its own image.
+        images.push(match found.as_slice() {
+            [one] => *one,
+            several => several.iter().copied().find(|&m| body(m) == body(n))?,
         });
-        let bodies = whole.bodies.iter().map(|body| self.body(body));
-        let load = self.load(&whole.load);
-        let force = |node: NodeId| Force::Node(node, node.components(&load));
-        Model {
-            nodes: self.nodes.iter().map(|n| whole.coordinates(*n)).collect(),
-            sides: Sides::new(triangles.iter().map(|triangle| triangle.nodes)),
-            triangles,
-            edges: edges.collect(),
-            restraints: self.dofs().map(|dof| self.restraint(dof)).collect(),
-            supports: whole.supports.iter().map(|support| self.support(support)).collect(),
-            forces: NodeId::all(self.nodes.len()).map(force).collect(),
-            load,
-            stages: whole.stages.iter().map(|stage| self.load(stage)).collect(),
-            bodies: bodies.filter(|body| !body.triangles.is_empty()).collect(),
-            contact: self.contact(),
-            rows: whole.rows.iter().filter_map(|row| self.row(row)).collect(),
-            dropped: Vec::new(),
-            plane: whole.plane,
-            thickness: whole.thickness,
-            z: whole.z,
-        }
     }
+    let image = |n: NodeId| images[n.index()];
+    // Triangles, with their materials.
+    let key = |mut nodes: [NodeId; 3], triangle: &Triangle| {
+        nodes.sort_unstable();
+        (nodes, triangle.material.e.to_bits(), triangle.material.nu.to_bits())
+    };
+    let triangles: HashSet<_> = model.triangles.iter().map(|t| key(t.nodes, t)).collect();
+    // Contact surfaces.
+    let contact: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
+    let target: HashSet<[NodeId; 2]> =
+        model.target_edges().map(|edge| unordered(edge.nodes)).collect();
+    // Restraints and loads.
+    let of = |dof: Dof| model.restraints[dof.index()];
+    let same_restraints = |n: NodeId| {
+        let mut pairs = n.dofs().into_iter().zip(image(n).dofs());
+        pairs.all(|(one, other)| match (of(one), of(other)) {
+            (Restraint::Free, Restraint::Free) | (Restraint::Fixed, Restraint::Fixed) => true,
+            (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
+        })
+    };
+    let same_load = |load: &DVector<f64>| {
+        let near = LOAD * load.amax();
+        model.node_ids().all(|n| {
+            let ([nx, ny], [mx, my]) = (n.components(load), image(n).components(load));
+            (nx + mx).abs() <= near && (ny - my).abs() <= near
+        })
+    };
+    let is_symmetric = model.node_ids().all(|n| image(image(n)) == n)
+        && model.triangles.iter().all(|t| triangles.contains(&key(t.nodes.map(image), t)))
+        && contact.iter().all(|n| contact.contains(&image(*n)))
+        && target.iter().all(|edge| target.contains(&unordered(edge.map(image))))
+        && model.oblique().next().is_none()
+        && model.node_ids().all(same_restraints)
+        && model.stages.iter().all(same_load);
+    is_symmetric.then_some(images)
+}
 
-    fn dofs(&self) -> impl Iterator<Item = Dof> {
-        self.nodes.iter().flat_map(|n| n.dofs())
-    }
-
-    fn on_line(&self, dof: Dof) -> bool {
-        self.mirror.side(dof.node()) == 0
-    }
-
-    fn restraint(&self, dof: Dof) -> Restraint {
-        match self.mirror.model.restraints[dof.index()] {
-            Restraint::Free if dof.direction() == 0 && self.on_line(dof) => Restraint::Fixed,
-            own => own,
-        }
-    }
-
-    fn support(&self, whole: &Support) -> Support {
-        let own = |hold: &Hold| Some(Hold { node: *self.number.get(&hold.node)?, ..*hold });
-        let holds = whole.holds.iter().filter_map(own).collect();
-        Support { name: whole.name.clone(), holds }
-    }
-
-    /// Returns the half of a load: of a force on the line half along it and none across it, force.
-    fn load(&self, whole: &DVector<f64>) -> DVector<f64> {
-        let half = |dof: Dof| match (self.on_line(dof), dof.direction()) {
+/// Returns the part of a model with these nodes and triangles; nodes on the line are restrained in x, and have half of
+/// their load.
+fn restricted(line: &Line, nodes: &[NodeId], triangles: &[TriangleId]) -> Model {
+    let whole = line.model;
+    let numbers: HashMap<NodeId, NodeId> =
+        nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
+    let number = |node: &NodeId| numbers.get(node).copied();
+    let is_inside = |id: &EdgeId| whole.edge(*id).nodes.iter().all(|n| numbers.contains_key(n));
+    let edges: Vec<EdgeId> = EdgeId::all(whole.edges.len()).filter(is_inside).collect();
+    let edge_number = |id: &EdgeId| edges.binary_search(id).ok().map(EdgeId::new);
+    let own_triangles: Vec<Triangle> = triangles
+        .iter()
+        .map(|id| {
+            let triangle = whole.triangle(*id);
+            Triangle { nodes: triangle.nodes.map(|node| numbers[&node]), ..*triangle }
+        })
+        .collect();
+    let dofs = || nodes.iter().flat_map(|n| n.dofs());
+    let on_line = |dof: Dof| line.side(dof.node()) == 0;
+    let restraint = |dof: Dof| match whole.restraints[dof.index()] {
+        Restraint::Free if dof.direction() == 0 && on_line(dof) => Restraint::Fixed,
+        own => own,
+    };
+    let own_part = |load: &DVector<f64>| {
+        let half = |dof: Dof| match (on_line(dof), dof.direction()) {
             (true, 0) => 0.0,
-            (true, _) => 0.5 * whole[dof.index()],
-            (false, _) => whole[dof.index()],
+            (true, _) => 0.5 * load[dof.index()],
+            (false, _) => load[dof.index()],
         };
-        DVector::from_iterator(2 * self.nodes.len(), self.dofs().map(half))
-    }
-
-    /// Returns nodes under their new numbers; None where one is not in the half.
-    fn renumbered<const N: usize>(&self, nodes: [NodeId; N]) -> Option<[NodeId; N]> {
-        let inside = nodes.iter().all(|n| self.number.contains_key(n));
-        inside.then(|| nodes.map(|n| self.number[&n]))
-    }
-
-    fn triangle(&self, id: TriangleId) -> Triangle {
-        let triangle = self.mirror.model.triangle(id);
-        let nodes = self.renumbered(triangle.nodes).expect("the half has its triangles' nodes");
-        Triangle { nodes, ..*triangle }
-    }
-
-    /// Returns a row of the mesh file in the half's numbers; None where it is outside.
-    fn row(&self, row: &Row) -> Option<Row> {
+        DVector::from_iterator(2 * nodes.len(), dofs().map(half))
+    };
+    let support = |support: &Support| {
+        let own = |hold: &Hold| Some(Hold { node: number(&hold.node)?, ..*hold });
+        let holds = support.holds.iter().filter_map(own).collect();
+        Support { name: support.name.clone(), holds }
+    };
+    let triangle_number = |id: &TriangleId| triangles.binary_search(id).ok().map(TriangleId::new);
+    let body = |body: &Body| Body {
+        name: body.name.clone(),
+        triangles: body.triangles.iter().filter_map(triangle_number).collect(),
+        nodes: body.nodes.iter().filter_map(number).collect(),
+    };
+    let row = |row: &Row| {
         let element = match row.element {
-            Element::Point(node) => Element::Point(*self.number.get(&node)?),
-            Element::Edge(id) => Element::Edge(self.edge(id)?),
-            Element::Triangle(id) => {
-                Element::Triangle(TriangleId::new(self.triangles.binary_search(&id).ok()?))
-            }
+            Element::Point(node) => Element::Point(number(&node)?),
+            Element::Edge(id) => Element::Edge(edge_number(&id)?),
+            Element::Triangle(id) => Element::Triangle(triangle_number(&id)?),
         };
         Some(Row { element, ..*row })
-    }
-
-    fn edge(&self, id: EdgeId) -> Option<EdgeId> {
-        self.edges.binary_search(&id).ok().map(EdgeId::new)
-    }
-
-    fn body(&self, body: &Body) -> Body {
-        let triangles = TriangleId::all(self.triangles.len()).zip(self.triangles);
-        Body {
-            name: body.name.clone(),
-            triangles: triangles
-                .filter(|(_, whole)| body.triangles.binary_search(whole).is_ok())
-                .map(|(half, _)| half)
-                .collect(),
-            nodes: body.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
-        }
-    }
-
-    fn contact(&self) -> ContactSurfaces {
-        let whole = &self.mirror.model.contact;
-        ContactSurfaces {
-            nodes: whole.nodes.iter().filter_map(|n| self.number.get(n).copied()).collect(),
-            target: whole.target.iter().filter_map(|id| self.edge(*id)).collect(),
-            tolerance: whole.tolerance,
-        }
+    };
+    let load = own_part(&whole.load);
+    let contact = &whole.contact;
+    Model {
+        nodes: nodes.iter().map(|n| whole.coordinates(*n)).collect(),
+        sides: Sides::new(own_triangles.iter().map(|triangle| triangle.nodes)),
+        triangles: own_triangles,
+        edges: edges
+            .iter()
+            .map(|id| whole.edge(*id))
+            .map(|edge| Edge { nodes: edge.nodes.map(|node| numbers[&node]), ..*edge })
+            .collect(),
+        restraints: dofs().map(restraint).collect(),
+        supports: whole.supports.iter().map(support).collect(),
+        forces: NodeId::all(nodes.len())
+            .map(|node| Force::Node(node, node.components(&load)))
+            .collect(),
+        load,
+        stages: whole.stages.iter().map(own_part).collect(),
+        bodies: whole.bodies.iter().map(body).filter(|body| !body.triangles.is_empty()).collect(),
+        contact: ContactSurfaces {
+            nodes: contact.nodes.iter().filter_map(number).collect(),
+            target: contact.target.iter().filter_map(edge_number).collect(),
+            tolerance: contact.tolerance,
+        },
+        rows: whole.rows.iter().filter_map(row).collect(),
+        dropped: Vec::new(),
+        plane: whole.plane,
+        thickness: whole.thickness,
+        z: whole.z,
     }
 }

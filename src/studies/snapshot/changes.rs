@@ -3,27 +3,9 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use super::Run;
 use super::input::Input;
-use super::{Run, Snapshot};
 use problem::scene::{Element, Mesh, Node};
-
-/// One side of a comparison.
-#[derive(Clone, Copy)]
-pub struct Side<'a> {
-    /// The version of the program that recorded it.
-    pub version: &'a str,
-    /// What was given to it.
-    pub input: &'a Input,
-    /// What was recorded.
-    pub run: &'a Run,
-}
-
-impl<'a> Side<'a> {
-    /// Returns the side that a run of a snapshot is.
-    pub fn new(snapshot: &'a Snapshot, run: &'a Run) -> Self {
-        Side { version: &snapshot.version, input: &snapshot.input, run }
-    }
-}
 
 /// A difference of what went into two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,22 +18,23 @@ pub struct Change {
     pub is: String,
 }
 
-/// Returns what differs in what went into two runs, in the order of computation.
-pub fn changes(old: Side, new: Side) -> Vec<Change> {
+/// Returns what differs in what went into two runs, in the order of computation; each is given with its snapshot's
+/// version and input.
+pub fn changes(old: (&str, &Input, &Run), new: (&str, &Input, &Run)) -> Vec<Change> {
     let mut changes = Vec::new();
-    if old.input.scene_sha256 != new.input.scene_sha256 {
-        let [was, is] = [old, new].map(|side| {
-            serde_json::to_value(&side.input.scene).expect("a description is an object")
-        });
+    let [(_, was, _), (_, is, _)] = [old, new];
+    if was.scene_sha256 != is.scene_sha256 {
+        let [was, is] = [was, is]
+            .map(|input| serde_json::to_value(&input.scene).expect("a description is an object"));
         fields(&mut changes, "scene", &was, &is);
     }
-    if old.input.mesh_sha256 != new.input.mesh_sha256 {
-        mesh(&mut changes, &old.input.mesh, &new.input.mesh);
+    if was.mesh_sha256 != is.mesh_sha256 {
+        mesh(&mut changes, &was.mesh, &is.mesh);
     }
     let [was, is] = [old, new]
-        .map(|side| serde_json::to_value(&side.run.options).expect("options have string keys"));
+        .map(|(_, _, run)| serde_json::to_value(&run.options).expect("options have string keys"));
     fields(&mut changes, "option", &was, &is);
-    add(&mut changes, "version of the program".into(), [old, new].map(|side| side.version.into()));
+    add(&mut changes, "version of the program".into(), [old, new].map(|side| side.0.into()));
     changes
 }
 

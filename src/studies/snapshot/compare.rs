@@ -1,6 +1,5 @@
 //! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
 
-use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -73,46 +72,40 @@ impl Difference {
 /// their place among its numbers, and how many facts and numbers were compared. What a run was not
 /// asked to record is not compared.
 pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
-    let mut found = Vec::new();
-    let mut compared = 0;
+    let (mut found, mut compared) = (Vec::new(), 0);
     let keeps = |entry: Entry| old.keeps(entry) && new.keeps(entry);
-    unmatched(&mut found, &old.facts, &new.facts, keeps);
-    unmatched(&mut found, &old.numbers, &new.numbers, keeps);
+    let mut add = |entry: &Entry, kind: Kind| {
+        if keeps(*entry) {
+            found.push(Difference { entry: *entry, kind });
+        }
+    };
+    // What one side alone has stands before what both have.
+    old.facts.keys().filter(|e| !new.facts.contains_key(*e)).for_each(|e| add(e, Kind::Missing));
+    new.facts.keys().filter(|e| !old.facts.contains_key(*e)).for_each(|e| add(e, Kind::Extra));
+    old.numbers
+        .keys()
+        .filter(|e| !new.numbers.contains_key(*e))
+        .for_each(|e| add(e, Kind::Missing));
+    new.numbers.keys().filter(|e| !old.numbers.contains_key(*e)).for_each(|e| add(e, Kind::Extra));
     for (entry, was) in old.facts.iter().filter(|(entry, _)| keeps(**entry)) {
         let Some(is) = new.facts.get(entry) else { continue };
         compared += 1;
         if was != is {
-            found.push(difference(*entry, Kind::Fact { was: was.clone(), is: is.clone() }));
+            add(entry, Kind::Fact { was: was.clone(), is: is.clone() });
         }
     }
     for (entry, was) in old.numbers.iter().filter(|(entry, _)| keeps(**entry)) {
         let Some(is) = new.numbers.get(entry) else { continue };
         compared += was.places().len();
         if was.unit != is.unit {
-            let kind = Kind::Unit { was: was.unit.clone(), is: is.unit.clone() };
-            found.push(difference(*entry, kind));
+            add(entry, Kind::Unit { was: was.unit.clone(), is: is.unit.clone() });
         }
-        found.extend(numbers(was, is).map(|kind| difference(*entry, kind)));
+        if let Some(kind) = numbers(was, is) {
+            add(entry, kind);
+        }
     }
     found.sort_by_key(|difference| difference.entry.place());
     (found, compared)
-}
-
-fn difference(entry: Entry, kind: Kind) -> Difference {
-    Difference { entry, kind }
-}
-
-/// Adds the entries that one side alone has, of those that `keeps` names.
-fn unmatched<T>(
-    found: &mut Vec<Difference>,
-    old: &IndexMap<Entry, T>,
-    new: &IndexMap<Entry, T>,
-    keeps: impl Fn(Entry) -> bool,
-) {
-    let lost = old.keys().filter(|entry| keeps(**entry) && !new.contains_key(*entry));
-    found.extend(lost.map(|entry| difference(*entry, Kind::Missing)));
-    let added = new.keys().filter(|entry| keeps(**entry) && !old.contains_key(*entry));
-    found.extend(added.map(|entry| difference(*entry, Kind::Extra)));
 }
 
 /// Returns how two arrays differ; None where they do not.

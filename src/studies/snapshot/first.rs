@@ -83,7 +83,20 @@ fn status(old: &Run, new: &Run, difference: &Difference) -> Option<Status> {
         (was.ct, was.dy, &was.status) != (is.ct, is.dy, &is.status)
     };
     let (i, was, is) = pairs.flatten().find(differs).filter(|_| cnt == other)?;
-    let line = [old, new].iter().all(|run| follows_listing(run)).then(|| line(&was, &is)).flatten();
+    // Lines 16 to 18 of `c_cnt` decide who is in contact, unless another rule does.
+    let is_listing = [old, new].iter().all(|run| {
+        run.options.status.is_none_or(StatusRule::is_printed)
+            && !run.facts.keys().any(|entry| entry.quantity == Quantity::Statuses)
+    });
+    let line = match was.ct == is.ct {
+        _ if !is_listing => None,
+        true => [16, 17, 18].into_iter().find(|line| was.holds(*line) != is.holds(*line)),
+        false => Some(7),
+    };
+    let printed = |line: usize| {
+        let text = Which::CCnt.text().lines().filter(|line| !line.starts_with('#'));
+        format!("c_cnt line {line}: {}", text.map(str::trim).nth(line - 1).unwrap_or_default())
+    };
     let decisions = old.decided_by_rounding.iter().chain(&new.decided_by_rounding);
     let rounding = decisions.filter(|d| d.iteration <= k).min_by_key(|d| d.iteration);
     let said =
@@ -123,18 +136,6 @@ fn found(run: &Run, k: usize, i: usize) -> Option<Found> {
     })
 }
 
-/// Returns whether lines 16 to 18 of `c_cnt` decide who is in contact.
-fn follows_listing(run: &Run) -> bool {
-    run.options.status.is_none_or(StatusRule::is_printed)
-        && !run.facts.keys().any(|entry| entry.quantity == Quantity::Statuses)
-}
-
-/// Returns the line of `c_cnt` that decides otherwise.
-fn line(was: &Found, is: &Found) -> Option<usize> {
-    let status = || [16, 17, 18].into_iter().find(|line| was.holds(*line) != is.holds(*line));
-    if was.ct == is.ct { status() } else { Some(7) }
-}
-
 /// Says what differs, and what the condition of the line compares.
 fn words(was: &Found, is: &Found, line: Option<usize>) -> String {
     if was.ct != is.ct {
@@ -170,10 +171,4 @@ impl Found {
         };
         and(Conjunction::Guarded, &condition) == Ok(true)
     }
-}
-
-/// Returns a line of `c_cnt` as printed, behind its number.
-fn printed(line: usize) -> String {
-    let text = Which::CCnt.text().lines().filter(|line| !line.starts_with('#'));
-    format!("c_cnt line {line}: {}", text.map(str::trim).nth(line - 1).unwrap_or_default())
 }

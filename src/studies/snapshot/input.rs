@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use base::error::{InputError, Result};
-use problem::scene::{Description, Mesh, Scene, SceneBuilder, Units, source_hashes};
+use problem::scene::{Description, Mesh, Scene, SceneBuilder, source_hashes};
 
 /// A scene as a snapshot has it: from it alone the scene is built again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,11 +38,6 @@ impl Input {
             scene: description.clone(),
             mesh: mesh.clone(),
         })
-    }
-
-    /// Returns the names of the scene's units.
-    pub fn units(&self) -> Units {
-        self.scene.units.clone()
     }
 
     /// Builds the scene again.

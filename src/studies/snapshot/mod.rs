@@ -11,7 +11,6 @@
 //! apart from numbers: facts are the same or not, numbers agree within the bounds on their rounding
 //! errors.
 
-mod accept;
 mod changes;
 pub(crate) mod command;
 mod compare;
@@ -25,7 +24,6 @@ mod verify;
 mod words;
 
 use std::collections::HashSet;
-use std::path::Path;
 
 use indexmap::IndexMap;
 use rayon::prelude::*;
@@ -39,7 +37,6 @@ use engine::Decision;
 use engine::{Request, check};
 use problem::scene::{Scene, Units};
 
-pub use accept::accept;
 pub use base::files::json::{FORMAT, VERSION};
 pub use changes::Change;
 pub use compare::{Difference, Kind, compare};
@@ -49,7 +46,7 @@ pub use first::{First, Status};
 pub use input::Input;
 pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
 pub use record::{Bounds, record};
-pub use verify::{Presence, Verified, VerifiedRun, difference, verify};
+pub use verify::{Presence, Verified, VerifiedRun, accept, difference, verify};
 
 /// What a scene gives, by runs under different options. Lengths, stresses and forces are in the units
 /// of the scene.
@@ -128,7 +125,13 @@ impl Run {
                 }
             }
         }
-        self.only.iter().flatten().try_for_each(|name| check_field(name))
+        let known = FIELDS.map(Quantity::name);
+        let mut asked = self.only.iter().flatten();
+        asked.find(|name| !known.contains(&&***name)).map_or(Ok(()), |name| {
+            let meant = did_you_mean(name, known);
+            let what = format!("no numbers at the end of a run are named {name:?}");
+            Err(InputError::new("only", what, format!("{meant}they are: {}", known.join(", "))))
+        })
     }
 
     /// Returns the exit status of `solve` on this run, where the run has that fact.
@@ -148,20 +151,6 @@ fn is_kept(only: &Option<Vec<String>>, entry: Entry) -> bool {
     let is_among =
         |only: &Vec<String>| FIELDS.iter().any(|q| of_run(q) && only.iter().any(|n| n == q.name()));
     only.as_ref().is_none_or(|only| is_among(only) || entry::FACTS.iter().any(of_run))
-}
-
-/// Checks that there are numbers of the end of a run by that name.
-///
-/// # Errors
-/// There are none.
-fn check_field(name: &str) -> Result<()> {
-    let known = FIELDS.map(Quantity::name);
-    if known.contains(&name) {
-        return Ok(());
-    }
-    let meant = did_you_mean(name, known);
-    let what = format!("no numbers at the end of a run are named {name:?}");
-    Err(InputError::new("only", what, format!("{meant}they are: {}", known.join(", "))))
 }
 
 impl Snapshot {
@@ -197,16 +186,6 @@ impl Snapshot {
     /// It was changed after it was recorded, or is at fault.
     pub fn scene(&self) -> Result<Scene> {
         self.input.build().map_err(|error| error.within("the snapshot"))
-    }
-
-    /// Opens the scene file that a snapshot in `folder` was recorded from, as it is today; None where it is not
-    /// there.
-    ///
-    /// # Errors
-    /// The scene is at fault.
-    pub fn scene_today(&self, folder: &Path) -> Result<Option<Scene>> {
-        let path = self.scene_file.as_ref().map(|file| folder.join(file));
-        path.filter(|path| path.is_file()).map(Scene::open).transpose()
     }
 
     /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.

@@ -1,19 +1,16 @@
 //! A run recorded: its discrete facts, and its numbers, each with the bound on its rounding error.
 
-use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
 use super::{Entry, Quantity};
-use base::exit::ExitStatus;
-use engine::contact::{ContactNode, Pairing};
+use engine::contact::ContactNode;
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use engine::options::Options;
 use engine::{
-    Detail, Elimination, FoundPairs, Request, Solution, Step, StepBounds, Stiffness, solve,
-    support_constraints,
+    Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve, support_constraints,
 };
 use numbers::scalar::{Bounded, Scalar};
 use paper::door;
@@ -24,6 +21,9 @@ use problem::modelling::Variant;
 
 /// The relative effect of the roundings in a position, a pressure or an entry of a triangle's matrix.
 const ROUNDED: f64 = 64.0 * f64::EPSILON;
+
+/// The most nodes of a scene whose dense matrix, that of `Km`, is assembled once more.
+const DENSE: usize = 400;
 
 /// Whether the bounds on rounding errors are computed, which takes another run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +60,10 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         of.iteration(&mut run, step, bounds);
     }
     run.facts.insert(Quantity::Iterations.into(), json!(steps.len()));
-    let (status, failure) = outcome(&solved);
+    let (status, failure) = match &solved {
+        Ok(solution) => (solution.exit_status(), json!(solution.doubt().map(|doubt| doubt.what))),
+        Err(why) => (why.exit_status(), failure(why)),
+    };
     run.facts.insert(Quantity::ExitStatus.into(), json!(status.number()));
     run.facts.insert(Quantity::Failure.into(), failure);
     if let Some(solution) = Error::found(solved)? {
@@ -70,14 +73,6 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     }
     run.sort();
     Ok(run)
-}
-
-/// Returns the exit status of `solve`, and the failure; null where there is none.
-fn outcome(solved: &Result<Solution>) -> (ExitStatus, Value) {
-    match solved {
-        Ok(solution) => (solution.exit_status(), json!(solution.doubt().map(|doubt| doubt.what))),
-        Err(why) => (why.exit_status(), failure(why)),
-    }
 }
 
 /// Returns what a failure is, without the numbers of its message, which rounding may change.
@@ -176,24 +171,45 @@ impl Recorded<'_> {
         let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
         let weights = distance / self.scale.edge + ROUNDED;
         let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weights };
-        if let Detail::Unilateral(own) = &step.detail {
-            // Where a node closes divides a step, so that this is a number like others.
-            run.numbers.insert(
-                of(Quantity::Load),
-                Numbers::list("", [own.load], Rounded { bound: None, floor: ROUNDED }),
-            );
-            let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
-            run.facts.insert(of(Quantity::Statuses), json!(statuses));
+        // The number of each contact node's target edge, 0 for none, and its distance; the mates of each node that has
+        // any and their weights: the rows of `k_cnt`, or of the constraints that were imposed.
+        let (mut faced, mut distances, mut mates, mut weights_of_mates) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        match &step.detail {
+            Detail::Published(own) => {
+                faced.extend_from_slice(own.pairs.ct.as_slice());
+                distances.extend_from_slice(own.pairs.yt.as_slice());
+                for (node, row) in &own.pairs.masters {
+                    mates.push(format!("{node}: {} {}", row[0], row[2]));
+                    weights_of_mates.extend([row[1], row[3]]);
+                }
+            }
+            Detail::Unilateral(own) => {
+                for pairing in &own.pairings {
+                    let edge = pairing.as_ref().map_or(0, |p| self.model.edge(p.edge).number);
+                    faced.push(edge);
+                    distances.push(pairing.as_ref().map_or(0.0, |p| p.gap));
+                }
+                for constraint in &step.constraints {
+                    let masters = constraint.masters.iter().map(|(node, _)| node.to_string());
+                    let masters = masters.collect::<Vec<_>>().join(" ");
+                    mates.push(format!("{}: {masters}", constraint.node));
+                    weights_of_mates.extend(constraint.masters.iter().map(|(_, weight)| weight));
+                }
+                // Where a node closes divides a step, so that this is a number like others.
+                let load = Rounded { bound: None, floor: ROUNDED };
+                run.numbers.insert(of(Quantity::Load), Numbers::list("", [own.load], load));
+                let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
+                run.facts.insert(of(Quantity::Statuses), json!(statuses));
+            }
         }
-        let (faced, distances) = self.faced(step);
         run.facts.insert(of(Quantity::Ct), json!(faced));
         run.numbers.insert(of(Quantity::Yt), Numbers::list(&units.length, distances, yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
         run.facts.insert(of(Quantity::Dy), json!(dy));
         run.facts.insert(of(Quantity::InContact), json!(step.contact_set(self.model)));
-        let (mates, of_mates) = mates(step);
         run.facts.insert(of(Quantity::Mates), json!(mates));
-        run.numbers.insert(of(Quantity::Weights), Numbers::list("", of_mates, weights));
+        run.numbers.insert(of(Quantity::Weights), Numbers::list("", weights_of_mates, weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
             Some(cycle) => {
@@ -210,22 +226,6 @@ impl Recorded<'_> {
             .insert(of(Quantity::Cycle), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
     }
 
-    /// Returns the number of each contact node's target edge, 0 for none, and its distance from it,
-    /// length.
-    fn faced(&self, step: &Step) -> (Vec<usize>, Vec<f64>) {
-        match &step.detail {
-            Detail::Published(own) => {
-                (own.pairs.ct.as_slice().to_vec(), own.pairs.yt.as_slice().to_vec())
-            }
-            Detail::Unilateral(own) => {
-                let of = |pairing: &Option<Pairing>| {
-                    pairing.as_ref().map_or((0, 0.0), |p| (self.model.edge(p.edge).number, p.gap))
-                };
-                own.pairings.iter().map(of).unzip()
-            }
-        }
-    }
-
     /// Returns the sum of the diagonal and the sum of the sizes of all entries of the matrix that the
     /// iteration solved, to which `weights` went.
     fn matrix(&self, step: &Step, weights: Rounded) -> Option<Numbers> {
@@ -239,7 +239,10 @@ impl Recorded<'_> {
         };
         match (&step.detail, request.variant) {
             (Detail::Published(own), Variant::Printed) => {
-                let matrix = printed(request, model, &own.pairs)?;
+                (model.nodes.len() <= DENSE).then_some(())?;
+                let sheet = door::worksheet(model, |x| x);
+                let matrix = Km(&sheet, &request.reading, &own.pairs.k_cnt()).ok()?;
+                let matrix = matrix.into_sparse().dense();
                 for i in 0..matrix.nrows() {
                     (0..=i)
                         .filter(|&j| matrix[(i, j)] != 0.0)
@@ -269,39 +272,6 @@ impl Recorded<'_> {
     }
 }
 
-/// Returns the mates of each node that has any and their weights: the rows of `k_cnt`, or of the
-/// constraints that were imposed.
-fn mates(step: &Step) -> (Vec<String>, Vec<f64>) {
-    let (mut mates, mut weights) = (Vec::new(), Vec::new());
-    match &step.detail {
-        Detail::Published(own) => {
-            for (node, row) in &own.pairs.masters {
-                mates.push(format!("{node}: {} {}", row[0], row[2]));
-                weights.extend([row[1], row[3]]);
-            }
-        }
-        Detail::Unilateral(_) => {
-            for constraint in &step.constraints {
-                let masters: Vec<String> =
-                    constraint.masters.iter().map(|(node, _)| node.to_string()).collect();
-                mates.push(format!("{}: {}", constraint.node, masters.join(" ")));
-                weights.extend(constraint.masters.iter().map(|(_, weight)| weight));
-            }
-        }
-    }
-    (mates, weights)
-}
-
-/// Returns the matrix of `Km`, where it is no dense matrix of many nodes.
-fn printed(request: &Request, model: &Model, pairs: &FoundPairs) -> Option<DMatrix<f64>> {
-    /// The most nodes of a scene whose dense matrix is assembled once more.
-    const NODES: usize = 400;
-    (model.nodes.len() <= NODES).then_some(())?;
-    let sheet = door::worksheet(model, |x| x);
-    let matrix = Km(&sheet, &request.reading, &pairs.k_cnt()).ok()?;
-    Some(matrix.into_sparse().dense())
-}
-
 /// Records the end of a run: displacements, stresses, reactions and the contact surface.
 fn end(
     run: &mut Run,
@@ -317,8 +287,9 @@ fn end(
     let errors = match bounds {
         Bounds::LeftOut => None,
         Bounds::Computed => {
-            let of = Propagated { solution, stiffness: &bounded(model), scale: &scale };
-            Some((bound.map(|bound| of.errors(bound)), of.errors(moved)))
+            let stiffness = bounded(model);
+            let of = |moved: f64| errors(solution, &stiffness, &scale, moved);
+            Some((bound.map(of), of(moved)))
         }
     };
     let error = |of: fn(&Errors) -> f64| match &errors {
@@ -361,14 +332,7 @@ fn largest(solution: &Solution, value: fn(&State) -> f64) -> Vec<f64> {
     solution.model.bodies.iter().map(of_body).collect()
 }
 
-/// What an error of the displacements does to the other numbers of a solution.
-struct Propagated<'a> {
-    solution: &'a Solution,
-    stiffness: &'a Stiffness<Bounded>,
-    scale: &'a Scale,
-}
-
-/// The largest error of any number of each array.
+/// The largest error of any number of each array of a solution.
 struct Errors {
     displacement: f64,
     stress: f64,
@@ -379,48 +343,38 @@ struct Errors {
     pressure: f64,
 }
 
-impl Propagated<'_> {
-    /// Returns the errors where displacements are known to `displacement`, length.
-    fn errors(&self, displacement: f64) -> Errors {
-        let Propagated { solution, stiffness, scale } = self;
-        let model = &*solution.model;
-        let u = solution.u.map(|u| Bounded::new(u, displacement));
-        let stresses = stiffness.stresses(&u);
-        let force = stiffness.times(&u) - model.load_in(Bounded::from_f64);
-        let force = force.iter().map(|f| f.error()).fold(0.0, f64::max);
-        let von_mises = stress_bounds(solution, stiffness, Some(displacement));
-        Errors {
-            displacement,
-            stress: stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max),
-            von_mises: von_mises.into_iter().fold(0.0, f64::max),
-            strain: self.strain(displacement),
-            force,
-            gap: scale.distance(displacement),
-            pressure: self.pressure(displacement, force),
-        }
-    }
-
-    /// Returns the error of a strain, whose value is at most the sum of the sizes of its components.
-    fn strain(&self, displacement: f64) -> f64 {
-        let Propagated { solution, .. } = self;
-        let model = &*solution.model;
-        let of_triangle = |id: TriangleId| {
-            let b = element::B(&model.corners(id)).abs().sum();
-            b * (displacement + ROUNDED * solution.u.amax())
-        };
-        model.triangle_ids().map(of_triangle).fold(0.0, f64::max)
-    }
-
-    /// Returns the error of a pressure where displacements and forces are known to `displacement` and
-    /// `force`.
-    fn pressure(&self, displacement: f64, force: f64) -> f64 {
-        // The normal turns by at most the displacement of both ends over the length of the edge.
-        let turned = 4.0 * displacement / self.scale.edge + ROUNDED;
-        let of = |c: &ContactNode| {
-            let (own, pressure) = (c.force?, c.pressure?);
-            let per_force = if own == 0.0 { 0.0 } else { (pressure / own).abs() };
-            Some(1.5 * force * per_force + turned * (pressure.abs() + c.shear.unwrap_or(0.0).abs()))
-        };
-        self.solution.contact.iter().filter_map(of).fold(0.0, f64::max)
+/// Returns what is left of errors of the displacements, of size `displacement`, in the other numbers of a solution.
+fn errors(
+    solution: &Solution,
+    stiffness: &Stiffness<Bounded>,
+    scale: &Scale,
+    displacement: f64,
+) -> Errors {
+    let model = &*solution.model;
+    let u = solution.u.map(|u| Bounded::new(u, displacement));
+    let stresses = stiffness.stresses(&u);
+    let force = stiffness.times(&u) - model.load_in(Bounded::from_f64);
+    let force = force.iter().map(|f| f.error()).fold(0.0, f64::max);
+    let von_mises = stress_bounds(solution, stiffness, Some(displacement));
+    // A strain is at most the sum of the sizes of its components.
+    let strain = |id: TriangleId| {
+        let b = element::B(&model.corners(id)).abs().sum();
+        b * (displacement + ROUNDED * solution.u.amax())
+    };
+    // The normal turns by at most the displacement of both ends over the length of the edge.
+    let turned = 4.0 * displacement / scale.edge + ROUNDED;
+    let pressure = |c: &ContactNode| {
+        let (own, pressure) = (c.force?, c.pressure?);
+        let per_force = if own == 0.0 { 0.0 } else { (pressure / own).abs() };
+        Some(1.5 * force * per_force + turned * (pressure.abs() + c.shear.unwrap_or(0.0).abs()))
+    };
+    Errors {
+        displacement,
+        stress: stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max),
+        von_mises: von_mises.into_iter().fold(0.0, f64::max),
+        strain: model.triangle_ids().map(strain).fold(0.0, f64::max),
+        force,
+        gap: scale.distance(displacement),
+        pressure: solution.contact.iter().filter_map(pressure).fold(0.0, f64::max),
     }
 }

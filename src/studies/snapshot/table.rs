@@ -1,15 +1,13 @@
 //! Snapshots as files, and what verifying them found: for people, as JSON, Markdown and JUnit XML.
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::words;
-use crate::snapshot::{
-    Change, Difference, First, Presence, Quantity, Snapshot, Verified, VerifiedRun,
-};
+use crate::snapshot::{Presence, Quantity, Snapshot, Verified, VerifiedRun};
 use base::xml::Element;
 use engine::error::Error;
 use report::failure::Failure;
-use report::json::{self, OnScene, pretty};
+use report::json::{self, pretty};
 use report::layout::{counted, first_line};
 use report::model::Report;
 
@@ -112,118 +110,65 @@ fn run_words(run: &VerifiedRun) -> String {
 
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
 pub fn junit(checked: &[VerifiedFile]) -> String {
+    let test_case =
+        |name: &str| Element::new("testcase").set("name", name).set("classname", "snapshot");
+    let case = |run: &VerifiedRun| {
+        test_case(&run.name).with_all((!run.is_same()).then(|| {
+            let failure = Element::with_text("failure", &run_words(run));
+            failure.set("message", words::headline(run))
+        }))
+    };
+    let suite = |checked: &VerifiedFile| {
+        let runs = checked.runs();
+        let alone = match &checked.verified {
+            Err(why) => {
+                let why = why.to_string();
+                Some(Element::with_text("error", &why).set("message", first_line(&why)))
+            }
+            Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
+            Ok(_) => None,
+        };
+        let errors = usize::from(checked.verified.is_err());
+        let failures = runs.iter().filter(|run| !run.is_same()).count();
+        let failures = failures + usize::from(alone.is_some()) - errors;
+        Element::new("testsuite")
+            .set("name", &checked.file)
+            .set("tests", runs.len().max(1).to_string())
+            .set("failures", failures.to_string())
+            .set("errors", errors.to_string())
+            .with_all(runs.iter().map(case))
+            .with_all(alone.map(|outcome| test_case("runs").with(outcome)))
+    };
     Element::new("testsuites").with_all(checked.iter().map(suite)).document()
 }
 
-fn suite(checked: &VerifiedFile) -> Element {
-    let runs = checked.runs();
-    let alone = match &checked.verified {
-        Err(why) => {
-            let why = why.to_string();
-            Some(Element::with_text("error", &why).set("message", first_line(&why)))
-        }
-        Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
-        Ok(_) => None,
-    };
-    let errors = usize::from(checked.verified.is_err());
-    let failures = runs.iter().filter(|run| !run.is_same()).count();
-    let failures = failures + usize::from(alone.is_some()) - errors;
-    Element::new("testsuite")
-        .set("name", &checked.file)
-        .set("tests", runs.len().max(1).to_string())
-        .set("failures", failures.to_string())
-        .set("errors", errors.to_string())
-        .with_all(runs.iter().map(case))
-        .with_all(alone.map(|outcome| test_case("runs").with(outcome)))
-}
-
-fn case(run: &VerifiedRun) -> Element {
-    let case = test_case(&run.name);
-    if run.is_same() {
-        return case;
-    }
-    let failure = Element::with_text("failure", &run_words(run));
-    case.with(failure.set("message", words::headline(run)))
-}
-
-fn test_case(name: &str) -> Element {
-    Element::new("testcase").set("name", name).set("classname", "snapshot")
-}
-
-/// What verifying found, as JSON.
-#[derive(Serialize)]
-pub struct Document<'a> {
-    /// Whether something was compared in every file, and nothing differs.
-    same: bool,
-    files: Vec<FileRow<'a>>,
-}
-
-/// What verifying a file found.
-#[derive(Serialize)]
-struct FileRow<'a> {
-    file: &'a str,
-    same: bool,
-    /// Why it could not be verified; null where it was.
-    failure: Option<Failure>,
-    #[serde(flatten)]
-    scene: Option<OnScene>,
-    runs: Vec<RunRow<'a>>,
-}
-
-/// What verifying a run found.
-#[derive(Serialize)]
-struct RunRow<'a> {
-    run: &'a str,
-    same: bool,
-    /// The side that has it; what one side alone has is not compared.
-    presence: Presence,
-    /// How many facts and numbers were compared.
-    compared: usize,
-    /// The iteration from which on rounding decides the path to the equilibrium, which is not compared
-    /// from there on; null where the runs take the same path.
-    path: Option<usize>,
-    /// What went in and differs.
-    changes: &'a [Change],
-    /// Where it first differs; null where it does not.
-    first: &'a Option<First>,
-    /// What differs, in the order of computation.
-    differences: &'a [Difference],
-}
-
-impl<'a> From<&'a VerifiedRun> for RunRow<'a> {
-    fn from(run: &'a VerifiedRun) -> Self {
-        RunRow {
-            run: &run.name,
-            same: run.is_same(),
-            presence: run.presence,
-            compared: run.compared,
-            path: run.path,
-            changes: &run.changes,
-            first: &run.first,
-            differences: &run.differences,
-        }
-    }
-}
-
-impl<'a> From<&'a VerifiedFile> for FileRow<'a> {
-    fn from(checked: &'a VerifiedFile) -> Self {
-        let scene = checked.verified.as_ref().ok().map(|Verified { input, .. }| OnScene {
-            units: input.units(),
-            scene_sha256: input.scene_sha256.clone(),
-            mesh_sha256: input.mesh_sha256.clone(),
-        });
-        FileRow {
-            file: &checked.file,
-            same: checked.is_same(),
-            failure: checked.verified.as_ref().err().map(Failure::from),
-            scene,
-            runs: checked.runs().iter().map(RunRow::from).collect(),
-        }
-    }
-}
-
-/// Returns what verifying found as JSON.
+/// Returns what verifying found as JSON: whether something was compared in every file and nothing differs, and file by
+/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them.
 pub fn json(checked: &[VerifiedFile]) -> String {
+    let run = |run: &VerifiedRun| {
+        json!({
+            "run": run.name,
+            "same": run.is_same(),
+            "presence": run.presence,
+            "compared": run.compared,
+            "path": run.path,
+            "changes": run.changes,
+            "first": run.first,
+            "differences": run.differences,
+        })
+    };
+    let file = |checked: &VerifiedFile| {
+        let why = checked.verified.as_ref().err().map(Failure::from);
+        let mut file = json!({ "file": checked.file, "same": checked.is_same(), "failure": why });
+        if let Ok(Verified { input, .. }) = &checked.verified {
+            file["units"] = json!(input.scene.units);
+            file["scene_sha256"] = json!(input.scene_sha256);
+            file["mesh_sha256"] = json!(input.mesh_sha256);
+        }
+        file["runs"] = checked.runs().iter().map(run).collect();
+        file
+    };
     let same = checked.iter().all(VerifiedFile::is_same);
-    json::line(None, &Document { same, files: checked.iter().map(FileRow::from).collect() })
+    let files: Vec<Value> = checked.iter().map(file).collect();
+    json::line(None, &json!({ "same": same, "files": files }))
 }

@@ -1,13 +1,13 @@
-//! A snapshot verified: every run of it is run again and compared.
+//! A snapshot verified: every run of it is run again and compared, or takes the place of what was recorded.
 
 use rayon::prelude::*;
 
-use super::changes::{Change, Side, changes};
+use super::changes::{Change, changes};
 use super::compare::{Difference, compare};
 use super::first::{First, first};
 use super::record::{Bounds, record};
 use super::{Entry, Quantity};
-use super::{Input, Numbers, Run, Snapshot, VERSION};
+use super::{FORMAT, Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
 use engine::Request;
 use engine::error::Result;
@@ -78,11 +78,12 @@ impl VerifiedRun {
         VerifiedRun { name, presence, run, differences, compared, path, changes, first }
     }
 
-    fn compared(name: String, old: Side, new: Side) -> Self {
-        let (differences, compared) = compare(old.run, new.run);
+    /// Compares two runs, each given with its snapshot's version and input.
+    fn compared(name: String, old: (&str, &Input, &Run), new: (&str, &Input, &Run)) -> Self {
+        let (differences, compared) = compare(old.2, new.2);
         let changes = changes(old, new);
-        let first = first(old.run, new.run, &differences);
-        let run = VerifiedRun::new(name, Presence::Both, new.run.clone());
+        let first = first(old.2, new.2, &differences);
+        let run = VerifiedRun::new(name, Presence::Both, new.2.clone());
         VerifiedRun { differences, compared, changes, first, ..run }
     }
 }
@@ -97,11 +98,7 @@ pub fn verify(
     scene: Option<&Scene>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Verified> {
-    let own = snapshot.scene();
-    let (scene, input) = match scene {
-        None => (own?, snapshot.input.clone()),
-        Some(scene) => (scene.clone(), Input::from_scene(scene)?),
-    };
+    let (scene, input) = given_or_own(snapshot, scene)?;
     let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
     let verified = runs.par_iter().map(|(name, old)| {
         let verified = verify_run(snapshot, &scene, &input, name, old);
@@ -109,6 +106,42 @@ pub fn verify(
         verified
     });
     Ok(Verified { runs: verified.collect::<Result<_>>()?, input: input.clone() })
+}
+
+/// Records the runs of `snapshot` again, on its own scene or on `scene` in its place. What is recorded
+/// of each, and the tolerances that it gives, stay.
+///
+/// # Errors
+/// The snapshot or the scene is at fault.
+pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
+    let (scene, input) = given_or_own(snapshot, scene)?;
+    let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
+    let again = runs.par_iter().map(|(name, old)| {
+        let mut run = record(&old.options.request(&scene), Bounds::Computed)?;
+        run.keep_only(old.only.clone());
+        for (entry, numbers) in &mut run.numbers {
+            numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
+        }
+        Ok(((*name).clone(), run))
+    });
+    let runs = again.collect::<Result<Vec<_>>>()?.into_iter().collect();
+    let (version, units) = (VERSION.into(), scene.units.clone());
+    Ok(Snapshot {
+        format: FORMAT,
+        version,
+        units,
+        scene_file: snapshot.scene_file.clone(),
+        input,
+        runs,
+    })
+}
+
+/// Returns `scene`, or that of the snapshot, with what a snapshot of it has.
+fn given_or_own(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<(Scene, Input)> {
+    Ok(match scene {
+        None => (snapshot.scene()?, snapshot.input.clone()),
+        Some(scene) => (scene.clone(), Input::from_scene(scene)?),
+    })
 }
 
 fn verify_run(
@@ -140,8 +173,8 @@ fn verify_run(
         let run = VerifiedRun::new(name, Presence::Both, run);
         return Ok(VerifiedRun { compared, path: Some(first), ..run });
     }
-    let is = Side { version: VERSION, input, run: &run };
-    Ok(VerifiedRun::compared(name.into(), Side::new(snapshot, old), is))
+    let was = (&*snapshot.version, &snapshot.input, old);
+    Ok(VerifiedRun::compared(name.into(), was, (VERSION, input, &run)))
 }
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
@@ -153,7 +186,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
             return VerifiedRun::new(name, Presence::Missing, was.clone());
         };
         let name = if name == other { name.clone() } else { format!("{name} and {other}") };
-        VerifiedRun::compared(name, Side::new(old, was), Side::new(new, is))
+        VerifiedRun::compared(name, (&old.version, &old.input, was), (&new.version, &new.input, is))
     });
     let added = new.runs.iter().filter(|(name, _)| !single && !old.runs.contains_key(*name));
     let added = added.map(|(name, is)| VerifiedRun::new(name, Presence::New, is.clone()));

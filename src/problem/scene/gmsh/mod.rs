@@ -16,14 +16,24 @@
 //!
 //! Reference: Gmsh's manual, "MSH file format" and "MSH file format version 2 (Legacy)".
 
-mod error;
-mod kinds;
-mod msh2;
-mod msh4;
 mod reader;
 mod tokens;
 mod write;
 
-pub use error::{Fault, GmshError, Place};
 pub use reader::read;
 pub use write::write;
+
+/// The reason why a file cannot be read, and its place.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{place}: {what}")]
+pub struct GmshError {
+    /// The line of a text file, from 1, or the byte of a binary one, from 0.
+    pub place: String,
+    /// What is wrong there.
+    pub what: String,
+    /// What should stand there, where another word or number does.
+    pub expected: Option<String>,
+}
+
+/// The result of reading: a value, or the first fault.
+type Result<T, E = GmshError> = std::result::Result<T, E>;

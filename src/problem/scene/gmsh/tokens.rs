@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::str::FromStr;
 
-use super::error::{Fault, GmshError, Place, Result};
+use super::{GmshError, Result};
 
 #[derive(Clone, Copy, PartialEq)]
 pub enum Encoding {
@@ -241,21 +241,21 @@ impl<'a> Tokens<'a> {
 
     /// Returns an error at the last token: `found` in place of `expected`.
     pub fn unexpected(&self, found: impl ToString, expected: impl ToString) -> GmshError {
-        self.error(Fault::Unexpected { found: found.to_string(), expected: expected.to_string() })
+        let (found, expected) = (found.to_string(), expected.to_string());
+        let error = self.refused(format!("found {found}, expected {expected}"));
+        GmshError { expected: Some(expected), ..error }
     }
 
     /// Returns an error at the last token: what is wrong there.
     pub fn refused(&self, what: impl Into<String>) -> GmshError {
-        self.error(Fault::Other(what.into()))
-    }
-
-    fn error(&self, fault: Fault) -> GmshError {
         let read = &self.file[..self.last];
         let place = match self.encoding {
-            Encoding::Text => Place::Line(1 + read.iter().filter(|byte| **byte == b'\n').count()),
-            Encoding::Binary => Place::Byte(self.last),
+            Encoding::Text => {
+                format!("line {}", 1 + read.iter().filter(|byte| **byte == b'\n').count())
+            }
+            Encoding::Binary => format!("byte {}", self.last),
         };
-        GmshError { place, fault }
+        GmshError { place, what: what.into(), expected: None }
     }
 }
 

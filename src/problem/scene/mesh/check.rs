@@ -40,13 +40,6 @@ impl Mesh {
     /// # Errors
     /// The first condition that is violated, by node or element number.
     pub fn check(&self) -> Result<()> {
-        self.check_names()?;
-        self.check_nodes()?;
-        self.check_elements()?;
-        self.of_dimension(2).try_for_each(|triangle| self.check_area(triangle))
-    }
-
-    fn check_names(&self) -> Result<()> {
         let mut tags = HashMap::new();
         for PhysicalName { dim, tag, name } in &self.names {
             let first = *tags.entry((dim, name)).or_insert(tag);
@@ -56,10 +49,6 @@ impl Mesh {
                 return Err(InputError::new("the mesh's physical groups", what, fix));
             }
         }
-        Ok(())
-    }
-
-    fn check_nodes(&self) -> Result<()> {
         let place = "the mesh's nodes";
         for (k, node) in self.nodes.iter().enumerate() {
             if k > 0 && self.nodes[k - 1].number == node.number {
@@ -72,7 +61,17 @@ impl Mesh {
                 return Err(InputError::new(place, what, "give finite coordinates"));
             }
         }
-        self.check_plane()
+        self.check_plane()?;
+        let place = "the mesh's elements";
+        for (k, element) in self.elements.iter().enumerate() {
+            let number = element.number;
+            if k > 0 && self.elements[k - 1].number == number {
+                let what = format!("element {number} is given twice");
+                return Err(InputError::new(place, what, "give each element once"));
+            }
+            self.check_element(element)?;
+        }
+        self.check_triangles()
     }
 
     /// Checks that all nodes have the same z, apart from rounding.
@@ -102,38 +101,6 @@ impl Mesh {
         Err(InputError::new("the mesh's nodes", what, fix))
     }
 
-    fn check_elements(&self) -> Result<()> {
-        let place = "the mesh's elements";
-        for (k, element) in self.elements.iter().enumerate() {
-            let number = element.number;
-            if k > 0 && self.elements[k - 1].number == number {
-                let what = format!("element {number} is given twice");
-                return Err(InputError::new(place, what, "give each element once"));
-            }
-            self.check_element(element)?;
-        }
-        let mut triangles: Vec<([usize; 3], usize)> = Vec::with_capacity(self.elements.len());
-        triangles.extend(self.of_dimension(2).map(|triangle| {
-            let mut corners = [0, 1, 2].map(|k| triangle.nodes[k]);
-            corners.sort_unstable();
-            (corners, triangle.number)
-        }));
-        if triangles.is_empty() {
-            let fix = "in Gmsh, mesh the surfaces (-2); where there are physical groups, only theirs are \
-                       saved: add groups as Physical Surface(\"body\") = {1};";
-            return Err(InputError::new(place, "the mesh has no triangle", fix));
-        }
-        triangles.sort_unstable();
-        let same = triangles.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-        if let Some([(_, first), (nodes, second)]) = same.min_by_key(|pair| pair[1].1) {
-            let what =
-                format!("triangles {first} and {second} have the same nodes {}", self.named(nodes));
-            let fix = "keep one, or give both the same geometric tag and different physical groups";
-            return Err(InputError::new(place, what, fix));
-        }
-        Ok(())
-    }
-
     /// Checks that an element's number is not far beyond the number of elements, that its tags are
     /// numbers of Gmsh, and that the element names different nodes of the mesh.
     fn check_element(&self, element: &Element) -> Result<()> {
@@ -160,6 +127,31 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+
+    /// Checks that there are triangles, no two with the same nodes, each with a positive area.
+    fn check_triangles(&self) -> Result<()> {
+        let place = "the mesh's elements";
+        let mut triangles: Vec<([usize; 3], usize)> = Vec::with_capacity(self.elements.len());
+        triangles.extend(self.of_dimension(2).map(|triangle| {
+            let mut corners = [0, 1, 2].map(|k| triangle.nodes[k]);
+            corners.sort_unstable();
+            (corners, triangle.number)
+        }));
+        if triangles.is_empty() {
+            let fix = "in Gmsh, mesh the surfaces (-2); where there are physical groups, only theirs are \
+                       saved: add groups as Physical Surface(\"body\") = {1};";
+            return Err(InputError::new(place, "the mesh has no triangle", fix));
+        }
+        triangles.sort_unstable();
+        let same = triangles.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        if let Some([(_, first), (nodes, second)]) = same.min_by_key(|pair| pair[1].1) {
+            let what =
+                format!("triangles {first} and {second} have the same nodes {}", self.named(nodes));
+            let fix = "keep one, or give both the same geometric tag and different physical groups";
+            return Err(InputError::new(place, what, fix));
+        }
+        self.of_dimension(2).try_for_each(|triangle| self.check_area(triangle))
     }
 
     fn check_area(&self, triangle: &Element) -> Result<()> {

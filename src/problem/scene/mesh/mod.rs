@@ -9,7 +9,6 @@
 mod builder;
 mod check;
 mod gmsh;
-mod join;
 mod tables;
 
 pub use builder::MeshBuilder;

@@ -105,7 +105,8 @@ pub fn scene_of(
     let (None, Some(path)) = (given, &snapshot.scene_file) else {
         return Ok((given.cloned(), None));
     };
-    let scene = snapshot.scene_today(file.parent().unwrap_or(Path::new("")))?;
+    let today = file.parent().unwrap_or(Path::new("")).join(path);
+    let scene = today.is_file().then(|| Scene::open(today)).transpose()?;
     let said = match &scene {
         None => Some(format!("scene file {path} is not there: the scene in the snapshot is run")),
         Some(scene) => {
