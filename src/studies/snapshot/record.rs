@@ -185,7 +185,7 @@ impl Recorded<'_> {
                 }
             }
             Detail::Unilateral(own) => {
-                for pairing in &own.pairings {
+                for pairing in own.pairings.iter() {
                     let edge = pairing.as_ref().map_or(0, |p| self.model.edge(p.edge).number);
                     faced.push(edge);
                     distances.push(pairing.as_ref().map_or(0.0, |p| p.gap));
