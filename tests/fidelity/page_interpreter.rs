@@ -27,7 +27,7 @@ use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case as Audited;
 use plane_contact::studies::audit::findings::{FINDINGS, Repair};
 use plane_contact::studies::lesson::page::{self as lesson, Chapter};
-use plane_contact::studies::lesson::{Iterations, Switch, chapter, switches};
+use plane_contact::studies::lesson::{Switch, chapter, reference, switches};
 use proptest::strategy::{Strategy, ValueTree};
 use serde_json::{Value as Json, json};
 use tempfile::TempDir;
@@ -542,10 +542,10 @@ fn three_thousand_moves_leave_the_page_where_this_interpreter_is() {
         now.change(&mut rng, runs.len(), &scene.model.nodes);
         situations.push(now.json(&runs));
     }
-    let iterations = Iterations::new(&scene, &runs[0].1);
+    let reference = reference(&scene, &runs[0].1);
     let (finding, repairs) = (None, None);
     let chapter =
-        Chapter { scene: scene.clone(), runs, nodes: vec![], finding, repairs, iterations };
+        Chapter { scene: scene.clone(), runs, nodes: vec![], finding, repairs, reference };
     let folder = TempDir::new().expect("a folder");
     let page = folder.path().join("lesson.html");
     std::fs::write(&page, lesson::html(&[chapter], Language::En)).expect("a file");
