@@ -14,7 +14,7 @@ use dashu_ratio::RBig;
 use num_traits::Zero;
 
 use super::f64x2::F64x2;
-use super::operators::operators;
+use crate::operators;
 use crate::scalar::number::{Scalar, Subscript};
 
 /// A number within `error` of `value`. It compares as its value, so that what runs in it takes the
@@ -300,7 +300,7 @@ impl SumOfProducts {
     }
 }
 
-operators!([<V: Rounded>] WithBound<V>);
+operators!(<V: Rounded> WithBound<V>);
 
 impl<V: Rounded> PartialEq for WithBound<V> {
     fn eq(&self, y: &Self) -> bool {

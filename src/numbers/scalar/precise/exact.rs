@@ -9,8 +9,8 @@ use std::marker::PhantomData;
 use dashu_int::UBig;
 use dashu_ratio::RBig;
 
-use super::operators::operators;
 use super::rational;
+use crate::operators;
 use crate::scalar::number::{Scalar, Subscript};
 
 /// A rational number, or *undefined*: x/0, and what comes of it. Undefined equals nothing, as NaN
@@ -146,7 +146,7 @@ impl Exact {
     }
 }
 
-operators!([] Exact);
+operators!(Exact);
 
 impl PartialEq for Exact {
     fn eq(&self, other: &Self) -> bool {

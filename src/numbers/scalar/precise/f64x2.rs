@@ -11,8 +11,8 @@ use std::fmt;
 
 use dashu_ratio::RBig;
 
-use super::operators::operators;
 use super::rational;
+use crate::operators;
 use crate::scalar::number::{Scalar, Subscript};
 
 /// hi + lo, hi being the `f64` nearest to the sum. An overflow or NaN stands in hi; lo is then 0.
@@ -124,7 +124,7 @@ impl F64x2 {
     }
 }
 
-operators!([] F64x2);
+operators!(F64x2);
 
 /// Returns a + b and its rounding error.
 fn two_sum(a: f64, b: f64) -> [f64; 2] {
