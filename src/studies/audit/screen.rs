@@ -144,7 +144,7 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
     };
     let nearest = match &conclusion.nearest {
         Some(nearest) => Some(format!(
-            "Of {} the nearest to the equilibrium, {}, {} {} from it in the energy norm, on the same mesh.",
+            "The nearest of {}, {}, {} {} from the equilibrium (energy norm, same mesh).",
             counted(nearest.tried, "run", "runs"),
             listed(nearest.runs.iter().map(described)),
             if nearest.runs.len() == 1 { "is" } else { "are" },
@@ -160,7 +160,13 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
     let is_example = is_example(scene);
     let range = (is_example && conclusion.reading == Reading::default()).then(conclusion::recorded);
     let strongest = of_the_paper(&audit.variants).filter(|(_, row)| is_nearest(conclusion, row));
-    let strongest = strongest.filter_map(|(_, row)| evidence(row, scene));
+    let strongest = strongest.filter_map(|(_, row)| {
+        let words = evidence(row, scene)?;
+        Some(match row.variant {
+            Variant::Tied | Variant::Stepped => format!("Eq. (1) gets contact wrong here. {words}"),
+            Variant::Printed | Variant::Unilateral => words,
+        })
+    });
     let is_unknown = |judged: &JudgedClaim| {
         judged.claim.id == "P13" && judged.measured.verdict == Verdict::NotCheckable
     };
