@@ -146,11 +146,10 @@ fn a_list_of_contact_nodes_that_is_no_walk_is_ordered_or_named() {
 
 #[test]
 fn the_order_of_the_list_decides_nothing_under_unilateral() {
-    let words = ["contact node 25 lies 0.3906 inside the target"];
-    let [a, b] = ["a", "b"].map(|x| fails(&format!("cnt-order-decides-{x}"), "", 2, &words).text);
-    assert_eq!(a.lines().next(), b.lines().next());
-    let [a, b] = ["a", "b"].map(|x| solved(&format!("cnt-order-decides-mortar-{x}"), ""));
-    assert_eq!(a.result["u"], b.result["u"]);
+    for name in ["cnt-order-decides", "cnt-order-decides-mortar"] {
+        let [a, b] = ["a", "b"].map(|x| solved(&format!("{name}-{x}"), ""));
+        assert_eq!(a.result["u"], b.result["u"], "{name}");
+    }
 }
 
 #[test]
