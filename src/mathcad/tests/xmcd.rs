@@ -44,7 +44,7 @@ fn parentheses_stand_where_each_notation_needs_them() {
         "×(a,b)·→(a·b) + ∑(i ∈ i, A[i])",
         "2·{x ← 1; for i ∈ 1 .. 3 {x ← 2·x; x ← 1 if x > 3}; try {1 / x} {0}}",
         "{b if a > 0; otherwise {1}} + ({while a > b {a ← 1}})",
-        "(b   c) ← (a   1)",
+        "(b c) ← (a 1)",
         "A⟨1⟩ ← A⟨2⟩ if a > 1",
     ] {
         let text = format!("f(a, A) :=\n  {body}\n");
