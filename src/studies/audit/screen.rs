@@ -160,12 +160,12 @@ fn verdict(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Vec<String>
     let is_example = is_example(scene);
     let range = (is_example && conclusion.reading == Reading::default()).then(conclusion::recorded);
     let strongest = of_the_paper(&audit.variants).filter(|(_, row)| is_nearest(conclusion, row));
-    let strongest = strongest.filter_map(|(_, row)| {
-        let words = evidence(row, scene)?;
-        Some(match row.variant {
-            Variant::Tied | Variant::Stepped => format!("Eq. (1) gets contact wrong here. {words}"),
-            Variant::Printed | Variant::Unilateral => words,
-        })
+    let strongest = strongest.filter_map(|(_, row)| Some((row.variant, evidence(row, scene)?)));
+    let strongest = strongest.enumerate().map(|(k, (variant, words))| match variant {
+        Variant::Tied | Variant::Stepped if k == 0 => {
+            format!("Eq. (1) gets contact wrong here. {words}")
+        }
+        Variant::Tied | Variant::Stepped | Variant::Printed | Variant::Unilateral => words,
     });
     let is_unknown = |judged: &JudgedClaim| {
         judged.claim.id == "P13" && judged.measured.verdict == Verdict::NotCheckable
