@@ -228,7 +228,7 @@ function fillChapter() {
   showTitle();
   showFinding(chapter());
   const { name, sha256 } = chapter();
-  const [scene, mesh] = sha256 ?? ["-", "-"];
+  const [scene, mesh] = sha256 ?? ["–", "–"];
   say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
 }
 
