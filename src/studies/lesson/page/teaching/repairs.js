@@ -14,7 +14,7 @@ function repairsOf({ rows, order }) {
   const share = (x) => cell(x === undefined ? "–" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
   const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }, k) => {
     const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "–";
-    const words = `${tell(fault)}${places ? ` (${places})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
+    const words = `${tell(fault)}${places ? ` (${places.replaceAll("-", "–")})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
     const number = make("th", { scope: "row" }, make("button", {}, String(repairs)));
     const made = make("tr", {}, number, cell(link), share(error), share(transmitted), cell(in_contact ?? "–"), make("td", { class: "words" }, words));
     made.addEventListener("click", ({ target }) => target.closest("a") || openRepair(k));
