@@ -888,7 +888,8 @@ async function views(browser) {
 /** A text with an error is said beside the iterations as beside the listing, and after a reload; the editor opens at
  * its top and its numbers stay beside its lines; without a load no error is drawn. */
 async function unread(browser) {
-  const { page, said } = await open(browser, `${file}#chapter=K1&run=repaired&listing=Km`);
+  const { page, said } = await open(browser, file);
+  await page.goto(`${page.url()}#chapter=K1&run=repaired&listing=Km`);
   const field = page.locator("#text");
   const places = () => page.evaluate(() => [document.getElementById("text").scrollTop, document.getElementById("gutter").style.transform]);
   await page.click("#edit");
