@@ -472,7 +472,7 @@ async function repairs(browser) {
     const row = repairs[count];
     assert.ok(Math.abs(error - row.energy_relative) < 1e-9, `${error}, ${row.energy_relative}`);
     assert.deepEqual([Number(transmitted), Number(inContact)], [row.transmitted, row.in_contact]);
-    if (k < rows.length - 1) assert.ok(finding === (row.finding ?? "-") && words.startsWith(row.fault), words);
+    if (k < rows.length - 1) assert.ok(finding === (row.finding ?? "–") && words.startsWith(row.fault), words);
     else assert.match(words, /^Not needed here: /);
     await page.locator("#repairs tbody td.words").nth(k).click();
     assert.equal(await page.locator("#repairs tr.current button").textContent(), count);
@@ -509,7 +509,7 @@ async function iterations(browser) {
   for (const variant of variants) {
     await page.selectOption("#variant", variant);
     await page.click("#end");
-    assert.match(await page.textContent("#course"), variant === "corrected" ? /^It ends with iteration 3/ : /settled from iteration 1 on: in contact: 2\.1 \(5\), 2\.2/);
+    assert.match(await page.textContent("#course"), variant === "corrected" ? /^It ends with iteration 3/ : /settled from iteration 1 on, in contact: 2\.1 \(5\), 2\.2/);
     assert.match(await page.textContent("#state"), /^Iteration \d+ of \d+, in contact: .* The target bears \d+ % of the load\. Error [\d.]+ %\.$/);
     assert.match(await page.textContent("#shape-caption"), /^Displacements are drawn \d+ times/);
   }
@@ -885,5 +885,36 @@ async function views(browser) {
   });
 }
 
-const tests = [walk, runs, keyboard, hover, readings, questions, numbers, changed, edited, checked, beside, unforeseen, chapters, joined, deep, repairs, iterations, assembly, opening, together, keys, moved, fingers, printed, soak, views];
+/** A text with an error is said beside the iterations as beside the listing, and after a reload; the editor opens at
+ * its top and its numbers stay beside its lines; without a load no error is drawn. */
+async function unread(browser) {
+  const { page, said } = await open(browser, file);
+  await page.goto(`${page.url()}#chapter=K1&run=repaired&listing=Km`);
+  const field = page.locator("#text");
+  const places = () => page.evaluate(() => [document.getElementById("text").scrollTop, document.getElementById("gutter").style.transform]);
+  await page.click("#edit");
+  assert.deepEqual(await places(), [0, "translateY(0px)"]);
+  await field.fill((await field.inputValue()).replace("←", "← ((("));
+  await page.locator("#listing-title", { hasText: "is not run" }).waitFor();
+  assert.ok((await page.locator(".code").boundingBox()).height >= 10 * 17.5, "ten lines stay in sight");
+  await field.evaluate((text) => (text.scrollTop = 150));
+  await chosen(page, "iterations");
+  await page.locator("#slider").fill("7");
+  const words = /^iteration 7 of 20, .*Km repaired, your text has an error and is not run$/;
+  assert.match(await page.textContent("#status"), words);
+  await page.waitForURL(/step=7/);
+  await chosen(page, "Km");
+  assert.deepEqual(await places(), [150, "translateY(-150px)"]);
+  await chosen(page, "iterations");
+  await page.locator("#slider").fill("7");
+  await page.waitForURL(/iterations&step=7/);
+  await page.reload();
+  assert.match(await page.textContent("#status"), words);
+  await page.goto(`${page.url().split("#")[0]}#chapter=C1&listing=iterations`);
+  assert.match(await page.textContent("#shape-caption"), /^Thin lines/);
+  assert.equal(await page.isHidden("#errors"), true);
+  assert.deepEqual(said, []);
+}
+
+const tests = [walk, runs, keyboard, hover, readings, questions, numbers, changed, edited, unread, checked, beside, unforeseen, chapters, joined, deep, repairs, iterations, assembly, opening, together, keys, moved, fingers, printed, soak, views];
 runAll(tests);

@@ -31,14 +31,21 @@ function stateOf(name) {
   return isAsPrinted && !isReading ? t("edited") : t("{base}, then edited", { base });
 }
 
-/** The listing that is shown, in words: what is in force, and whether the text that was typed is not, as it has an error. */
-function listingInWords(name) {
-  if (!page.isStale) return stateOf(name);
+/** Whether the text of a listing that was typed is not in force, as it has an error. */
+function isStale(name) {
+  const typed = page.isMine && page.typed.get(run()[name]);
+  return Boolean(typed) && typed.text !== typed.last;
+}
+
+/** A listing in words: what is in force, and whether the text that was typed is not. */
+function listingInWords(name, hasError = isStale(name)) {
+  if (!hasError) return stateOf(name);
   return `${stateOf(name)}, ${page.edits.has(run()[name]) ? t("of the last text without an error") : t("your text has an error and is not run")}`;
 }
 
 /** What the controls can do: "reset" takes back tolerance and nodes, "as printed" the listings; what was typed comes back. */
 function showButtons() {
+  byId("edit").textContent = byId("editor").hidden ? t("edit") : t("done");
   byId("reset").disabled = !isMoved();
   byId("printed").disabled = page.run === 0 && !page.isMine;
   byId("mine").hidden = page.isMine || page.typed.size === 0;
@@ -71,7 +78,7 @@ function showRemarks(text) {
   page.isStale = error !== null;
   byId("columns").classList.toggle("stale", page.isStale);
   showMarks(text, wrong);
-  say("listing-title", `${page.which}, ${listingInWords(page.which)}`);
+  say("listing-title", `${page.which}, ${listingInWords(page.which, page.isStale)}`);
   return error;
 }
 
@@ -110,8 +117,9 @@ function putCaret({ fileLine, column, length = 0 }) {
   const text = byId("text");
   const lines = text.value.split("\n");
   const start = [...lines.slice(0, fileLine - 1), [...lines[fileLine - 1]].slice(0, column - 1).join("")].join("\n").length;
-  text.focus();
+  // The focus scrolls to where the caret is then.
   text.setSelectionRange(start, start + length);
+  text.focus();
   sayCaret();
 }
 
@@ -144,7 +152,7 @@ function showEditor(isOpen) {
   byId("editor").hidden = !isOpen;
   byId("listing-box").hidden = byId("legend").hidden = isOpen;
   byId("below").classList.toggle("editing", isOpen);
-  byId("edit").textContent = isOpen ? t("done") : t("edit");
+  showButtons();
   if (!isOpen) return lightLine(page.machine);
   byId("text").scrollTop = byId("text").scrollLeft = 0;
   putCaret({ fileLine: 1, column: 1 });

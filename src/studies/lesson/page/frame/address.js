@@ -33,8 +33,8 @@ async function copyLink() {
   const link = new URL(address(), location.href).href;
   const isCopied = await stored(() => navigator.clipboard.writeText(link).then(() => true, () => false));
   say("said", isCopied ? t("The link is copied.") : link);
-  byId("link").textContent = isCopied ? t("copied") : t("in the address bar");
-  setTimeout(() => (byId("link").textContent = t("copy link")), 2000);
+  byId("link").firstChild.data = isCopied ? t("copied") : t("in the address bar");
+  setTimeout(() => (byId("link").firstChild.data = t("copy link")), 2000);
   history.replaceState(null, "", link);
 }
 
@@ -62,7 +62,8 @@ function openAddress() {
     variant: fields.get("variant") ?? page.variant,
     at: Number(fields.get("step")) || 0,
     factor: Math.min(100, Math.max(0.01, Number(fields.get("tolerance") ?? 1) || 1)),
-    isMine: edited.length > 0,
+    // A text that never ran is not in a link; what runs is the same with it.
+    isMine: edited.length > 0 || (page.isMine && page.edits.size === 0),
     isBeside: fields.has("beside"),
     turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),
     moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),

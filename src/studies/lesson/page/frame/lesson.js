@@ -56,9 +56,9 @@ function choose(change) {
   if (!isIterating() && ["run", "which", "edits", "isMine"].some((name) => name in change)) {
     showText();
     showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
-    const [turn, title] = page.which === "Km" ? [t("element"), t("Run to the next element (N)")] : [t("node"), t("Run to the next contact node (N)")];
-    Object.assign(byId("turn"), { textContent: turn, title });
   }
+  const [turn, title] = page.which === "Km" ? [t("element"), t("Run to the next element (N)")] : [t("node"), t("Run to the next contact node (N)")];
+  Object.assign(byId("turn"), { textContent: turn, title });
   showButtons();
   // Beside the arrays these would take half of a move's time.
   if (!page.dragged) {
@@ -92,8 +92,8 @@ function go(at) {
 function placeInWords() {
   const { at, steps, next, lines, last } = page.machine;
   if (isIterating()) {
-    const states = new Set(LISTINGS.map(stateOf));
-    const listings = states.size === 1 ? [...states] : LISTINGS.map((name) => `${name} ${stateOf(name)}`);
+    const states = LISTINGS.map((name) => listingInWords(name));
+    const listings = states[0] === states[1] ? [states[0]] : LISTINGS.map((name, k) => `${name} ${states[k]}`);
     return [t("iteration {at} of {count}", { at, count: steps.length }), ...(page.variant === "corrected" ? [] : listings)].join(", ");
   }
   const place = [t("step {at} of {count}", { at, count: steps.length }), ...(last ? [t("line {line}", { line: lines[last.line].number })] : [])];
@@ -117,6 +117,7 @@ function show() {
   byId("slider").setAttribute("aria-valuetext", byId("status").textContent);
   keepAddress();
   for (const id of ["start", "back"]) byId(id).disabled = at === 0;
+  byId("play").disabled = steps.length === 0;
   for (const id of ["forward", "end"]) byId(id).disabled = at === steps.length;
   for (const id of ["over", "decision", "turn"]) byId(id).disabled = isIterating() || at === steps.length;
 }
@@ -127,6 +128,8 @@ function showSteps() {
   const turn = machine.turnAt(machine.at - 1);
   const inKm = page.which === "Km";
   const line = machine.last ? machine.lines[machine.last.line].number : 0;
+  // What was hidden is scrolled where it was.
+  if (!byId("editor").hidden) scrollMarks();
   // Read before anything is written, else the page is laid out anew.
   page.width = byId("pictures").clientWidth;
   if (mesh.contact.length) {
@@ -225,7 +228,7 @@ function fillChapter() {
   showTitle();
   showFinding(chapter());
   const { name, sha256 } = chapter();
-  const [scene, mesh] = sha256 ?? ["-", "-"];
+  const [scene, mesh] = sha256 ?? ["–", "–"];
   say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
 }
 

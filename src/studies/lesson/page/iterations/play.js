@@ -30,8 +30,11 @@ function equationsOf(run, edits) {
   return new Equations(run, Object.fromEntries(readAt({ c_cnt: run.c_cnt, Km: run.Km }, edits)), page.mesh.own, page.mesh.stands, page.programs.c_tll);
 }
 
+/** Whether a load acts on the chapter's scene. */
+const isLoaded = () => data.meshes[chapter().runs[0].mesh].load.some((f) => f !== 0);
+
 /** Whether the reference solution is one of the scene as it is now. */
-const hasReference = () => chapter().reference && page.moved.size === 0 && run().mesh === chapter().runs[0].mesh && run().plane === chapter().runs[0].plane;
+const hasReference = () => chapter().reference && isLoaded() && page.moved.size === 0 && run().mesh === chapter().runs[0].mesh && run().plane === chapter().runs[0].plane;
 
 /** Errors that are the equations' rounding. */
 const ROUNDING = 1e-10;
@@ -88,7 +91,7 @@ function courseInWords({ steps, failure }, variant) {
   const sets = steps.map(({ inContact }) => contactInWords(inContact));
   const settled = () => sets.findLastIndex((set) => set !== sets.at(-1)) + 2;
   if (variant === "corrected" && steps.length < ITERATIONS) return t("It ends with iteration {k}: the contact of its shape was there before, in its own equations or in earlier ones.", { k: steps.length });
-  if (period === 1) return t("The contact state is settled from iteration {k} on: {state}.", { k: settled(), state: sets.at(-1) });
+  if (period === 1) return t("The contact state is settled from iteration {k} on, {state}.", { k: settled(), state: sets.at(-1) });
   if (period === 2) return t("The contact state does not settle: two states alternate ({one}; {other}).", { one: sets.at(-2), other: sets.at(-1) });
   return period ? t("The contact state does not settle: it comes back after {period} iterations.", { period }) : t("The contact state has not settled.");
 }
@@ -96,7 +99,7 @@ function courseInWords({ steps, failure }, variant) {
 /** How many times displacements are drawn: the largest of all iterations comes to an eighth of the scene. */
 function magnification(steps, size) {
   const most = Math.max(0, ...steps.flatMap(({ u }) => u.map(Math.abs)));
-  return most > 0 ? roundAtMost(size / 8 / most) : 1;
+  return most > 0 ? roundAtMost(size / 8 / most) : 0;
 }
 
 /** Draws the shape after the iteration, over the initial one. */
@@ -115,7 +118,8 @@ function drawShape(mesh, { steps, at }) {
     drawStatus(context, to(now(n)), inContact && Number(inContact.includes(n)), false);
     if (mesh.contact.length <= 12) label(context, mesh.name(n), [to(now(n))[0], to(now(n))[1] - 12], colour("stamp-ink"));
   }
-  byId("shape-caption").textContent = t("Displacements are drawn {times} times as large. Thin lines: the initial shape. Filled: in contact; open: not in contact.", { times });
+  const scale = times ? t("Displacements are drawn {times} times as large.", { times }) + " " : "";
+  byId("shape-caption").textContent = scale + t("Thin lines: the initial shape. Filled: in contact; open: not in contact.");
   canvas.setAttribute("aria-label", byId("state").textContent);
 }
 

@@ -160,11 +160,14 @@ function inPlainNumbers(text) {
 
 function ofFinding(row) {
   const { runs } = chapter();
+  const named = (text) => text.replace(/(node|уз\S*) (\d+)/g, (_, word, n) => `${word} ${page.mesh.name(Number(n))}`);
   const figure = `${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}.`;
-  const prices = row.prices.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: row.prices.map(priceInWords).join("; ") })}` : "";
+  // Without a load there are no displacements that a fault could change.
+  const priced = row.prices.filter(({ scene }) => scene !== chapter().name || isLoaded());
+  const prices = priced.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: priced.map(priceInWords).join("; ") })}` : "";
   const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
-    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), inPlainNumbers(interpreted(t(row.detail)))].join(": ") })],
+    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), inPlainNumbers(named(interpreted(t(row.detail))))].join(": ") })],
     [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],
     [t("What it costs"), figure + prices],
     [t("What repairs it"), `${t(row.repair)}; ${repaired}`],

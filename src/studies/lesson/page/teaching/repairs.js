@@ -11,12 +11,12 @@ function openRepair(k) {
 /** The content of the chapter: what a row is, the table, and the picture. */
 function repairsOf({ rows, order }) {
   const cell = (text, value) => make("td", { "data-exact": value === undefined ? undefined : exact(value) }, text);
-  const share = (x) => cell(x === undefined ? "-" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
+  const share = (x) => cell(x === undefined ? "–" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
   const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }, k) => {
-    const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "-";
-    const words = `${tell(fault)}${places ? ` (${places})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
+    const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "–";
+    const words = `${tell(fault)}${places ? ` (${places.replaceAll("-", "–")})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
     const number = make("th", { scope: "row" }, make("button", {}, String(repairs)));
-    const made = make("tr", {}, number, cell(link), share(error), share(transmitted), cell(in_contact ?? "-"), make("td", { class: "words" }, words));
+    const made = make("tr", {}, number, cell(link), share(error), share(transmitted), cell(in_contact ?? "–"), make("td", { class: "words" }, words));
     made.addEventListener("click", ({ target }) => target.closest("a") || openRepair(k));
     return made;
   };
@@ -33,5 +33,5 @@ function showRepair({ rows }) {
   [...byId("repairs").tBodies[0].rows].forEach((row, k) => row.classList.toggle("current", k === page.run - 1));
   const errors = rows.map(({ error }) => error);
   drawCurve(byId("way"), errors, page.run - 1, rows.map(({ finding, repairs }) => finding ?? String(repairs)));
-  byId("way").setAttribute("aria-label", `${t("Error by the number of repairs")}: ${errors.map((error) => (error === undefined ? "-" : percent(error))).join("; ")}`);
+  byId("way").setAttribute("aria-label", `${t("Error by the number of repairs")}: ${errors.map((error) => (error === undefined ? "–" : percent(error))).join("; ")}`);
 }
