@@ -139,7 +139,7 @@ pub fn resultant(solution: &Solution) -> Option<Resultant> {
     Some(Resultant { force, through })
 }
 
-/// Returns which part of the load a force along it, as [`transmitted_force`] has it, is. None where that says nothing:
+/// Returns which part of the load a force along it, as `transmitted_force` has it, is. None where that says nothing:
 /// no load acts, or not on one of the two bodies alone, the loads cancel each other, or a lever makes the force larger
 /// than the load, or turns it round.
 pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
