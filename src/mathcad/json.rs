@@ -1,6 +1,6 @@
 //! Values as JSON: a number; a list of rows for an array; a string.
 
-use serde::ser::{Serialize, Serializer};
+use serde::ser::{Serialize, SerializeSeq, Serializer};
 use serde_json::Value as Json;
 
 use super::value::{Array, Grid, Value};
@@ -16,15 +16,7 @@ pub fn read(json: &Json) -> Result<Value, String> {
         Json::Bool(truth) => Ok(f64::from(u8::from(*truth)).into()),
         Json::String(text) => Ok(Value::Text(text.as_str().into())),
         Json::Array(list) if list.is_empty() => Ok(Array::default().into()),
-        Json::Array(list) if list.iter().all(Json::is_array) => {
-            let rows: Vec<&Vec<Json>> = list.iter().filter_map(Json::as_array).collect();
-            let cols = rows[0].len();
-            if cols == 0 || rows.iter().any(|row| row.len() != cols) {
-                return Err("expected rows of one length".into());
-            }
-            let entries = rows.into_iter().flatten().map(read).collect::<Result<Vec<_>, _>>()?;
-            Ok(Value::grid(Grid::from_rows(cols, entries)))
-        }
+        Json::Array(list) if list.iter().all(Json::is_array) => rows(list),
         Json::Array(list) => {
             let entries = list.iter().map(read).collect::<Result<Vec<_>, _>>()?;
             Ok(Value::grid(Grid::from_rows(1, entries)))
@@ -35,24 +27,46 @@ pub fn read(json: &Json) -> Result<Value, String> {
     }
 }
 
+fn rows(list: &[Json]) -> Result<Value, String> {
+    let rows: Vec<&Vec<Json>> = list.iter().filter_map(Json::as_array).collect();
+    let cols = rows[0].len();
+    if cols == 0 || rows.iter().any(|row| row.len() != cols) {
+        return Err("expected rows of one length".into());
+    }
+    let entries = rows.into_iter().flatten().map(read).collect::<Result<Vec<_>, _>>()?;
+    Ok(Value::grid(Grid::from_rows(cols, entries)))
+}
+
 /// A value that is written as JSON which [`read`] reads, entry by entry.
 #[derive(Clone, Copy, Debug)]
 pub struct Written<'a>(pub &'a Value);
 
 impl Serialize for Written<'_> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        written(self.0).serialize(to)
+        let (rows, _) = self.0.size();
+        match self.0 {
+            Value::Number(x) => to.serialize_f64(*x),
+            Value::Text(text) => to.serialize_str(text),
+            array @ (Value::Array(_) | Value::Nested(_)) => {
+                to.collect_seq((0..rows).map(|i| Row { array, i }))
+            }
+        }
     }
 }
 
-fn written(value: &Value) -> Json {
-    match value {
-        Value::Number(x) => (*x).into(),
-        Value::Text(text) => (**text).into(),
-        array @ (Value::Array(_) | Value::Nested(_)) => {
-            let (rows, cols) = array.size();
-            let entry = |i, j| written(&array.entry(i, j).unwrap_or_default());
-            (0..rows).map(|i| (0..cols).map(|j| entry(i, j)).collect::<Json>()).collect()
+struct Row<'a> {
+    array: &'a Value,
+    i: usize,
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let (_, cols) = self.array.size();
+        let mut row = to.serialize_seq(Some(cols))?;
+        for j in 0..cols {
+            let entry = self.array.entry(self.i, j).unwrap_or_default();
+            row.serialize_element(&Written(&entry))?;
         }
+        row.end()
     }
 }
