@@ -82,15 +82,15 @@ impl Surface {
     /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
     /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
     pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
-        self.bend_at(node, shape).map_or(0.0, |[angle, length]| angle * length / 8.0)
+        self.bend_at(node, shape).map_or(0.0, |[_, height]| height)
     }
 
-    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface, rad, and the
-    /// length of the longer; None where they meet in no bend.
+    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface, rad, and
+    /// [`Surface::height_at`] there; None where they meet in no bend.
     fn bend_at(&self, node: NodeId, shape: &[Vector]) -> Option<[f64; 2]> {
         let [a, b] = self.meeting(node, shape)?;
         let angle = dot(a.tangent, b.normal).abs().atan2(dot(a.normal, b.normal));
-        (dot(a.normal, b.normal) > BEND).then_some([angle, a.length.max(b.length)])
+        (dot(a.normal, b.normal) > BEND).then_some([angle, angle * a.length.max(b.length) / 8.0])
     }
 
     /// Returns the nodes at which the surface ends, ascending.
@@ -184,7 +184,7 @@ impl Surfaces {
             self.contact.bend_at(*node, shape).or_else(|| self.target.bend_at(*node, shape))
         };
         let bends = nodes.iter().filter_map(bend).filter(|[angle, _]| *angle > least);
-        bends.map(|[angle, length]| angle * length / 8.0).fold(0.0, f64::max)
+        bends.map(|[_, height]| height).fold(0.0, f64::max)
     }
 
     /// Returns the entries of the contact surface, in order.

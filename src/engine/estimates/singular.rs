@@ -67,11 +67,11 @@ impl Singular {
 /// Returns the points of a solution where the stress has no limit, in the order of their nodes; of several
 /// causes the first.
 pub fn singular(solution: &Solution) -> Vec<Singular> {
-    let model = &*solution.model;
-    let corners = corners(model).into_iter().map(|node| (Cause::Corner, [node, node]));
+    let (model, turns) = (&*solution.model, turns(&solution.model));
+    let corners = corners(model, &turns).into_iter().map(|node| (Cause::Corner, [node, node]));
     let forces = forces(solution).into_iter().map(|node| (Cause::Force, [node, node]));
     let mut found: Vec<(Cause, [NodeId; 2])> =
-        corners.chain(forces).chain(contact_ends(solution)).collect();
+        corners.chain(forces).chain(contact_ends_at(solution, &turns)).collect();
     found.sort_by_key(|(_, nodes)| nodes[0]);
     found.dedup_by_key(|(_, nodes)| nodes[0]);
     let point = |(cause, nodes): (Cause, [NodeId; 2])| {
@@ -99,8 +99,10 @@ impl Turn {
     }
 }
 
-/// Returns how the outline turns at each of its nodes.
-fn turns(model: &Model) -> BTreeMap<NodeId, Turn> {
+/// How the outline turns at each of its nodes.
+type Turns = BTreeMap<NodeId, Turn>;
+
+fn turns(model: &Model) -> Turns {
     let outline: Vec<TriangleSide> = model.sides.outline().collect();
     let going: BTreeMap<NodeId, TriangleSide> =
         outline.iter().map(|side| (side.nodes[0], *side)).collect();
@@ -118,7 +120,7 @@ fn turns(model: &Model) -> BTreeMap<NodeId, Turn> {
 
 /// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
 /// stress has a limit.
-fn corners(model: &Model) -> Vec<NodeId> {
+fn corners(model: &Model, turns: &Turns) -> Vec<NodeId> {
     let held = model.held_directions();
     let is_fixed = |side: TriangleSide| side.nodes.iter().all(|node| held[node.index()] == 2);
     let is_corner = |turn: &Turn| {
@@ -130,7 +132,7 @@ fn corners(model: &Model) -> Vec<NodeId> {
         };
         turn.angle > widest
     };
-    turns(model).into_iter().filter(|(_, turn)| is_corner(turn)).map(|(node, _)| node).collect()
+    turns.iter().filter(|(_, turn)| is_corner(turn)).map(|(node, _)| *node).collect()
 }
 
 /// Returns Kolosov's constant κ.
@@ -186,8 +188,8 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
 
 /// Returns the nodes of the contact surface at which contact that sticks ends, each with a target node: beside an open
 /// node that which carries most of it, and where both bodies end in corners of unlike materials the target's.
-fn ends(solution: &Solution) -> Vec<[NodeId; 2]> {
-    let (model, last, turns) = (&*solution.model, solution.last(), turns(&solution.model));
+fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
+    let (model, last) = (&*solution.model, solution.last());
     let (nodes, held) = (&model.contact.nodes, model.held_directions());
     let closed = last.statuses();
     let sticks = |k: usize| match &last.detail {
@@ -231,16 +233,19 @@ fn are_unlike_corners(model: &Model, corners: [&Turn; 2]) -> bool {
 
 /// Returns the nodes at which contact ends in a point without a limit, each with the cause and a target node there.
 pub fn contact_ends(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
-    let sticking = ends(solution).into_iter().map(|nodes| (Cause::Sticking, nodes));
-    edges(solution).into_iter().chain(sticking).collect()
+    contact_ends_at(solution, &turns(&solution.model))
+}
+
+fn contact_ends_at(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2])> {
+    let sticking = ends(solution, turns).into_iter().map(|nodes| (Cause::Sticking, nodes));
+    edges(solution, turns).into_iter().chain(sticking).collect()
 }
 
 /// Returns the nodes in contact at which a body ends while the other goes on, or a contact group while both do, each
 /// with the target node there. A body that goes on past the end of a group may enter the other unseen.
-fn edges(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
+fn edges(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2])> {
     let model = &*solution.model;
     let Ok(surfaces) = Surfaces::new(model) else { return Vec::new() };
-    let turns = turns(model);
     let is = |node: NodeId, test: fn(&Turn) -> bool| turns.get(&node).is_some_and(test);
     let constraints = &solution.last().constraints;
     let pairs = constraints.iter().filter_map(|own| Some([own.node, carrier(own)?]));
@@ -250,7 +255,7 @@ fn edges(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
         (ax - bx).hypot(ay - by)
     };
     let goes_on_beside = |node: NodeId, other: NodeId| {
-        let body = model.bodies.iter().find(|body| body.has(other));
+        let body = model.body_of(other);
         let outline =
             turns.iter().filter(|(at, _)| **at != node && body.is_some_and(|b| b.has(**at)));
         let nearest = outline.min_by(|a, b| distance(node, *a.0).total_cmp(&distance(node, *b.0)));

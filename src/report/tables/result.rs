@@ -19,15 +19,16 @@ const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// how exact they are, and whether this is the only equilibrium.
 pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
     let error = error_of_mesh(assessment);
+    let ends = contact_ends(solution);
     let report = Report::default()
         .heading("Result")
         .notes(equilibrium::overlap(solution))
         .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
-        .notes(group_ends(solution))
+        .notes(group_ends(solution, &ends))
         .notes(passes_on(solution))
         .notes(in_contact(solution))
         .notes(resultant(solution))
-        .notes(peak(solution, error))
+        .notes(peak(solution, &ends, error))
         .notes(width(solution))
         .notes(displacement(solution, error))
         .notes(stresses(assessment, solution, error))
@@ -133,7 +134,7 @@ fn resultant(solution: &Solution) -> Option<String> {
 }
 
 /// Names the contact node under the largest pressure. The pressures of `printed` stay in the contact body.
-fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
+fn peak(solution: &Solution, ends: &[(Cause, [NodeId; 2])], error: Option<f64>) -> Option<String> {
     let pressed: Vec<_> =
         solution.in_contact().filter_map(|node| Some((node.pressure?, node))).collect();
     let found = largest(pressed.iter().map(|(pressure, _)| *pressure))?;
@@ -145,7 +146,7 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
     let gap = with_unit(&figure(at.gap, error), &units.length);
     let is_apart = solution.is_apart(at);
     let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
-    let caution = of_the_mesh(solution, at.node);
+    let caution = of_the_mesh(solution, ends, at.node);
     Some(format!(
         "Peak contact pressure {} at {}{}{across}{caution}",
         with_unit(&figure(pressure, error), &units.stress),
@@ -156,9 +157,9 @@ fn peak(solution: &Solution, error: Option<f64>) -> Option<String> {
 
 /// Says that contact reaches the end of a contact group where the bodies go on, unless they are known to enter each
 /// other there.
-fn group_ends(solution: &Solution) -> Option<String> {
-    let ends = contact_ends(solution).into_iter().filter(|(cause, _)| *cause == Cause::Group);
-    let nodes: BTreeSet<NodeId> = ends.map(|(_, [node, _])| node).collect();
+fn group_ends(solution: &Solution, ends: &[(Cause, [NodeId; 2])]) -> Option<String> {
+    let ends = ends.iter().filter(|(cause, _)| *cause == Cause::Group);
+    let nodes: BTreeSet<NodeId> = ends.map(|(_, [node, _])| *node).collect();
     (!nodes.is_empty() && solution.overlap.is_none()).then(|| {
         format!(
             "NOTE: contact reaches the end of a contact group though the bodies go on, at {}: beyond it nothing keeps \
@@ -171,15 +172,15 @@ fn group_ends(solution: &Solution) -> Option<String> {
 
 /// Says where the mesh, or a contact group, decides the pressure of a node: it carries contact alone, or stands at the
 /// edge of a body, as that of a punch, or at the end of a group, or in the next place.
-fn of_the_mesh(solution: &Solution, node: NodeId) -> String {
+fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId) -> String {
     if solution.in_contact().count() == 1 {
         return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts".into();
     }
     let is_beside = |end: NodeId| {
         solution.model.triangles.iter().any(|t| [end, node].iter().all(|n| t.nodes.contains(n)))
     };
-    let cause = contact_ends(solution)
-        .into_iter()
+    let cause = ends
+        .iter()
         .find(|(cause, [end, _])| *end == node || *cause == Cause::Group && is_beside(*end));
     cause.map_or(String::new(), |(cause, _)| {
         format!("; {}: a finer mesh has more, without limit", cause.name())
