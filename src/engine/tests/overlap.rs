@@ -168,8 +168,8 @@ fn rounded_coordinates_are_no_overlap() {
     }
 }
 
-/// The lower block is 1 thick. However short the edges, an interference is told from a node of its other side down to
-/// the middle.
+/// The lower block is 1 thick: however short the edges, a node up to 0.5 deep is read as an interference, and a deeper
+/// one as come from the other side.
 #[test]
 fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
     for (depth, is_refused) in [(0.49, false), (0.51, true), (1.5, true)] {

@@ -324,7 +324,7 @@ const WORDS: [&str; 4] = [
 ];
 
 /// Some words, as the body of a program.
-fn words(rng: &mut Rng) -> String {
+pub fn words(rng: &mut Rng) -> String {
     let all: Vec<&str> = WORDS.iter().flat_map(|line| line.split('~')).collect();
     (0..rng.usize(..40)).map(|_| one_of(rng, &all)).collect()
 }

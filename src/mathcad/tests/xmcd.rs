@@ -1,6 +1,7 @@
 //! The second notation: listings to XMCD and back, worksheets executed, hostile files.
 
-use super::worksheet;
+use super::{limits::words, one_of, worksheet};
+use fastrand::Rng;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use mathcad::worksheet::{ExecutedRegion, Verdict, execute};
 use mathcad::xmcd::document::{self, Content};
 use mathcad::xmcd::page::Page;
 use mathcad::xmcd::write;
-use mathcad::{Limits, Listing, Settings};
+use mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 
 /// Writes a listing as a worksheet, and reads it back as text.
 fn there_and_back(listing: &Listing) -> Result<String, String> {
@@ -135,6 +136,61 @@ fn regions_are_in_the_order_of_the_page() {
     let sheet = document::read(&text, "sheet").unwrap();
     let found: Vec<&str> = sheet.regions.iter().map(|region| region.id.as_str()).collect();
     assert_eq!(found, ["first", "second", "third", "last"]);
+}
+
+/// Any program that the text notation reads means the same once it has been a worksheet; what
+/// comes back is as short as it gets.
+#[test]
+fn any_program_comes_back() {
+    let mut rng = Rng::with_seed(2026);
+    for _ in 0..1_000 {
+        if let Ok(listing) = Listing::parse("f", &format!("f(x) :=\n  {}", words(&mut rng))) {
+            let once = there_and_back(&listing).unwrap();
+            // Parentheses that Mathcad needs may lead beyond the depth that is read.
+            if let Ok(again) = Listing::parse("f", &once) {
+                assert_eq!(there_and_back(&again), Ok(once));
+                assert_eq!(run(&again), run(&listing));
+            }
+        }
+    }
+}
+
+/// A worksheet with bytes changed, parts left out or repeated is read or refused; what is read
+/// is executed within its limits.
+#[test]
+fn damaged_worksheets_end() {
+    let mut rng = Rng::with_seed(2026);
+    let plain = "f(x) :=\n  y ← 0\n  for i ∈ 1 .. rows(v)\n    y ← y + v[i] if v[i] > 1\n  y";
+    for _ in 0..1_000 {
+        let listing = Listing::parse("f", &format!("f(x) :=\n  {}", words(&mut rng)));
+        let listing = listing.unwrap_or_else(|_| Listing::parse("f", plain).unwrap());
+        let mut text = worksheet(&[listing]);
+        for _ in 0..rng.usize(1..6) {
+            let places: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
+            let (start, length) = (one_of(&mut rng, &places), rng.usize(..60));
+            let end = places.iter().copied().find(|p| *p >= start + length).unwrap_or(start);
+            let part = text[start..end].to_string();
+            match rng.u8(..4) {
+                0 => text.replace_range(start..end, ""),
+                1 => text.insert_str(start, &part),
+                2 => text = text.replacen("<ml:id", "<ml:program", 1 + length % 3),
+                _ => text = text.replacen("1", "999999999", 1 + length % 3),
+            }
+        }
+        if let Ok(sheet) = document::read(&text, "sheet") {
+            execute(&sheet, &Limits { steps: 10_000, entries: 10_000, ..Limits::default() });
+        }
+    }
+}
+
+/// The value of a program, or the kind of its failure, with little to spend.
+fn run(listing: &Listing) -> Result<String, std::mem::Discriminant<Cause>> {
+    let limits = Limits { steps: 10_000, entries: 10_000, ..Limits::default() };
+    let mut worksheet = listing.runner(&Settings::default(), &limits);
+    worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));
+    let outcome = worksheet.call(&[Value::Number(5.0)]);
+    let kind = outcome.map_err(|failure| std::mem::discriminant(&failure.cause));
+    kind.map(|outcome| outcome.value.to_string())
 }
 
 #[test]

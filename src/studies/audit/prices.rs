@@ -240,18 +240,17 @@ impl Compared {
         let slides = self.slides();
         let on = |model: &&Model| -> Vec<Outcome> {
             let worksheet = Worksheet::new(model, Bound::Normal);
-            let corrected = self.run(&worksheet, &[]);
+            let mut outcomes = vec![self.run(&worksheet, &[])];
             watch();
-            let faults = faults.iter().take_while(|_| corrected.is_sound()).map(|fault| {
-                let outcome = match fault.name() == STICKING && !slides {
-                    true => Outcome::NoFault {},
-                    false => self.run(&worksheet, &[fault.edit]),
-                };
-                watch();
-                outcome
-            });
-            let mut outcomes: Vec<_> = faults.collect();
-            outcomes.insert(0, corrected);
+            if outcomes[0].is_sound() {
+                for fault in faults {
+                    outcomes.push(match fault.name() == STICKING && !slides {
+                        true => Outcome::NoFault {},
+                        false => self.run(&worksheet, &[fault.edit]),
+                    });
+                    watch();
+                }
+            }
             outcomes
         };
         let equivalents = self.equivalents.iter().map(|model| &**model);

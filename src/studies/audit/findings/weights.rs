@@ -13,9 +13,9 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
     let mut furthest = Evidence::present_if(false, 0.0, "every weight lies in [0, 1]");
     for variant in Variant::OF_THE_PAPER {
         let Ok(solution) = case.run(*variant) else { continue };
+        let sheet = worksheet(&solution.model, |x| x);
         for step in &solution.steps {
             let Detail::Published(found) = &step.detail else { continue };
-            let sheet = worksheet(&solution.model, |x| x);
             for NodeToSegment { node, masters } in linked(&sheet, &found.pairs.whole()) {
                 let [k1, k2] = masters.map(|(_, weight)| weight);
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
