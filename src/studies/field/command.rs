@@ -50,7 +50,7 @@ pub fn run(
             InputError::new(rows.place, what, "give them in the scene's unit of length").into()
         );
     }
-    let compared = Compared { rows: &rows, how, beside };
+    let compared = Compared { rows: &rows, how: &how, beside };
     match tables.json {
         true => print(&table::json(&compared))?,
         false => tables.print(table::report(&compared))?,

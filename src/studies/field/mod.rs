@@ -88,7 +88,7 @@ impl Rows {
     ///
     /// # Errors
     /// A row belongs to no node or to several, a node has no row or several, or a displacement is no number.
-    pub fn on_mesh(&self, scene: &Scene, model: &Model) -> Result<(DVector<f64>, &'static str)> {
+    pub fn on_mesh(&self, scene: &Scene, model: &Model) -> Result<(DVector<f64>, String)> {
         self.check_units(&scene.units)?;
         let (nodes, how) = self.nodes(scene, model)?;
         let size =
@@ -141,14 +141,14 @@ impl Rows {
     }
 
     /// Returns the node of each row.
-    fn nodes(&self, scene: &Scene, model: &Model) -> Result<(Vec<NodeId>, &'static str)> {
+    fn nodes(&self, scene: &Scene, model: &Model) -> Result<(Vec<NodeId>, String)> {
         let near = NEAR * model.bounds().larger_side();
         let is_at = |row: &Row, node: NodeId| {
             let [nx, ny] = model.coordinates(node);
             row.at.is_none_or(|[x, y]| (x - nx).hypot(y - ny) <= near)
         };
-        let mut has_unused = false;
-        if self.rows.iter().all(|row| row.number.is_some()) {
+        let is_numbered = self.rows.iter().all(|row| row.number.is_some());
+        if is_numbered {
             let numbered = self.by_its_numbers(scene, model, is_at);
             match (self.kind, &numbered) {
                 (Kind::Line, _) | (Kind::Point, Ok(_)) => return numbered,
@@ -159,32 +159,23 @@ impl Rows {
             if self.rows.iter().any(is_first)
                 && let Ok(nodes) = self.by_number(model, Some, is_at)
             {
-                return Ok((nodes, "by number, counted from 0"));
+                return Ok((nodes, "by number, counted from 0".into()));
             }
-            has_unused = true;
         }
+        let how = |place: &str| match is_numbered {
+            false => place.to_string(),
+            true => format!("{place}; its node numbers are not the mesh's"),
+        };
         let used = || model.node_ids().filter(|node| !model.is_dropped(*node));
         // A dropped node has no place that matters.
         let is_here = |(row, node): (&Row, NodeId)| model.is_dropped(node) || is_at(row, node);
         for nodes in [model.node_ids().collect(), used().collect::<Vec<_>>()] {
             let mut pairs = self.rows.iter().zip(nodes.iter().copied());
             if self.rows.len() == nodes.len() && pairs.all(is_here) {
-                return Ok((
-                    nodes,
-                    match has_unused {
-                        false => "in the order of the mesh, at the same coordinates",
-                        true => {
-                            "in the order of the mesh, at the same coordinates; its node numbers are not the mesh's"
-                        }
-                    },
-                ));
+                return Ok((nodes, how("in the order of the mesh, at the same coordinates")));
             }
         }
-        let how = match has_unused {
-            false => "by coordinates",
-            true => "by coordinates; its node numbers are not the mesh's",
-        };
-        Ok((self.by_coordinates(model, near, is_at)?, how))
+        Ok((self.by_coordinates(model, near, is_at)?, how("by coordinates")))
     }
 
     /// Returns the node of each row by its number in the mesh file, or here, whichever fits.
@@ -193,16 +184,16 @@ impl Rows {
         scene: &Scene,
         model: &Model,
         is_at: impl Fn(&Row, NodeId) -> bool + Copy,
-    ) -> Result<(Vec<NodeId>, &'static str)> {
+    ) -> Result<(Vec<NodeId>, String)> {
         let in_file = scene.source().map_or(&[][..], |(_, mesh)| &mesh.in_file);
         let here = self.by_number(model, |n| n.checked_sub(1), is_at);
         if in_file.is_empty() {
-            return Ok((here?, "by number"));
+            return Ok((here?, "by number".into()));
         }
         let in_file = self.by_number(model, |n| in_file.binary_search(&n).ok(), is_at);
         match (in_file, here) {
-            (Ok(nodes), Err(_)) => Ok((nodes, "by the numbers of the mesh file")),
-            (Err(_), Ok(nodes)) => Ok((nodes, "by number, as they are numbered here")),
+            (Ok(nodes), Err(_)) => Ok((nodes, "by the numbers of the mesh file".into())),
+            (Err(_), Ok(nodes)) => Ok((nodes, "by number, as they are numbered here".into())),
             (Err(why), Err(_)) => Err(why),
             (Ok(_), Ok(_)) => {
                 let what = "the node numbers may be those of the mesh file, which have gaps, or those here";
