@@ -70,5 +70,5 @@ pub fn check_steps(steps: usize, nodes: usize, place: &str) -> Result<()> {
         return Ok(());
     }
     let what = format!("{steps} on {nodes} nodes are more than {most}");
-    Err(InputError::new(place, what, "ask for fewer"))
+    Err(InputError::new(place, what, "ask for fewer, or use a coarser mesh"))
 }

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{Pairing, Surfaces, arcs};
 use super::solution::Solution;
+use super::stretches::{Stretch, stretches};
 use problem::element::Plane;
 use problem::model::{Model, NodeId};
 use problem::modelling::Coupling;
@@ -23,6 +24,12 @@ const PARABOLA: f64 = 0.05;
 
 /// The half width over a radius, of both surfaces or relative, beyond which the theory does not apply.
 const SHALLOW: f64 = 0.3;
+
+/// The size of a normal's component along a restraint that is on a line of symmetry: facets of a curved surface slope.
+const ACROSS: f64 = 0.1;
+
+/// The part of the load that other stretches of contact may carry.
+const ALONE: f64 = 1e-3;
 
 /// The least number of nodes in the half width that show its curve.
 const FEWEST: usize = 3;
@@ -127,12 +134,15 @@ struct Pressed {
 impl Pressed {
     fn of(solution: &Solution) -> Option<Self> {
         let model = &*solution.model;
-        let pairings = Surfaces::new(model).ok()?.pairings(Coupling::Nts, &model.nodes);
+        let surfaces = Surfaces::new(model).ok()?;
+        let pairings = surfaces.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
-        let at_an_end = first.entry == gaps[0].entry || first.entry == gaps[gaps.len() - 1].entry;
         // Half of a scene that is symmetric about the first point of contact carries half the load.
-        let sides = if at_an_end { 2.0 } else { 1.0 };
+        let sides = match surfaces.ends()[0].contains(&model.contact.nodes[first.entry]) {
+            false => 1.0,
+            true => is_half(model, pairings[first.entry].as_ref()?).then_some(2.0)?,
+        };
         let load = sides * normal_load(solution)? / model.thickness;
         let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
         let (least, centre) = (first.gap, first.arc);
@@ -169,9 +179,23 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
     (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
 }
 
-/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press.
+/// Returns whether a restraint holds a contact node along the target's tangent, as on the line of symmetry of half a scene.
+fn is_half(model: &Model, pairing: &Pairing) -> bool {
+    let Pairing { node, normal: [nx, ny], .. } = pairing;
+    let [x, y] = model.restraints_of(*node);
+    x && nx.abs() <= ACROSS || y && ny.abs() <= ACROSS
+}
+
+/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press, or not in one
+/// unbroken stretch.
 fn normal_load(solution: &Solution) -> Option<f64> {
-    Some(solution.in_contact().filter_map(|c| c.force).sum::<f64>()).filter(|load| *load > 0.0)
+    let all: f64 = solution.in_contact().filter_map(|c| c.force).sum();
+    let of = |stretch: &Stretch| {
+        let own = solution.in_contact().filter(|c| stretch.nodes.contains(&c.node));
+        own.filter_map(|c| c.force).sum::<f64>()
+    };
+    let most = stretches(solution).iter().map(of).fold(0.0, f64::max);
+    (all > 0.0 && most > (1.0 - ALONE) * all).then_some(all)
 }
 
 /// Returns E* of the two materials at a contact node, stress.

@@ -24,6 +24,7 @@ mod solution;
 mod solve;
 mod sparse;
 mod stiffness;
+mod stretches;
 mod support;
 mod unilateral;
 
@@ -46,5 +47,6 @@ pub use solution::{
 pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
-pub use support::{Resultant, resultant, share_of_load};
+pub use stretches::{Resultant, Stretch, resultant, stretches};
+pub use support::share_of_load;
 pub use unilateral::{Implied, implied};

@@ -255,8 +255,8 @@ pub enum Uniqueness {
         /// A node that can move.
         node: NodeId,
     },
-    /// Whether there is another one is not known: it was found on springs in the current geometry, where
-    /// the problem is not convex.
+    /// Whether there is another one is not known: contact is measured in the current geometry, where the problem is not
+    /// convex.
     Unknown {
         /// A node that can move without work as long as the normals of contact stay as they are.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -446,7 +446,8 @@ pub struct Equilibrium {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
     /// The height of the arcs over the edges of curved surfaces in contact, and how far the gaps there differ before
-    /// any load, from each other and overlaps from none, length; None where the height is a small part of this.
+    /// any load, from each other and overlaps from none, length; with no node in contact, that of all that face the target,
+    /// and the smallest gap left. None where the height is a small part of this.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape

@@ -4,29 +4,44 @@
 use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
 
 use super::contact::ROUNDING_OF_A_FORCE;
 use super::elimination::{Constraint, Motion, sum};
-use super::solution::Solution;
 use numbers::scalar::Scalar;
-use problem::model::{Body, Dof, Hold, Model, NodeId, Restraint, Support};
+use problem::model::{Dof, Hold, Model, NodeId, Restraint, Support};
 
-/// Returns the body to which contact passes its force: the target, or the contact body where the
-/// load acts on the target alone; None without contact.
-fn receiver(model: &Model) -> Option<&Body> {
-    let target = model.target()?;
-    let contact = model.body_of(*model.contact.nodes.first()?)?;
-    let swapped = is_loaded(model, target) && !is_loaded(model, contact);
-    Some(if swapped { contact } else { target })
+/// Returns the bodies on either side of contact, by their indices: those of the contact surface and those of the target.
+/// A body that has both, as one in a stack, is on neither side where others are left. None without contact.
+pub(super) fn sides(model: &Model) -> Option<[Vec<usize>; 2]> {
+    let with = |nodes: &[NodeId]| -> Vec<usize> {
+        let has = |b: &usize| nodes.iter().any(|node| model.bodies[*b].has(*node));
+        (0..model.bodies.len()).filter(has).collect()
+    };
+    let contact = with(&model.contact.nodes);
+    let target = with(&model.target_edges().map(|edge| edge.nodes[0]).collect::<Vec<_>>());
+    let without = |side: &[usize], other: &[usize]| -> Vec<usize> {
+        let alone: Vec<usize> = side.iter().filter(|b| !other.contains(b)).copied().collect();
+        if alone.is_empty() { side.to_vec() } else { alone }
+    };
+    let sides = [without(&contact, &target), without(&target, &contact)];
+    (!contact.is_empty()).then_some(sides)
 }
 
-/// Returns whether a load acts on the body.
-fn is_loaded(model: &Model, body: &Body) -> bool {
-    dofs(body).any(|dof| model.load[dof.index()] != 0.0)
+/// Returns the bodies to which contact passes its force: those of the target, or those of the contact surface where the
+/// load acts on the target alone; none without contact.
+fn receivers(model: &Model) -> Vec<usize> {
+    let Some([contact, target]) = sides(model) else { return Vec::new() };
+    let swapped = is_loaded(model, &target) && !is_loaded(model, &contact);
+    if swapped { contact } else { target }
 }
 
-/// Returns the sum of the receiver's reactions and of its own load, force: what contact passes to it,
+/// Returns whether a load acts on some bodies, beyond rounding.
+fn is_loaded(model: &Model, bodies: &[usize]) -> bool {
+    let least = ROUNDING_OF_A_FORCE * model.load.amax();
+    dofs(model, bodies).any(|dof| model.load[dof.index()].abs() > least)
+}
+
+/// Returns the sum of the receivers' reactions and of their own load, force: what contact passes to them,
 /// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom; `restraints` are those
 /// of the run.
 pub fn support<T: Scalar>(
@@ -37,12 +52,13 @@ pub fn support<T: Scalar>(
     load: &DVector<T>,
 ) -> [T; 2] {
     let mut total = support_force(model, restraints, force, load);
-    let Some(receiver) = receiver(model) else { return total };
+    let receivers = receivers(model);
     for constraint in constraints {
         let passed = constraint_force(constraint, restraints, force);
         for direction in [0, 1] {
             let to_restrained = constraint.masters.iter().filter(|(master, _)| {
-                receiver.has(*master) && !restraints[master.dofs()[direction].index()].is_free()
+                receivers.iter().any(|b| model.bodies[*b].has(*master))
+                    && !restraints[master.dofs()[direction].index()].is_free()
             });
             total[direction] += sum(to_restrained.map(|(_, w)| *w)) * passed[direction];
         }
@@ -98,65 +114,23 @@ pub fn reactions_of_supports(model: &Model, reactions: &DVector<f64>) -> Vec<[f6
     model.supports.iter().map(sum).collect()
 }
 
-/// What contact passes from the contact body to the target's.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Resultant {
-    /// The force on the target's body along x and y, force.
-    pub force: [f64; 2],
-    /// The point of its line of action next to where contact presses on average, in the undeformed shape, length;
-    /// None where it vanishes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub through: Option<[f64; 2]>,
-}
-
-/// Returns what contact passes on: what restraints and loads leave of the contact body. None without contact,
-/// where both surfaces are one body's, and where nothing is passed on.
-pub fn resultant(solution: &Solution) -> Option<Resultant> {
-    let (model, reactions) = (&*solution.model, &solution.reactions);
-    let body = model.body_of(*model.contact.nodes.first()?)?;
-    if model.target()? == body || solution.transmits_nothing() {
-        return None;
-    }
-    let pressed = || solution.in_contact().filter_map(|at| Some((at.node, at.force?.max(0.0))));
-    let all: f64 = pressed().map(|(_, force)| force).sum();
-    let middle = [0, 1].map(|d| {
-        pressed().map(|(node, force)| force * model.coordinates(node)[d]).sum::<f64>() / all
-    });
-    let (mut force, mut moment, mut sizes) = ([0.0; 2], 0.0, 0.0);
-    for node in &body.nodes {
-        let ([rx, ry], [px, py]) = (node.components(reactions), node.components(&model.load));
-        let ([fx, fy], [x, y]) = ([rx + px, ry + py], model.coordinates(*node));
-        force = [force[0] + fx, force[1] + fy];
-        moment += (x - middle[0]) * fy - (y - middle[1]) * fx;
-        sizes += rx.hypot(ry) + px.hypot(py);
-    }
-    let [fx, fy] = force;
-    let size = fx.hypot(fy);
-    let through = (size > ROUNDING_OF_A_FORCE * sizes && all > 0.0).then(|| {
-        let arm = moment / (size * size);
-        [middle[0] - arm * -fy, middle[1] - arm * fx]
-    });
-    Some(Resultant { force, through })
-}
-
 /// Returns which part of the load a force along it, as `transmitted_force` has it, is. None where that says nothing:
-/// no load acts, or not on one of the two bodies alone, the loads cancel each other, or a lever makes the force larger
+/// no load acts, or not on one side of contact alone, the loads cancel each other, or a lever makes the force larger
 /// than the load, or turns it round.
 pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
     /// How far a share may be beyond 0 and 1: what is left of loads that cancel, and solving, round.
     const ROUNDING: f64 = 1e-6;
-    let contact = model.body_of(*model.contact.nodes.first()?)?;
-    let loaded = model.bodies.iter().filter(|body| is_loaded(model, body));
-    let loaded: Vec<&Body> = loaded.collect();
-    let [body] = &loaded[..] else { return None };
-    let is = |other: &Body| std::ptr::eq(*body, other);
-    let target = model.target().filter(|target| !std::ptr::eq(*target, contact))?;
+    let sides = sides(model).filter(|[contact, target]| contact != target)?;
+    let loaded = (0..model.bodies.len()).filter(|b| is_loaded(model, &[*b]));
+    let loaded: Vec<usize> = loaded.collect();
+    let is_one_side = sides.iter().any(|side| loaded.iter().all(|b| side.contains(b)));
     let [fx, fy] = model.total_load();
     let size = fx.hypot(fy);
     let sizes = model.node_ids().map(|node| node.components(&model.load));
     let all: f64 = sizes.map(|[x, y]| x.hypot(y)).sum();
     let share = force / size;
-    let says = (is(contact) || is(target))
+    let says = !loaded.is_empty()
+        && is_one_side
         && size > ROUNDING * all
         && (share - 0.5).abs() <= 0.5 + ROUNDING;
     says.then_some(share)
@@ -179,7 +153,7 @@ fn constraint_force<T: Scalar>(
     }
 }
 
-/// Returns the sum of `force` over the restraints of the receiver, and of `load` over all of it, force.
+/// Returns the sum of `force` over the restraints of the receivers, and of `load` over all of them, force.
 pub(super) fn support_force<T: Scalar>(
     model: &Model,
     restraints: &[Restraint],
@@ -187,8 +161,8 @@ pub(super) fn support_force<T: Scalar>(
     load: &DVector<T>,
 ) -> [T; 2] {
     let mut total = [T::zero(), T::zero()];
-    let Some(receiver) = receiver(model) else { return total };
-    for dof in dofs(receiver) {
+    let receivers = receivers(model);
+    for dof in dofs(model, &receivers) {
         if !restraints[dof.index()].is_free() {
             total[dof.direction()] += force[dof.index()];
         }
@@ -196,7 +170,9 @@ pub(super) fn support_force<T: Scalar>(
             total[dof.direction()] += load[dof.index()];
         }
     }
-    for dof in oblique(model, restraints).filter(|dof| receiver.has(dof.node())) {
+    for dof in oblique(model, restraints)
+        .filter(|dof| receivers.iter().any(|b| model.bodies[*b].has(dof.node())))
+    {
         total[dof.direction()] += force[dof.index()];
     }
     total
@@ -209,26 +185,26 @@ fn oblique<'a>(model: &'a Model, restraints: &'a [Restraint]) -> impl Iterator<I
     nodes.into_iter().flat_map(NodeId::dofs).filter(|dof| restraints[dof.index()].is_free())
 }
 
-/// Returns whether each degree of freedom is one of the receiver that the run restrains.
+/// Returns whether each degree of freedom is one of the receivers that the run restrains.
 pub(super) fn supports(model: &Model, restraints: &[Restraint]) -> Vec<bool> {
     let mut supports = vec![false; model.dofs()];
-    let of_receiver = receiver(model).into_iter().flat_map(dofs);
-    of_receiver.for_each(|dof| supports[dof.index()] = !restraints[dof.index()].is_free());
+    dofs(model, &receivers(model))
+        .for_each(|dof| supports[dof.index()] = !restraints[dof.index()].is_free());
     oblique(model, restraints).for_each(|dof| supports[dof.index()] = true);
     supports
 }
 
-fn dofs(body: &Body) -> impl Iterator<Item = Dof> {
-    body.nodes.iter().flat_map(|node| node.dofs())
+fn dofs<'a>(model: &'a Model, bodies: &'a [usize]) -> impl Iterator<Item = Dof> + 'a {
+    bodies.iter().flat_map(|b| &model.bodies[*b].nodes).flat_map(|node| node.dofs())
 }
 
-/// Returns the force that contact passes on, force, where `held` holds the receiver: along the load
-/// where the load acts on one of the two bodies alone, else its size.
+/// Returns the force that contact passes on, force, where `held` holds the receivers: along the load
+/// where the load acts on one side of contact alone, else its size.
 pub fn transmitted_force(model: &Model, held: [f64; 2]) -> f64 {
     let [rx, ry] = held;
     let [fx, fy] = model.total_load();
     let size = fx.hypot(fy);
-    if size == 0.0 || receiver(model).is_some_and(|body| is_loaded(model, body)) {
+    if size == 0.0 || is_loaded(model, &receivers(model)) {
         return rx.hypot(ry);
     }
     // 0 − x rather than −x: without any reaction the result is 0, not −0.

@@ -3,6 +3,7 @@
 use super::json;
 use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, six_digits};
+use super::tables::equilibrium;
 use engine::plan::{ContactPlan, MARGIN, Plan, Storage};
 use problem::scene::Scene;
 
@@ -106,6 +107,7 @@ pub fn report(plan: &Plan, scene: &Scene) -> Report {
     Report::default()
         .line(line(plan))
         .notes(scene.adapted().to_vec())
+        .notes(equilibrium::initial_gaps(&scene.model, units))
         .table("What is built", Table::new(["", "", "why"], built))
         .table("Bodies", bodies)
         .notes(locking)

@@ -12,7 +12,8 @@ use engine::linear::Arithmetic;
 use engine::plan::Plan;
 use engine::{
     Assessment, BodySummary, Distance, Equilibrium, Hertz, IterationRow, NodeFields, Overlap,
-    Resultant, Solution, SupportForce, TriangleValues,
+    Resultant, Solution, Stretch, SupportForce, TriangleValues,
+    contact::{InitialGaps, Surfaces},
 };
 use numbers::finite;
 use numbers::scalar::rational;
@@ -103,9 +104,15 @@ pub struct ResultFile {
     /// What each restraint carries, in the order of the scene file.
     #[serde(default)]
     pub reactions: Vec<SupportForce>,
-    /// What contact passes on; absent without contact between two bodies.
+    /// What is unusual about the gaps before any load; absent where the surfaces touch or nearly do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_gaps: Option<InitialGaps>,
+    /// What contact passes to the target; absent without contact between two bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resultant: Option<Resultant>,
+    /// The unbroken stretches of contact, in order along the contact surface.
+    #[serde(default)]
+    pub stretches: Vec<Stretch>,
     /// The contact nodes that face the target at the end, in order along the contact surface.
     pub contact: Vec<ContactNode>,
     /// Hertz's contact, where his theory applies.
@@ -215,7 +222,11 @@ impl ResultFile {
             iterations: IterationRow::all(solution),
             bodies: assessment.bodies.clone(),
             reactions: SupportForce::all(solution),
+            initial_gaps: Surfaces::new(&solution.model)
+                .ok()
+                .and_then(|found| found.initial_gaps(&solution.model)),
             resultant: engine::resultant(solution),
+            stretches: engine::stretches(solution),
             contact: solution.contact.clone(),
             hertz: assessment.hertz,
             error_estimates: assessment.estimates.as_ref().map(|found| found.errors.clone()),

@@ -10,6 +10,7 @@
 //! A gap is < 0 inside the target. The listing's `yt`, and what [`status`] gives in its place, is of the
 //! opposite sign: > 0 where the target's line is above the node.
 
+mod initial;
 mod mortar;
 mod nts;
 mod order;
@@ -21,12 +22,14 @@ pub mod search;
 pub mod status;
 mod surface;
 pub use crate::quantities::ContactNode;
+pub use initial::InitialGaps;
 pub use mortar::Mortar;
 pub use order::{along, hidden, oddity, turned};
 pub use overlap::{InsideNode, Watched};
 pub use pairing::{Pairing, STEEP, Sense, Status};
 pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
+pub(super) use pressure::rounding;
 pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
 pub use surface::{BEND, Surfaces};
 

@@ -15,6 +15,16 @@
 //! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
 //! in part).
 //!
+//! What a contact edge sees behind a jump of the target, as the bottom of a slot, it does not cover: a dual function is
+//! negative at the far end of its edge, so that the average of a gap that jumps is an overlap where nothing overlaps.
+//!
+//! ```text
+//!  contact edge     o---------------o
+//!  target edges  *-----*         *-----*    both are covered: they go on from each other
+//!                      |         |
+//!                      *---------*          not covered: it lies behind the end of the first
+//! ```
+//!
 //! The integrals are computed in any scalar. A target edge that covers less than [`ROUNDING`] of a
 //! contact edge does not count, so that no sliver hangs on rounding; what may hang on it is whether two
 //! edges face each other, which of two overlapping target edges is nearer, and whether a node is covered
@@ -28,7 +38,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Pairing, unit};
 use super::search::dot;
-use super::surface::{Edge, FACING, PlacedEdge, Surfaces};
+use super::surface::{Edge, FACING, PlacedEdge, Surface, Surfaces};
 use numbers::scalar::{Scalar, Unsure, compared};
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
@@ -39,6 +49,17 @@ const ROUNDING: f64 = 1e-12;
 
 /// The share of what its edges could cover below which a contact node does not face the target.
 const COVERED: f64 = 0.05;
+
+/// The cosine of the angle between a contact edge and a target edge beyond which the latter is a wall that joins no
+/// others: 60 degrees.
+const WALL: f64 = 0.5;
+
+/// How far one target edge may lie behind the line of another, over the distance between them: a target that bends
+/// there.
+const BEHIND: f64 = 0.5;
+
+/// How far one target edge may lie behind another that it touches, over the contact edge's length: rounding.
+const JUMP: f64 = 1e-9;
 
 /// What mortar finds in a shape.
 pub struct Mortar<T> {
@@ -62,18 +83,27 @@ impl Surfaces {
         let search =
             Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
         let mut unsure = Vec::new();
-        for edge in &self.contact.edges {
-            let (covered, left) = compared(|| search.cover(&edge.in_shape(shape)));
+        let cover = |edge: &Edge| {
+            let placed = edge.in_shape(shape);
+            let (stretches, left) = compared(|| search.cover(&placed));
             unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
-            let Some(integrals) = Integrals::over(&covered) else { continue };
+            Covered { stretches, length: placed.length }
+        };
+        let covered: Vec<Covered<T>> = self.contact.edges.iter().map(cover).collect();
+        for (i, edge) in self.contact.edges.iter().enumerate() {
+            let Some(integrals) = Integrals::over(&covered[i].stretches) else { continue };
             for (k, node) in edge.nodes.into_iter().enumerate() {
+                let mut others = self.contact.at[&node].iter().filter(|other| **other != i);
+                if others.any(|other| search.is_cut_off([&covered[i], &covered[*other]], k)) {
+                    continue;
+                }
                 let gathered = gathered.entry(node).or_insert_with(|| NodeIntegrals {
                     masters: BTreeMap::new(),
                     length: T::zero(),
                     normal: [T::zero(); 2],
                     edges: BTreeMap::new(),
                 });
-                gathered.add(k, &integrals, &covered, &search);
+                gathered.add(k, &integrals, &covered[i].stretches, &search);
             }
         }
         let pairing = |(node, tributary): (&NodeId, T)| {
@@ -81,7 +111,7 @@ impl Surfaces {
             let gathered = gathered.remove(node)?;
             let (is_covered, left) = compared(|| gathered.length >= least);
             unsure.extend(left.into_iter().map(|one| (*node, one)));
-            is_covered.then(|| gathered.pairing(*node, shape))
+            is_covered.then(|| gathered.pairing(*node, shape, &self.contact))
         };
         let tributary = self.tributary(shape);
         let pairings = self.nodes.iter().zip(tributary).map(pairing).collect();
@@ -99,6 +129,29 @@ struct Stretch<T> {
     to: T,
     /// The projections of the target edge's two nodes, over the contact edge's length.
     ends: [T; 2],
+    /// The length of the contact edge, length.
+    length: T,
+}
+
+/// A place on a target edge.
+#[derive(Clone, Copy)]
+struct Foot<T> {
+    edge: usize,
+    /// Its position: 0 at the edge's first node, 1 at its second.
+    eta: T,
+}
+
+impl<T: Scalar> Stretch<T> {
+    /// Returns the place on the target edge under the stretch's beginning, 0, or its end, 1.
+    fn foot(&self, end: usize) -> Foot<T> {
+        let xi = [self.from, self.to][end];
+        Foot { edge: self.edge, eta: (xi - self.ends[0]) / (self.ends[1] - self.ends[0]) }
+    }
+}
+
+/// What a contact edge covers.
+struct Covered<T> {
+    stretches: Vec<Stretch<T>>,
     /// The length of the contact edge, length.
     length: T,
 }
@@ -135,8 +188,7 @@ impl<T: Scalar> Search<'_, T> {
             if dot(placed.normal, contact.normal) > T::from_f64(-FACING) {
                 continue;
             }
-            let end = [0, 1].map(|d| placed.start[d] + placed.length * placed.tangent[d]);
-            let ends = [contact.along(placed.start), contact.along(end)];
+            let ends = [T::zero(), one].map(|eta| contact.along(placed.at(eta)));
             let from = Scalar::max(Scalar::min(ends[0], ends[1]), T::zero());
             let to = Scalar::min(Scalar::max(ends[0], ends[1]), one);
             if to - from > T::from_f64(ROUNDING) {
@@ -152,7 +204,73 @@ impl<T: Scalar> Search<'_, T> {
                 covered.push(Stretch { from, to, ..stretch });
             }
         }
-        covered
+        self.before_jumps(contact, covered)
+    }
+
+    /// Returns, of the stretches of a contact edge, the nearest of which is the first, those that no jump of the target
+    /// parts from that one. A wall joins no others, and lies behind one where either of its ends does.
+    fn before_jumps(&self, contact: &PlacedEdge<T>, covered: Vec<Stretch<T>>) -> Vec<Stretch<T>> {
+        let Some(&nearest) = covered.first() else { return covered };
+        let is_before = |stretch: &Stretch<T>| in_order(stretch.from, nearest.from).is_lt();
+        let (mut before, mut after): (Vec<_>, Vec<_>) =
+            covered[1..].iter().copied().partition(is_before);
+        before.sort_by(|a, b| in_order(b.from, a.from));
+        after.sort_by(|a, b| in_order(a.from, b.from));
+        let away =
+            |stretch: &Stretch<T>| -dot(self.target[stretch.edge].normal, contact.normal).to_f64();
+        let mut kept = vec![nearest];
+        for (side, [start, end]) in [(before, [1, 0]), (after, [0, 1])] {
+            let mut last = nearest;
+            for next in side {
+                let is_wall = away(&next) < WALL && away(&last) >= WALL;
+                let goes_on = self.goes_on(last.edge, next.edge) && !is_wall;
+                let measured = if is_wall { vec![start, end] } else { vec![start] };
+                let is_behind =
+                    |at: usize| self.is_behind(contact.length, last.foot(end), next.foot(at));
+                if goes_on || !measured.into_iter().any(is_behind) {
+                    kept.push(next);
+                    last = next;
+                }
+            }
+        }
+        kept
+    }
+
+    /// Returns whether node `node`, 0 or 1, of a contact edge does not count for what the edge covers, as that lies behind
+    /// what the other contact edge at the node covers.
+    fn is_cut_off(&self, [own, other]: [&Covered<T>; 2], node: usize) -> bool {
+        let last = |stretches: &[Stretch<T>], end: usize| {
+            let nearer = |a: &&Stretch<T>, b: &&Stretch<T>| match end {
+                0 => in_order(b.from, a.from),
+                _ => in_order(a.to, b.to),
+            };
+            stretches.iter().max_by(nearer).map(|stretch| stretch.foot(end))
+        };
+        let feet = last(&other.stretches, 1 - node).zip(last(&own.stretches, node));
+        feet.is_some_and(|(last, next)| {
+            !self.goes_on(last.edge, next.edge) && self.is_behind(own.length, last, next)
+        })
+    }
+
+    /// Returns whether a target edge is another one or shares a node with it.
+    fn goes_on(&self, edge: usize, other: usize) -> bool {
+        let edges = &self.surfaces.target.edges;
+        edges[edge].nodes.iter().any(|n| edges[other].nodes.contains(n))
+    }
+
+    /// Returns whether a place on the target lies behind a jump of it: behind the line of the edge that was covered `last`,
+    /// farther than the target bends between them. So in this shape and in the undeformed one, in which bodies side by
+    /// side may be flush. `length` is that of the contact edge.
+    fn is_behind(&self, length: T, last: Foot<T>, next: Foot<T>) -> bool {
+        let depth = |[line, other]: [PlacedEdge<T>; 2]| {
+            let (from, to) = (line.at(last.eta), other.at(next.eta));
+            let apart = Scalar::abs(dot([to[0] - from[0], to[1] - from[1]], line.tangent));
+            -line.outside(to).to_f64() - BEHIND * apart.to_f64()
+        };
+        let ends = [last.edge, next.edge];
+        let undeformed = ends.map(|k| self.surfaces.target.undeformed[k].map(T::from_f64));
+        let least = depth(ends.map(|k| self.target[k])).min(depth(undeformed));
+        least > JUMP * length.to_f64()
     }
 
     /// Compares the distances of target edges that may face the same stretch, for `compared` to see;
@@ -182,8 +300,7 @@ fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
 /// Returns the distance from the contact edge's point `xi` to the target edge's line along the
 /// contact edge's normal, length.
 fn distance<T: Scalar>(contact: &PlacedEdge<T>, target: &PlacedEdge<T>, xi: T) -> T {
-    let p = [0, 1].map(|d| contact.start[d] + xi * contact.length * contact.tangent[d]);
-    Scalar::abs(target.outside(p) / dot(target.normal, contact.normal))
+    Scalar::abs(target.outside(contact.at(xi)) / dot(target.normal, contact.normal))
 }
 
 /// Returns the parts of `from` .. `to` outside the stretches that are already covered.
@@ -284,8 +401,8 @@ impl<T: Scalar> NodeIntegrals<T> {
         }
     }
 
-    fn pairing(self, node: NodeId, shape: &[[T; 2]]) -> Pairing<T> {
-        let normal = unit(self.normal);
+    fn pairing(self, node: NodeId, shape: &[[T; 2]], contact: &Surface) -> Pairing<T> {
+        let normal = contact.mirrored(node, unit(self.normal));
         let masters: Vec<(NodeId, T)> =
             self.masters.into_iter().map(|(master, m)| (master, m / self.length)).collect();
         let most = self.edges.iter().reduce(|a, b| if b.1 > a.1 { b } else { a });

@@ -33,11 +33,9 @@
 
 use std::cell::{Cell, RefCell};
 
-use rustc_hash::FxHashMap;
-
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{BEND, Edge, FACING, PlacedEdge, Surface};
+use super::surface::{BEND, FACING, PlacedEdge, Surface};
 use problem::model::NodeId;
 use problem::tree::{Bounds, Tree};
 
@@ -92,12 +90,12 @@ enum Part {
 impl<'a> Outline<'a> {
     /// Places the edges of a surface in `shape`.
     pub(super) fn new(surface: &'a Surface, shape: &[Vector]) -> Self {
-        let Surface { edges, once, at, .. } = surface;
+        let Surface { edges, once, .. } = surface;
         let placed: Vec<PlacedEdge> = edges.iter().map(|edge| edge.in_shape(shape)).collect();
         let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.iter().map(ends));
         let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
-        let normals = normals(edges, &placed, at);
+        let normals = normals(surface, &placed);
         Outline { surface, placed, normals, tree, tie }
     }
 
@@ -165,7 +163,7 @@ impl FacingNode<'_> {
     }
 
     fn faces_edge(&self, k: usize) -> bool {
-        self.faces(self.outline.surface.normals[k])
+        self.faces(self.outline.surface.undeformed[k].normal)
     }
 
     /// Returns the part of edge `k` or of its ends that is nearest to the node, and its distance.
@@ -328,16 +326,14 @@ impl FacingNode<'_> {
 }
 
 /// Returns the normals at the nodes of each edge: the mean over edges that meet in a bend.
-fn normals(
-    edges: &[Edge],
-    placed: &[PlacedEdge],
-    at: &FxHashMap<NodeId, Vec<usize>>,
-) -> Vec<[Vector; 2]> {
+fn normals(surface: &Surface, placed: &[PlacedEdge]) -> Vec<[Vector; 2]> {
     let mean = |k: usize, node: NodeId| {
         let own = placed[k].normal;
-        let normals = at[&node].iter().map(|&other| placed[other].normal);
+        let normals = surface.at[&node].iter().map(|&other| placed[other].normal);
         let bend = normals.filter(|normal| dot(*normal, own) > BEND);
-        unit(bend.fold([0.0; 2], |sum, normal| [sum[0] + normal[0], sum[1] + normal[1]]))
+        let mean =
+            unit(bend.fold([0.0; 2], |sum, normal| [sum[0] + normal[0], sum[1] + normal[1]]));
+        surface.mirrored(node, mean)
     };
-    edges.iter().enumerate().map(|(k, edge)| edge.nodes.map(|node| mean(k, node))).collect()
+    surface.edges.iter().enumerate().map(|(k, edge)| edge.nodes.map(|node| mean(k, node))).collect()
 }

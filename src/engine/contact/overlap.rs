@@ -43,7 +43,7 @@ pub enum Watched {
 }
 
 /// The triangles of a body in a shape near the nodes that may lie in it.
-struct PlacedTriangles {
+pub(super) struct PlacedTriangles {
     triangles: Vec<([NodeId; 3], [Vector; 3])>,
     tree: Tree,
 }
@@ -127,7 +127,7 @@ impl Surface {
 
 impl PlacedTriangles {
     /// Places the triangles of a body that may contain one of `nodes`.
-    fn new(model: &Model, body: &Body, nodes: &[NodeId], shape: &[Vector]) -> Self {
+    pub(super) fn new(model: &Model, body: &Body, nodes: &[NodeId], shape: &[Vector]) -> Self {
         let near = Bounds::around(nodes.iter().map(|node| &shape[node.index()]));
         let own = body.triangles.iter().map(|id| model.triangle(*id).nodes);
         let placed = own.map(|nodes| (nodes, nodes.map(|node| shape[node.index()])));
@@ -139,7 +139,7 @@ impl PlacedTriangles {
     }
 
     /// Returns whether a node lies in a triangle of which it is no corner, or on a side of it.
-    fn contain(&self, node: NodeId, shape: &[Vector]) -> bool {
+    pub(super) fn contain(&self, node: NodeId, shape: &[Vector]) -> bool {
         let p = shape[node.index()];
         let mut is_inside = false;
         self.tree.visit(&|b: Bounds| b.contains(p).then_some(0.0), &mut |k| {

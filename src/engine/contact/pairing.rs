@@ -50,6 +50,14 @@ impl Pairing {
     pub fn gap_after(&self, model: &Model, u: &DVector<f64>) -> f64 {
         self.opening(|node| model.coordinates(node)) + self.opening(|node| node.components(u))
     }
+
+    /// Returns the pairing of a node in a concave corner with one of its two edges alone: that whose normal is turned from
+    /// the mean normal to the left (1) or to the right (-1).
+    pub(crate) fn on_edge(&self, side: f64) -> Self {
+        let ([nx, ny], turn) = (self.normal, side * self.corner);
+        let normal = unit([nx - turn * ny, ny + turn * nx]);
+        Pairing { normal, corner: 0.0, ..self.clone() }
+    }
 }
 
 impl<T: Scalar> Pairing<T> {

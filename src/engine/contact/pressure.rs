@@ -6,7 +6,8 @@ use nalgebra::DVector;
 use super::pairing::{Pairing, Status};
 use super::surface::Surfaces;
 use crate::quantities::ContactNode;
-use problem::model::{Model, NodeId};
+use problem::element::Plane;
+use problem::model::{Material, Model, NodeId};
 
 /// How far the size of a normal's component may be from 1 where a restraint is across the normal.
 const ACROSS: f64 = 1e-9;
@@ -21,6 +22,25 @@ pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
     surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
 }
 
+/// Returns for each node the force up to which what the stresses about it leave of its equation is rounding, as after
+/// a motion that strains nothing: some digits' end of |K| |u|.
+pub fn rounding(model: &Model, u: &DVector<f64>) -> Vec<f64> {
+    /// How often the end of a digit is lost in the six products of a triangle's equation and its coordinates.
+    const LOST: f64 = 32.0 * f64::EPSILON;
+    let mut sizes = vec![0.0; model.nodes.len()];
+    for triangle in &model.triangles {
+        let moved = triangle.nodes.iter().flat_map(|node| node.components(u));
+        let Material { e, nu } = triangle.material;
+        let stiffness = match model.plane {
+            Plane::Strain => e / (1.0 - 2.0 * nu),
+            Plane::Stress => e / (1.0 - nu),
+        };
+        let size = LOST * model.thickness * stiffness * moved.fold(0.0, |m: f64, u| m.max(u.abs()));
+        triangle.nodes.iter().for_each(|node| sizes[node.index()] += size);
+    }
+    sizes
+}
+
 /// Returns the largest |force| of those that are determined.
 fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
     forces.flatten().fold(0.0, |largest, force| largest.max(force.abs()))
@@ -30,6 +50,8 @@ fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
 pub struct Traction<'a> {
     /// The finite element model of the run.
     pub model: &'a Model,
+    /// The displacements at its end, length.
+    pub u: &'a DVector<f64>,
     /// The contact and target surfaces of the model.
     pub surfaces: &'a Surfaces,
     /// The shape in which contact is measured: the coordinates of each node, length.
@@ -53,11 +75,15 @@ impl Traction<'_> {
             [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
         let arcs = arcs(self.model);
         let least = ROUNDING_OF_A_FORCE * largest(self.forces.iter().map(|force| force[0]));
+        let rounding = rounding(self.model, self.u);
         let node = |i: usize| {
             let pairing = self.pairings[i].as_ref()?;
             let stretch = lengths[1][i] / lengths[0][i];
             let length = over(pairing.length, stretch).unwrap_or(0.0);
-            let [normal, tangent] = self.forces[i];
+            let least = least.max(rounding[pairing.node.index()]);
+            let beyond =
+                |force: f64| if force.abs() > rounding[pairing.node.index()] { force } else { 0.0 };
+            let [normal, tangent] = self.forces[i].map(|force| force.map(beyond));
             Some(ContactNode::compute(&ContactPlace {
                 pairing,
                 arc: arcs[i],

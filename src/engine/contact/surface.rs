@@ -33,11 +33,13 @@ pub(super) struct Surface {
     pub(super) once: Vec<usize>,
     /// Those at each node.
     pub(super) at: FxHashMap<NodeId, Vec<usize>>,
-    /// The unit normals of the edges out of the body in the undeformed shape. An intermediate shape of the
-    /// iterations may be folded, so that its normals do not decide which surfaces face each other.
-    pub(super) normals: Vec<Vector>,
+    /// The edges in the undeformed shape. An intermediate shape of the iterations may be folded, so that its normals
+    /// do not decide which surfaces face each other.
+    pub(super) undeformed: Vec<PlacedEdge>,
     /// The unit mean normal at each node over its edges, weighted by length.
     pub(super) node_normals: FxHashMap<NodeId, Vector>,
+    /// The direction across the line of symmetry on which the surface ends, as that of half a scene, by the node there.
+    across: FxHashMap<NodeId, Vector>,
 }
 
 /// An edge of a body's surface.
@@ -59,17 +61,29 @@ impl Surface {
             edges[k].nodes.iter().for_each(|n| at.entry(*n).or_default().push(k));
         }
         let mut sums: FxHashMap<NodeId, Vector> = FxHashMap::default();
-        let mut normals = Vec::new();
-        for edge in &edges {
-            let PlacedEdge { normal, length, .. } = edge.in_shape(&model.nodes);
-            normals.push(normal);
+        let undeformed: Vec<_> = edges.iter().map(|edge| edge.in_shape(&model.nodes)).collect();
+        for (edge, PlacedEdge { normal, length, .. }) in edges.iter().zip(&undeformed) {
             for n in edge.nodes {
                 let sum = sums.entry(n).or_default();
                 (0..2).for_each(|d| sum[d] += length * normal[d]);
             }
         }
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
-        Surface { edges, once, at, normals, node_normals: means.collect() }
+        let node_normals = means.collect();
+        let across = across(model, &at);
+        Surface { edges, once, at, undeformed, node_normals, across }
+    }
+
+    /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that
+    /// line; elsewhere, and where the two images meet in a corner, as it is.
+    pub(super) fn mirrored<T: Scalar>(&self, node: NodeId, normal: [T; 2]) -> [T; 2] {
+        let Some(across) = self.across.get(&node).map(|across| across.map(T::from_f64)) else {
+            return normal;
+        };
+        let part = dot(normal, across);
+        let is_bend = 1.0 - 2.0 * part.to_f64() * part.to_f64() > BEND;
+        let along = [0, 1].map(|d| normal[d] - part * across[d]);
+        if is_bend { unit(along) } else { normal }
     }
 
     /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the surface ends.
@@ -102,7 +116,30 @@ impl Surface {
     }
 }
 
+/// Returns the direction along which a node at the end of a surface is held, where the outline goes on from it along a line
+/// across that direction that is held so too.
+fn across(model: &Model, at: &FxHashMap<NodeId, Vec<usize>>) -> FxHashMap<NodeId, Vector> {
+    let held = |node: NodeId| model.restraints_of(node);
+    let axis = |[a, b]: [NodeId; 2]| match [0, 1].map(|d| held(a)[d] && held(b)[d]) {
+        [true, false] => Some([1.0, 0.0]),
+        [false, true] => Some([0.0, 1.0]),
+        [true, true] | [false, false] => None,
+    };
+    let is_end = |node: &NodeId| at.get(node).is_some_and(|edges| edges.len() == 1);
+    let mut found = FxHashMap::default();
+    for side in model.sides.outline().map(|side| side.nodes) {
+        let Some(across) = axis(side) else { continue };
+        let [from, to] = side.map(|node| model.coordinates(node));
+        let is_line = dot(minus(to, from), across) == 0.0;
+        found.extend(
+            side.into_iter().filter(|node| is_line && is_end(node)).map(|node| (node, across)),
+        );
+    }
+    found
+}
+
 /// An edge in a given shape.
+#[derive(Clone, Copy)]
 pub(super) struct PlacedEdge<T = f64> {
     /// The coordinates of its first node, length.
     pub(super) start: [T; 2],
@@ -125,10 +162,24 @@ impl Edge {
     }
 }
 
+impl PlacedEdge {
+    /// Returns the same edge in other numbers.
+    pub(super) fn map<T>(&self, to: impl Fn(f64) -> T) -> PlacedEdge<T> {
+        let PlacedEdge { start, tangent, normal, length } = *self;
+        let [start, tangent, normal] = [start, tangent, normal].map(|v| v.map(&to));
+        PlacedEdge { start, tangent, normal, length: to(length) }
+    }
+}
+
 impl<T: Scalar> PlacedEdge<T> {
     /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
     pub(super) fn along(&self, p: [T; 2]) -> T {
         dot(minus(p, self.start), self.tangent) / self.length
+    }
+
+    /// Returns the point at `xi` of it: 0 at its first node, 1 at its second, length.
+    pub(super) fn at(&self, xi: T) -> [T; 2] {
+        [0, 1].map(|d| self.start[d] + xi * self.length * self.tangent[d])
     }
 
     /// Returns the distance of `p` from the edge's line, length; > 0 outside the body.

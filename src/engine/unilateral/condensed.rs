@@ -46,6 +46,8 @@ pub(super) struct Condensed<'a> {
 /// The status of a node that was eliminated: what it leads to, by the gaps and slips of the later ones and 1.
 struct Eliminated {
     status: Status,
+    /// The tangential over the normal force up to which it sticks.
+    holding: f64,
     /// Its gap and its slip, or 0.
     apart: DMatrix<f64>,
     forces: DMatrix<f64>,
@@ -58,8 +60,7 @@ impl<'a> Condensed<'a> {
         let StateSearch { problem, config, setting } = search;
         let pairings = &config.pairings;
         let entries: Vec<usize> = (0..pairings.len()).filter(|i| pairings[*i].is_some()).collect();
-        let in_corner = pairings.iter().flatten().any(|p| p.corner > 0.0);
-        if entries.len() > MOST || in_corner {
+        if entries.len() > MOST {
             return None;
         }
         let held: Vec<Status> = (0..pairings.len())
@@ -109,10 +110,11 @@ impl<'a> Condensed<'a> {
     }
 
     /// Returns the contact state that complementary pivots end in, in equilibrium or not; None where they end
-    /// in none, and where no node slides.
+    /// in none, where no node slides, and where one rests in a corner.
     pub(super) fn by_pivots(&self) -> Option<Vec<Status>> {
         let mu = self.search.problem.friction;
-        if mu.is_infinite() {
+        let in_corner = self.search.config.pairings.iter().flatten().any(|p| p.corner > 0.0);
+        if mu.is_infinite() || in_corner {
             return None;
         }
         // Each node may open or slide to either side: p, μ p + q, μ p − q by p and q, and g, a, b by g and s.
@@ -198,7 +200,13 @@ impl<'a> Condensed<'a> {
             let forces = left.columns(size, later) + left.columns(held, free) * &moved;
             let mut apart = DMatrix::zeros(size, later);
             apart.rows_mut(held, free).copy_from(&moved);
-            done.push(Eliminated { status, apart, forces: forces.rows(0, size).into_owned() });
+            let holding = config.pairings[*i].as_ref().map_or(0.0, |p| problem.holding(p));
+            done.push(Eliminated {
+                status,
+                holding,
+                apart,
+                forces: forces.rows(0, size).into_owned(),
+            });
             self.eliminate(&forces.rows(size, left.nrows() - size).into_owned(), done, found);
             done.pop();
         }
@@ -206,11 +214,11 @@ impl<'a> Condensed<'a> {
 
     /// Returns whether the gaps, slips and forces of all nodes agree with their statuses, the last one first.
     fn is_equilibrium(&self, done: &[Eliminated]) -> bool {
-        let (size, mu) = (self.at_rest.len(), self.search.problem.friction);
+        let size = self.at_rest.len();
         let mut all = DVector::zeros(size + 1);
         all[size] = 1.0;
         let mut first = size;
-        done.iter().rev().all(|Eliminated { status, apart, forces }| {
+        done.iter().rev().all(|Eliminated { status, holding, apart, forces }| {
             let later = all.rows(first, size + 1 - first).into_owned();
             let (apart, forces) = (apart * &later, forces * later);
             first -= apart.len();
@@ -219,8 +227,8 @@ impl<'a> Condensed<'a> {
             let presses = forces[0] >= -ROUNDING;
             match status {
                 Status::Open => apart[0] >= -room,
-                Status::Stick if mu.is_infinite() => presses,
-                Status::Stick => presses && forces[1].abs() <= mu * forces[0] + ROUNDING,
+                Status::Stick if holding.is_infinite() => presses,
+                Status::Stick => presses && forces[1].abs() <= holding * forces[0] + ROUNDING,
                 Status::Slip(sense) if sense.sign() != 0.0 => {
                     presses && sense.sign() * apart[1] >= -room
                 }

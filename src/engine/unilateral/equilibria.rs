@@ -72,8 +72,10 @@ pub(super) fn uniqueness(
             (false, None) => (),
         }
     }
-    if problem.friction == 0.0 || !problem.model.has_contact() {
-        return Uniqueness::Unique;
+    if problem.friction == 0.0 {
+        // In the current geometry another shape may have an equilibrium too.
+        let is_convex = !(problem.is_current() && problem.model.has_contact());
+        return if is_convex { Uniqueness::Unique } else { Uniqueness::Unknown { node: None } };
     }
     let every = |steps: &[TakenStep]| -> Option<Vec<States>> {
         let of_step = |step: &TakenStep| {
@@ -191,6 +193,7 @@ impl Problem<'_> {
         let slips = [Status::Slip(Sense::Forward), Status::Slip(Sense::Backward)];
         match (&config.pairings[i], self.closing(config, i)) {
             (None, _) => vec![Status::Open],
+            (Some(pairing), closed) if pairing.corner > 0.0 => vec![Status::Open, closed],
             (_, Status::Stick) if self.friction.is_finite() => {
                 [&[Status::Open, Status::Stick][..], &slips].concat()
             }

@@ -61,6 +61,7 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
         gaps.iter().map(|gap| gap.is_some_and(|gap| gap <= closed)).collect();
     let traction = Traction {
         model,
+        u: &u,
         surfaces: &surfaces,
         measured_in,
         pairings: &pairings,

@@ -460,6 +460,7 @@ fn contact(problem: &Problem, config: &Configuration, last: &Iteration) -> Vec<C
         forces.map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
     let traction = Traction {
         model: problem.model,
+        u: &last.solution.u,
         surfaces: &problem.surfaces,
         measured_in: measured,
         pairings: &config.pairings,

@@ -52,6 +52,9 @@ const WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * 5e-6;
 /// that is in contact. Flat surfaces have no arcs; a press fit whose nodes lie on each other has no such error.
 const COARSE: f64 = 0.05;
 
+/// The height of an arc over its edge, over the smallest gap, beyond which arcs on both sides may close it.
+const BOTH: f64 = 0.5;
+
 /// The scene, its stiffness, and its surfaces.
 pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
@@ -201,7 +204,10 @@ impl<'a> Problem<'a> {
             surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
-            friction: request.contact.friction.coefficient(),
+            friction: match model.has_contact() {
+                true => request.contact.friction.coefficient(),
+                false => 0.0,
+            },
             initial,
             springs: 0.0,
         })
@@ -385,19 +391,26 @@ impl<'a> Problem<'a> {
 
     /// Returns the height of the arcs over the edges of curved surfaces at the nodes in contact, and how far the gaps
     /// there differ before any load, from each other and overlaps from none, length, where the one is more than
-    /// [`COARSE`] of the other. None where edges meet at less than the largest strain, rad, which irons them out.
+    /// [`COARSE`] of the other; where no node is in contact the height at those that face the target and the smallest
+    /// gap left, where arcs on both sides may close it. None where edges meet at less than the largest strain, rad, which
+    /// irons them out.
     pub(super) fn coarse_facets(&self, last: &Iteration, strain: f64) -> Option<[f64; 2]> {
         let at_rest = self.at_rest();
-        let pairs = at_rest.pairings.iter().zip(self.initial_gaps(&at_rest)).zip(&last.statuses);
-        let closed = pairs.filter(|(_, status)| status.is_closed());
+        let is_apart = !last.statuses.iter().any(|status| status.is_closed());
+        let gaps = if is_apart { last.gaps.clone() } else { self.initial_gaps(&at_rest) };
+        let pairs = at_rest.pairings.iter().zip(gaps).zip(&last.statuses);
+        let pairs = pairs.filter(|(_, status)| is_apart || status.is_closed());
         let (pairings, gaps): (Vec<&Pairing>, Vec<f64>) =
-            closed.filter_map(|((pairing, gap), _)| Some((pairing.as_ref()?, gap?))).unzip();
+            pairs.filter_map(|((pairing, gap), _)| Some((pairing.as_ref()?, gap?))).unzip();
         let masters = pairings.iter().flat_map(|p| p.masters.iter().map(|(node, _)| *node));
         let nodes: Vec<NodeId> = pairings.iter().map(|p| p.node).chain(masters).collect();
         let height = self.surfaces.facet_height(&nodes, &self.model.nodes, strain);
         let [least, most] = [f64::min, f64::max].map(|of| gaps.iter().copied().reduce(of));
-        let span = most?.max(0.0) - least?;
-        (height > COARSE * span).then_some([height, span])
+        let (compared, part) = match is_apart {
+            true => (least?, BOTH),
+            false => (most?.max(0.0) - least?, COARSE),
+        };
+        (height > part * compared).then_some([height, compared])
     }
 
     /// Returns the nodes that lie inside another body in the shape reached, the deepest first: those that contact

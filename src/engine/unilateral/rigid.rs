@@ -1,13 +1,14 @@
 //! Whether restraints and contact hold the bodies as rigid ones: what they leave free moves without
 //! any force, whatever the materials.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
 use super::forces::tangent;
 use super::nonnegative::least;
 use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
-use problem::model::{Dof, Hold, Model, NodeId};
+use numbers::joined::joined;
+use problem::model::{Dof, Model, NodeId};
 
 /// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
 const FREE: f64 = 1e-12;
@@ -36,19 +37,38 @@ const MOST: usize = 150;
 /// Returns whether no body can move as a rigid one under its restraints and `constraints`.
 pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
     let motions = RigidMotions::new(model, &model.nodes);
-    let mut gram = motions.restrained();
-    for Constraint { node, masters, motion } in constraints {
-        let directions = match motion {
-            Motion::Along(normal, _) => vec![*normal],
-            Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
-        };
-        for direction in directions {
-            let row = motions.relative(*node, masters, direction);
-            gram += &row * row.transpose();
+    let rows: Vec<Vec<(usize, Vector3<f64>)>> = constraints
+        .iter()
+        .flat_map(|Constraint { node, masters, motion }| {
+            let directions = match motion {
+                Motion::Along(normal, _) => vec![*normal],
+                Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
+            };
+            directions.into_iter().map(|direction| motions.relative(*node, masters, direction))
+        })
+        .collect();
+    // Bodies that no constraint joins are independent.
+    let pairs = rows.iter().flat_map(|row| row.iter().map(|(b, _)| (row[0].0, *b)));
+    let joined = joined(model.bodies.len(), pairs);
+    let of_group = |first: usize| {
+        let members: Vec<usize> = (0..joined.len()).filter(|b| joined[*b] == first).collect();
+        let place = |b: usize| 3 * members.binary_search(&b).expect("it is a member");
+        let mut gram = DMatrix::zeros(3 * members.len(), 3 * members.len());
+        for b in &members {
+            gram.fixed_view_mut::<3, 3>(place(*b), place(*b)).copy_from(&motions.restrained[*b]);
         }
-    }
-    let stiffness = gram.symmetric_eigenvalues();
-    stiffness.is_empty() || stiffness.min() > FREE * stiffness.max()
+        for row in rows.iter().filter(|row| row.first().is_some_and(|(b, _)| joined[*b] == first)) {
+            for ((b, own), (c, other)) in
+                row.iter().flat_map(|own| row.iter().map(move |c| (own, c)))
+            {
+                let mut block = gram.fixed_view_mut::<3, 3>(place(*b), place(*c));
+                block += own * other.transpose();
+            }
+        }
+        let stiffness = gram.symmetric_eigenvalues();
+        stiffness.min() > FREE * stiffness.max()
+    };
+    (0..joined.len()).filter(|b| joined[*b] == *b).all(of_group)
 }
 
 /// Returns the degree of freedom that moves most in a motion of rigid bodies on which the load does
@@ -71,18 +91,21 @@ pub(super) fn escape(
 ) -> Option<Dof> {
     let motions = RigidMotions::new(model, shape);
     let gaps: Vec<&Pairing> = pairings.iter().flatten().collect();
-    let basis = free_part(&motions.restrained());
-    if basis.ncols() == 0 || gaps.len() > MOST {
+    if motions.free == 0 || gaps.len() > MOST {
         return None;
     }
-    let f = basis.tr_mul(&motions.work_of(load));
-    let forces = gaps.iter().flat_map(|pairing| {
-        let of_force = |force| motions.relative(pairing.node, &pairing.masters, force);
-        extreme_forces(pairing, friction(pairing)).into_iter().map(of_force).collect::<Vec<_>>()
-    });
-    let columns: Vec<DVector<f64>> = forces.map(|force| basis.tr_mul(&force)).collect();
+    let f = motions.work_of(load);
+    let columns: Vec<DVector<f64>> = gaps
+        .iter()
+        .flat_map(|pairing| {
+            let forces = extreme_forces(pairing, friction(pairing)).into_iter();
+            forces.map(|force| {
+                motions.in_free(&motions.relative(pairing.node, &pairing.masters, force))
+            })
+        })
+        .collect();
     let forces = if columns.is_empty() {
-        DMatrix::zeros(basis.ncols(), 0)
+        DMatrix::zeros(motions.free, 0)
     } else {
         DMatrix::from_columns(&columns)
     };
@@ -91,9 +114,7 @@ pub(super) fn escape(
     if left.amax() <= OPPOSED * load.amax() {
         return None;
     }
-    let motion = basis * left;
-    let size = |dof: &Dof| motions.along(*dof).dot(&motion).abs();
-    model.all_dofs().max_by(|a, b| size(a).total_cmp(&size(b)))
+    Some(model.all_dofs().nth(motions.displacements(&left).iamax())?)
 }
 
 /// Where rigid bodies that overlap come to touch, by the displacements of each degree of freedom, length.
@@ -126,9 +147,8 @@ pub(super) fn release(
     [closed, reach]: [f64; 2],
 ) -> Option<Release> {
     let motions = RigidMotions::new(model, shape);
-    let basis = free_part(&motions.restrained());
     let deepest = pairings.iter().map(|(_, gap)| -gap).fold(0.0, f64::max);
-    let along = |p: &Pairing, to| basis.tr_mul(&motions.relative(p.node, &p.masters, to));
+    let along = |p: &Pairing, to| motions.in_free(&motions.relative(p.node, &p.masters, to));
     let opening = |p: &Pairing| along(p, p.normal);
     let mut near = pairings.to_vec();
     near.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -140,17 +160,13 @@ pub(super) fn release(
         let forces = least(&opens.tr_mul(&opens), &right, DVector::zeros(near.len()))?;
         Some((f + &opens * forces) / weight)
     };
-    let none = DVector::zeros(basis.ncols());
+    let none = DVector::zeros(motions.free);
     let apart = least_under(&none, 1.0, ROOM * deepest)?;
     if !pairings.iter().all(|(p, gap)| gap + opening(p).dot(&apart) > 0.0) {
         return None;
     }
-    let in_all = |motion: DVector<f64>| {
-        let motion = &basis * motion;
-        let u = model.all_dofs().map(|dof| motions.along(dof).dot(&motion));
-        DVector::from_iterator(model.dofs(), u)
-    };
-    let f = basis.tr_mul(&motions.work_of(load));
+    let in_all = |motion: DVector<f64>| motions.displacements(&motion);
+    let f = motions.work_of(load);
     let under_load = (f.norm() > OPPOSED * load.amax())
         .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
         .flatten()
@@ -158,7 +174,7 @@ pub(super) fn release(
     if let Some(motion) = under_load {
         return Some(Release::There(in_all(motion)));
     }
-    if basis.ncols() == 1 {
+    if motions.free == 1 {
         return Some(Release::There(in_all(least_under(&none, 1.0, 0.0)?)));
     }
     // Every node that overlaps comes to touch, and none moves along the target.
@@ -169,7 +185,7 @@ pub(super) fn release(
     let (rows, apart_by): (Vec<_>, Vec<f64>) = rows.unzip();
     let rows = DMatrix::from_columns(&rows).transpose();
     let svd = rows.clone().svd(true, true);
-    let holds = svd.rank(FREE.sqrt() * svd.singular_values.max()) == basis.ncols();
+    let holds = svd.rank(FREE.sqrt() * svd.singular_values.max()) == motions.free;
     let motion = svd.solve(&DVector::from(apart_by.clone()), 0.0).ok().filter(|motion| {
         let missed = (rows * motion - DVector::from(apart_by)).amax();
         holds
@@ -192,15 +208,15 @@ pub(super) fn turns(
     (0..model.bodies.len()).find_map(|b| {
         let of_body = edges.iter().filter(|(nodes, ..)| motions.body[nodes[0].index()] == Some(b));
         let arc: Vec<_> = of_body.collect();
-        let own = |rows: DMatrix<f64>| rows.view((3 * b, 3 * b), (3, 3)).into_owned();
-        let basis = free_part(&own(motions.restrained()));
+        let (_, basis) = &motions.bases[b];
         if arc.len() < ARC || basis.ncols() == 0 {
             return None;
         }
         // The motion of which the least part is along the normals in the middle of the edges.
-        let (mut across, mut all) = (DMatrix::zeros(3, 3), DMatrix::zeros(3, 3));
+        let (mut across, mut all) = (Matrix3::zeros(), Matrix3::zeros());
         for (nodes, normal, _) in &arc {
-            let middle = |d| own_part(&motions, b, *nodes, d);
+            let middle =
+                |d| nodes.iter().map(|n| motions.motion(b, *n, d)).sum::<Vector3<f64>>() / 2.0;
             let normal = middle(*normal);
             across += &normal * normal.transpose();
             for direction in [[1.0, 0.0], [0.0, 1.0]] {
@@ -208,7 +224,7 @@ pub(super) fn turns(
                 all += &row * row.transpose();
             }
         }
-        let [across, all] = [across, all].map(|gram| basis.tr_mul(&(gram * &basis)));
+        let [across, all] = [across, all].map(|gram| basis.tr_mul(&(gram * basis)));
         let root = all.cholesky()?.l().try_inverse()?;
         let eigen = (&root * across * root.transpose()).symmetric_eigen();
         let (k, part) = eigen.eigenvalues.argmin();
@@ -229,20 +245,6 @@ pub(super) fn turns(
         let is_round = arc.iter().all(|(nodes, _, length)| length / 2.0 <= FACET * far(nodes[0]));
         (part <= ALONG * ALONG && is_round).then_some((b, centre))
     })
-}
-
-/// Returns the component along a direction of the middle of an edge of a body in each of its rigid motions.
-fn own_part(m: &RigidMotions, body: usize, edge: [NodeId; 2], to: [f64; 2]) -> DVector<f64> {
-    let sum = m.motion(edge[0], to) + m.motion(edge[1], to);
-    sum.rows(3 * body, 3) / 2.0
-}
-
-/// Returns a basis of the motions that a Gram matrix leaves free.
-fn free_part(gram: &DMatrix<f64>) -> DMatrix<f64> {
-    let eigen = gram.clone().symmetric_eigen();
-    let limit = FREE * eigen.eigenvalues.amax();
-    let free: Vec<usize> = (0..gram.nrows()).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
-    eigen.eigenvectors.select_columns(&free)
 }
 
 /// Returns the directions of the forces on a node whose sums are all forces that contact transmits
@@ -267,6 +269,13 @@ struct RigidMotions<'a> {
     middle: Vec<[f64; 2]>,
     /// The larger extent of the model, length.
     size: f64,
+    /// The Gram matrix of each body's restraints.
+    restrained: Vec<Matrix3<f64>>,
+    /// A basis of the motions of each body that its restraints leave free, behind the number of those of the bodies
+    /// before it.
+    bases: Vec<(usize, Matrix3xX<f64>)>,
+    /// The number of free motions of all bodies.
+    free: usize,
 }
 
 impl<'a> RigidMotions<'a> {
@@ -285,58 +294,87 @@ impl<'a> RigidMotions<'a> {
         };
         let nodes = model.bodies.iter().flat_map(|body| &body.nodes);
         let size = nodes.map(far).fold(0.0, f64::max);
-        RigidMotions { model, shape, body, middle, size }
-    }
-
-    fn count(&self) -> usize {
-        3 * self.middle.len()
-    }
-
-    /// Returns the Gram matrix of the restraints.
-    fn restrained(&self) -> DMatrix<f64> {
-        let mut gram = DMatrix::zeros(self.count(), self.count());
-        for dof in self.model.all_dofs().filter(|dof| self.model.is_restrained(*dof)) {
-            let row = self.along(dof);
-            gram += &row * row.transpose();
+        let restrained = vec![Matrix3::zeros(); middle.len()];
+        let bases = Vec::new();
+        let mut motions =
+            RigidMotions { model, shape, body, middle, size, restrained, bases, free: 0 };
+        let axes = model.all_dofs().filter(|dof| model.is_restrained(*dof));
+        let along_axes = axes.map(|dof| (dof.node(), axis(dof)));
+        for (node, direction) in
+            along_axes.chain(model.oblique().map(|(_, hold)| (hold.node, hold.direction)))
+        {
+            if let Some(b) = motions.body[node.index()] {
+                let row = motions.motion(b, node, direction);
+                motions.restrained[b] += row * row.transpose();
+            }
         }
-        for (_, Hold { node, direction, .. }) in self.model.oblique() {
-            let row = self.motion(*node, *direction);
-            gram += &row * row.transpose();
+        for gram in &motions.restrained {
+            let eigen = gram.symmetric_eigen();
+            let limit = FREE * eigen.eigenvalues.amax();
+            let free: Vec<usize> = (0..3).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
+            motions.bases.push((motions.free, eigen.eigenvectors.select_columns(&free)));
+            motions.free += free.len();
         }
-        gram
+        motions
     }
 
-    /// Returns the work of a load in each rigid motion.
+    /// Returns the work of a load in each free motion.
     fn work_of(&self, load: &DVector<f64>) -> DVector<f64> {
-        self.model.all_dofs().map(|dof| self.along(dof) * load[dof.index()]).sum()
+        let of_dof = |dof: Dof| Some((self.body[dof.node().index()]?, dof, load[dof.index()]));
+        let loaded =
+            self.model.all_dofs().filter(|dof| load[dof.index()] != 0.0).filter_map(of_dof);
+        let rows = loaded.map(|(b, dof, force)| (b, self.motion(b, dof.node(), axis(dof)) * force));
+        self.in_free(&rows.collect::<Vec<_>>())
     }
 
-    /// Returns a degree of freedom in each rigid motion.
-    fn along(&self, dof: Dof) -> DVector<f64> {
-        self.motion(dof.node(), [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 }))
+    /// Returns what is given for the motions of some bodies for each free motion.
+    fn in_free(&self, rows: &[(usize, Vector3<f64>)]) -> DVector<f64> {
+        let mut all = DVector::zeros(self.free);
+        for (b, row) in rows {
+            let (from, basis) = &self.bases[*b];
+            let mut own = all.rows_mut(*from, basis.ncols());
+            own += basis.tr_mul(row);
+        }
+        all
     }
 
-    /// Returns the component along `direction` of a node's motion less that of its masters in each
-    /// rigid motion.
+    /// Returns the displacement of each degree of freedom in a motion, given by its free motions.
+    fn displacements(&self, motion: &DVector<f64>) -> DVector<f64> {
+        let of_body =
+            |(from, basis): &(usize, Matrix3xX<f64>)| basis * motion.rows(*from, basis.ncols());
+        let bodies: Vec<Vector3<f64>> = self.bases.iter().map(of_body).collect();
+        let u = self.model.all_dofs().map(|dof| {
+            let body = self.body[dof.node().index()];
+            body.map_or(0.0, |b| self.motion(b, dof.node(), axis(dof)).dot(&bodies[b]))
+        });
+        DVector::from_iterator(self.model.dofs(), u)
+    }
+
+    /// Returns the component along `direction` of a node's motion less that of its masters in the rigid motions of
+    /// their bodies.
     fn relative(
         &self,
         node: NodeId,
         masters: &[(NodeId, f64)],
         direction: [f64; 2],
-    ) -> DVector<f64> {
-        let target = masters.iter().map(|(master, w)| self.motion(*master, direction) * *w);
-        target.fold(self.motion(node, direction), |row, part| row - part)
+    ) -> Vec<(usize, Vector3<f64>)> {
+        let target = masters.iter().map(|(master, w)| (*master, -w));
+        let parts = std::iter::once((node, 1.0)).chain(target);
+        let of_part = |(node, w): (NodeId, f64)| {
+            let b = self.body[node.index()]?;
+            Some((b, self.motion(b, node, direction) * w))
+        };
+        parts.filter_map(of_part).collect()
     }
 
-    /// Returns the component of a node's motion along `direction` in each rigid motion.
-    fn motion(&self, node: NodeId, [dx, dy]: [f64; 2]) -> DVector<f64> {
-        let mut row = DVector::zeros(self.count());
-        if let Some(b) = self.body[node.index()] {
-            let ([x, y], [mx, my]) = (self.shape[node.index()], self.middle[b]);
-            row[3 * b] = dx;
-            row[3 * b + 1] = dy;
-            row[3 * b + 2] = (dy * (x - mx) - dx * (y - my)) / self.size;
-        }
-        row
+    /// Returns the component along `direction` of a node's motion in the rigid motions of its body.
+    fn motion(&self, body: usize, node: NodeId, [dx, dy]: [f64; 2]) -> Vector3<f64> {
+        let ([x, y], [mx, my]) = (self.shape[node.index()], self.middle[body]);
+        Vector3::new(dx, dy, (dy * (x - mx) - dx * (y - my)) / self.size)
     }
+}
+
+/// Returns the direction of a degree of freedom.
+fn axis(dof: Dof) -> [f64; 2] {
+    [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 })
 }

@@ -2,6 +2,7 @@
 //! the forces, gaps and slips.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -35,6 +36,9 @@ pub(super) const SETTLED: f64 = 1e-12;
 /// The same where rounding lets the change shrink no further.
 pub(super) const STALLED: f64 = 1e-8;
 
+/// The number of nodes in concave corners up to which all ways to rest on one edge or both are tried: eight.
+const MOST_CORNERS: usize = 2;
+
 /// The number of shapes in which contact is measured before the search ends.
 const SHAPES: usize = 60;
 
@@ -63,7 +67,7 @@ impl Problem<'_> {
                 gaps = self.gaps(&config, setting.before);
             }
             let mut last =
-                self.search(&config, setting).settle(start, &mut history, &mut keep_first)?;
+                self.settle(&mut config, setting, start, &mut history, &mut keep_first)?;
             let shape_change = match &before {
                 _ if !self.is_current() => 0.0,
                 Some((solution, _)) => largest((&last.solution.u - &solution.u).as_slice()),
@@ -87,6 +91,51 @@ impl Problem<'_> {
         let what = format!("the geometry updates did not converge in {SHAPES} times");
         let what = cause_first(&(strained + &torn), what);
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
+    }
+
+    /// Finds the statuses of a place. Where there are none while nodes rest on both edges of a concave corner, each of them
+    /// rests on one edge in turn, and stays on its side of the other.
+    ///
+    /// # Errors
+    /// No statuses were found.
+    fn settle(
+        &self,
+        config: &mut Configuration,
+        setting: &Setting,
+        start: Option<Vec<Status>>,
+        history: &mut History,
+        watch: &mut Watch,
+    ) -> Result<Iteration, Error> {
+        let found = self.search(config, setting).settle(start.clone(), history, watch);
+        let in_corner = |i: &usize| config.pairings[*i].as_ref().is_some_and(|p| p.corner > 0.0);
+        let corners: Vec<usize> = (0..config.pairings.len()).filter(in_corner).collect();
+        let Err(Error::Equilibrium(why)) = found else { return found };
+        if corners.is_empty() || corners.len() > MOST_CORNERS {
+            return Err(why.into());
+        }
+        for choice in 1..3_usize.pow(corners.len() as u32) {
+            let mut other = config.clone();
+            let mut beyond: Vec<Pairing> = Vec::new();
+            for (k, i) in corners.iter().enumerate() {
+                const EDGES: [Option<[f64; 2]>; 3] = [None, Some([1.0, -1.0]), Some([-1.0, 1.0])];
+                let Some(sides) = EDGES[choice / 3_usize.pow(k as u32) % 3] else { continue };
+                let both = config.pairings[*i].as_ref().expect("it is in a corner");
+                let [on, off] = sides.map(|side| both.on_edge(side));
+                Arc::make_mut(&mut other.pairings)[*i] = Some(on);
+                beyond.push(off);
+            }
+            history.move_on();
+            let Ok(last) = self.search(&other, setting).settle(start.clone(), history, watch)
+            else {
+                continue;
+            };
+            let gap = |off: &Pairing| off.gap_after(self.model, &last.solution.u);
+            if beyond.iter().all(|off| gap(off) >= -self.closed) {
+                *config = other;
+                return Ok(last);
+            }
+        }
+        Err(why.into())
     }
 
     /// Solves the last contact state of an equilibrium again, on the whole bodies, unless it was found on

@@ -30,15 +30,18 @@ impl Force {
     }
 
     /// Adds it to the forces `f` on all degrees of freedom of `model`; each number of the scene
-    /// passes through `number`. Linear edges have half of their load on each end.
+    /// passes through `number`.
     pub fn add_to<T: Scalar>(&self, f: &mut DVector<T>, model: &Model, number: &impl Fn(f64) -> T) {
-        let mut add = |node: NodeId, force: [T; 2]| {
-            for (dof, force) in node.dofs().into_iter().zip(force) {
-                f[dof.index()] += force;
-            }
-        };
+        let force = self.on_each_node(model, number);
+        for dofs in self.nodes().map(NodeId::dofs) {
+            dofs.into_iter().zip(force).for_each(|(dof, force)| f[dof.index()] += force);
+        }
+    }
+
+    /// Returns the force on each of its nodes along x and y: linear edges have half of their load on each end.
+    pub fn on_each_node<T: Scalar>(&self, model: &Model, number: &impl Fn(f64) -> T) -> [T; 2] {
         let (edge, pressure, traction) = match *self {
-            Force::Node(node, force) => return add(node, force.map(number)),
+            Force::Node(_, force) => return force.map(number),
             Force::Pressure(edge, pressure) => (edge, Some(number(pressure)), [T::zero(); 2]),
             Force::Traction(edge, traction) => (edge, None, traction.map(number)),
         };
@@ -47,7 +50,6 @@ impl Force {
         let inward = [-(by - ay) / length, (bx - ax) / length];
         let per_area = pressure.map_or(traction, |p| inward.map(|n| p * n));
         let (thickness, two) = (number(model.thickness), T::from_f64(2.0));
-        let half = per_area.map(|t| t * length * thickness / two);
-        edge.into_iter().for_each(|node| add(node, half));
+        per_area.map(|t| t * length * thickness / two)
     }
 }

@@ -25,6 +25,9 @@ pub use support::{Hold, Support, crossing};
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;
 
+/// The sum of forces, over the sum of their sizes, up to which it is the rounding of forces that cancel each other.
+pub(crate) const CANCELLED: f64 = 1e-13;
+
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Material {
@@ -270,10 +273,14 @@ impl Model {
         DVector::from_fn(self.dofs(), free)
     }
 
-    /// Returns the sum of the loads along x and y, force.
+    /// Returns the sum of the loads along x and y, force; 0 where they cancel each other to rounding.
     pub fn total_load(&self) -> [f64; 2] {
         let nodes = self.load.as_slice().chunks_exact(2);
-        [0, 1].map(|direction| nodes.clone().map(|load| load[direction]).sum())
+        [0, 1].map(|direction| {
+            let loads = nodes.clone().map(|load| load[direction]);
+            let (sum, sizes): (f64, f64) = (loads.clone().sum(), loads.map(f64::abs).sum());
+            if sum.abs() > CANCELLED * sizes { sum } else { 0.0 }
+        })
     }
 
     /// Returns whether there are contact nodes and a target.

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::description::{Load, LoadKind};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::model::{Force, Model, NodeId, Sides, unordered};
+use crate::model::{CANCELLED, Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
 
@@ -70,24 +70,36 @@ pub fn apply(
     let of = forces.iter().enumerate().flat_map(|(k, own)| vec![k; own.len()]).collect();
     model.forces = forces.into_iter().flatten().collect();
     (model.load, model.stages) = (total, stages);
+    drop_cancelled(model);
     Ok(of)
+}
+
+/// Sets the load to 0 where its parts cancel each other to rounding.
+fn drop_cancelled(model: &mut Model) {
+    let mut sizes = DVector::zeros(model.dofs());
+    for force in &model.forces {
+        let size = force.on_each_node(model, &|x| x).map(f64::abs);
+        for dofs in force.nodes().map(NodeId::dofs) {
+            dofs.into_iter().zip(size).for_each(|(dof, size)| sizes[dof.index()] += size);
+        }
+    }
+    let is_left = |load: f64, size: f64| load.abs() > CANCELLED * size;
+    model
+        .load
+        .zip_apply(&sizes, |load, size| *load = if is_left(*load, size) { *load } else { 0.0 });
 }
 
 /// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the contact surfaces.
 /// `of` is the place of the load of each part.
 pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
     let held = model.held_directions();
-    let mut f = DVector::zeros(model.dofs());
-    let mut is_taken = |part: &Force| {
-        part.add_to(&mut f, model, &|x| x);
-        let mut acts = false;
-        let takes = part.nodes().fold(true, |takes, node| {
-            let loaded = node.dofs().map(|dof| std::mem::take(&mut f[dof.index()]) != 0.0);
-            acts |= loaded.contains(&true);
+    let is_taken = |part: &Force| {
+        let loaded = part.on_each_node(model, &|x| x).map(|force| force != 0.0);
+        let takes = |node: NodeId| {
             let mut along = loaded.into_iter().zip(model.restraints_of(node));
-            takes && (held[node.index()] == 2 || along.all(|(loaded, held)| held || !loaded))
-        });
-        acts && takes
+            held[node.index()] == 2 || along.all(|(loaded, held)| held || !loaded)
+        };
+        loaded.contains(&true) && part.nodes().all(takes)
     };
     let surfaces: HashSet<[NodeId; 2]> = (model.target_edges().map(|edge| edge.nodes))
         .chain(model.contact.nodes.windows(2).map(|pair| [pair[0], pair[1]]))
@@ -98,18 +110,19 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
         Force::Pressure(edge, _) | Force::Traction(edge, _) => surfaces.contains(&unordered(edge)),
     };
     let mut notes = Vec::new();
-    for k in of.iter().copied().collect::<BTreeSet<usize>>() {
-        let parts =
-            || model.forces.iter().zip(of).filter(|(_, of)| **of == k).map(|(part, _)| part);
-        let (all, place) = (parts().count(), format!("loads[{k}]"));
-        match parts().filter(|part| is_taken(part)).count() {
+    let mut from = 0;
+    for own in of.chunk_by(|a, b| a == b) {
+        let (all, place) = (own.len(), format!("loads[{}]", own[0]));
+        let parts = &model.forces[from..from + all];
+        from += all;
+        match parts.iter().filter(|part| is_taken(part)).count() {
             0 => {}
             taken => notes.push(format!(
                 "{place}: restraints hold {taken} of its {all} edges or nodes along it, and take that part of it alone: it \
                  does nothing to the bodies"
             )),
         }
-        match parts().filter(|part| on_contact(part)).count() {
+        match parts.iter().filter(|part| on_contact(part)).count() {
             0 => {}
             count => notes.push(format!(
                 "{place}: {count} of its {all} edges belong to a contact surface: it acts there beside contact, also where \

@@ -50,7 +50,6 @@ pub use surface::Surface;
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
 use base::error::Result;
-use base::limits::check_steps;
 use base::plain::{shell_word, six_digits};
 
 /// A scene that passed all checks.
@@ -163,7 +162,6 @@ impl Scene {
         dropped: Vec<NodeId>,
     ) -> Result<Self> {
         check::numbers(&description)?;
-        check_steps(description.iterations, mesh.nodes.len(), "iterations")?;
         let physical = Groups::new(&mesh);
         let materials = check::materials(&mesh, &physical, &description)?;
         let kinds = &description.materials.0;

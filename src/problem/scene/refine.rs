@@ -8,7 +8,7 @@
 //!     a---ab---b
 //! ```
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::Scene;
 use super::mesh::{Element, Mesh, Node, NodeNumbers};
@@ -77,13 +77,23 @@ impl Scene {
         let mut description = source.description.clone();
         if let Some(contact) = &mut description.contact {
             if let Surface::Numbers(nodes) = &mut contact.contact {
-                let mut finer = Vec::new();
-                for (k, n) in nodes.iter().enumerate() {
-                    finer.push(*n);
-                    let next = nodes.get(k + 1);
-                    finer.extend(next.and_then(|next| halves.get(&key(*n, *next))));
-                }
-                *nodes = finer;
+                // The outline's edges between listed nodes; those that do not follow the list, as one that closes a
+                // surface, come last.
+                let listed: HashSet<usize> = nodes.iter().copied().collect();
+                let outline = self.model.sides.outline();
+                let outline = outline.map(|side| side.nodes.map(NodeId::number));
+                let own = outline.filter(|ends| ends.iter().all(|n| listed.contains(n)));
+                let own: Vec<[usize; 2]> = own.map(|[a, b]| key(a, b)).collect();
+                let edges: HashSet<[usize; 2]> = own.iter().copied().collect();
+                let follow = |k: usize| Some(key(nodes[k], *nodes.get(k + 1)?));
+                let followed: HashSet<[usize; 2]> = (0..nodes.len()).filter_map(follow).collect();
+                let half = |ends: [usize; 2]| edges.contains(&ends).then(|| halves[&ends]);
+                let along = (0..nodes.len())
+                    .flat_map(|k| [Some(nodes[k]), follow(k).and_then(half)])
+                    .flatten();
+                let rest =
+                    own.iter().filter(|ends| !followed.contains(*ends)).map(|ends| halves[ends]);
+                *nodes = along.chain(rest).collect();
             }
             if let Surface::Numbers(edges) = &mut contact.target {
                 *edges = edges.iter().flat_map(|number| children[number].clone()).collect();

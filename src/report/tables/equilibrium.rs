@@ -4,9 +4,11 @@ use super::result::place;
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{percent, short, six_digits, with_unit};
+use engine::contact::{InitialGaps, Surfaces};
 use engine::{Equilibrium, Margin, NearestDecision, Overlap, Solution, Uniqueness, beyond_range};
-use problem::model::NodeId;
+use problem::model::{Model, NodeId};
 use problem::modelling::{Coupling, Geometry};
+use problem::scene::Units;
 
 /// Says whether the equilibrium is the only one, and what is left of the change of the geometry.
 pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
@@ -39,6 +41,14 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
         )
     });
     let facets = found.facets.map(|[height, least]| {
+        if solution.touches_nothing() {
+            return format!(
+                "NOTE: no node is in contact, but the edges of a curved surface are facets, up to {} off its arc, and the \
+                 smallest gap left is {}: the facets alone may keep the bodies apart; refine the surfaces",
+                length(height),
+                length(least)
+            );
+        }
         let part = match height < least {
             true => format!("of which that is {}", percent(height / least)),
             false => "less than that, so that the mesh decides it".into(),
@@ -85,7 +95,11 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
             "NOT THE ONLY ONE: node {node} can move without work, as contacts that carry nothing may \
              open"
         ),
-        Uniqueness::Unknown { node: None } => "whether it is the only one is not known".into(),
+        Uniqueness::Unknown { node: None } => {
+            "whether it is the only one is unknown: contact in the current shape is not \
+             convex"
+                .into()
+        }
         Uniqueness::Unknown { node: Some(node) } => format!(
             "whether it is the only one is not known; node {node} can move without work as long as \
              the normals of contact stay as they are"
@@ -128,6 +142,32 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
         )
     });
     Report::default().note(format!("Equilibrium: {words}")).details(others)
+}
+
+/// Says what is unusual about the gaps before any load.
+pub fn initial_gaps(model: &Model, units: &Units) -> Option<String> {
+    let length = |x: f64| with_unit(&short(x), &units.length);
+    Some(match Surfaces::new(model).ok()?.initial_gaps(model)? {
+        InitialGaps::Overlap { nodes, node, depth, facet_height } => {
+            let lie = if nodes == 1 { "node lies" } else { "nodes lie" };
+            let facets = match facet_height > 0.0 {
+                true => {
+                    format!(" (facets of curved surfaces account for {})", length(facet_height))
+                }
+                false => String::new(),
+            };
+            format!(
+                "NOTE: before any load {nodes} contact {lie} inside the target, the deepest {} at node {node}{facets}: an \
+                 interference fit, or a mistake of the drawing",
+                length(depth)
+            )
+        }
+        InitialGaps::Apart { node, gap } => format!(
+            "NOTE: before any load the bodies lie far apart: the smallest gap is {}, at node {node}, more than a tenth of \
+             the smaller body",
+            length(gap)
+        ),
+    })
 }
 
 /// Says that triangles are turned inside out, or bodies lie in each other where contact does not watch them; None where

@@ -2,7 +2,7 @@
 
 mod call;
 mod distance;
-mod equilibrium;
+pub(crate) mod equilibrium;
 mod estimates;
 mod iterations;
 mod result;

@@ -7,13 +7,16 @@ use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
 use engine::estimates::{Cause, NoLimit, contact_ends};
-use engine::{Assessment, Cycle, Resultant, Solution, locking_of, share_of_load};
+use engine::{Assessment, Cycle, Resultant, Solution, Stretch, locking_of, share_of_load};
 use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
 /// The cosine of the angle from the load up to which a contact force carries it, rather than acts across it: 45 degrees.
 const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// The most stretches of contact that have a line each.
+const MOST_STRETCHES: usize = 10;
 
 /// Reports whether contact passes the load on, its pressure and width, the largest displacement and stresses,
 /// how exact they are, and whether this is the only equilibrium.
@@ -23,6 +26,7 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
     let report = Report::default()
         .heading("Result")
         .notes(equilibrium::overlap(solution))
+        .notes(equilibrium::initial_gaps(&solution.model, &solution.request.scene.units))
         .notes(locking_of(&solution.model).map(|why| format!("NOTE: {why}")))
         .notes(group_ends(solution, &ends))
         .notes(passes_on(solution))
@@ -63,6 +67,9 @@ fn passes_on(solution: &Solution) -> Option<String> {
     let force = |size: f64| with_unit(&six_digits(size), &units.force);
     let along = solution.target_force();
     let resultant = engine::resultant(solution).map(|resultant| resultant.force);
+    if resultant == Some([0.0; 2]) && solution.in_contact().all(|node| node.force == Some(0.0)) {
+        return Some("Nothing pressed: the bodies touch without a force".into());
+    }
     let is_along = resultant.is_none_or(|[fx, fy]| along.abs() >= ALONG * fx.hypot(fy));
     let share = share_of_load(&solution.model, along).filter(|_| is_along);
     Some(match (share, resultant) {
@@ -120,17 +127,20 @@ fn in_contact(solution: &Solution) -> Vec<String> {
     hidden.into_iter().chain([format!("In contact at the end: {nodes}")]).collect()
 }
 
-/// Says what contact passes to the target's body, and where. It balances restraints and loads to rounding.
+/// Says what contact passes to the target, and where.
 fn resultant(solution: &Solution) -> Option<String> {
-    let Resultant { force, through } = engine::resultant(solution)?;
+    let passed = engine::resultant(solution).filter(|passed| passed.through.is_some())?;
+    Some(format!("Contact force on the target {}", force_along(solution, &passed)))
+}
+
+/// Writes a force and its line of action.
+fn force_along(solution: &Solution, Resultant { force, through }: &Resultant) -> String {
     let units = &solution.request.scene.units;
-    let at = with_unit(&coordinates(through?, decimals(solution)), &units.length);
     let digits = Digits::of(force[0].hypot(force[1]), Some(f64::EPSILON));
     let [fx, fy] = force.map(|x| digits.write(x));
-    Some(format!(
-        "Contact force on the target {}, along a line through {at}",
-        with_unit(&format!("{fx}, {fy}"), &units.force)
-    ))
+    let at = through.map(|at| with_unit(&coordinates(at, decimals(solution)), &units.length));
+    let along = at.map_or(String::new(), |at| format!(", along a line through {at}"));
+    format!("{}{along}", with_unit(&format!("{fx}, {fy}"), &units.force))
 }
 
 /// Names the contact node under the largest pressure. The pressures of `printed` stay in the contact body.
@@ -139,7 +149,7 @@ fn peak(solution: &Solution, ends: &[(Cause, [NodeId; 2])], error: Option<f64>) 
         solution.in_contact().filter_map(|node| Some((node.pressure?, node))).collect();
     let found = largest(pressed.iter().map(|(pressure, _)| *pressure))?;
     let (pressure, at) = pressed[found.first];
-    if solution.request.variant == Variant::Printed {
+    if solution.request.variant == Variant::Printed || pressure == 0.0 {
         return None;
     }
     let units = &solution.request.scene.units;
@@ -187,18 +197,38 @@ fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId)
     })
 }
 
-/// Says how wide the contact is: from its first node to its last, whose edges leave the error.
-fn width(solution: &Solution) -> Option<String> {
-    let nodes: Vec<_> = solution.in_contact().collect();
-    let [first, .., last] = nodes[..] else { return None };
-    let error = 1.0 / (nodes.len() as f64 - 1.0);
-    let wide = figure((last.arc - first.arc).abs(), Some(error));
-    Some(format!(
-        "Contact width {} along the surface, from node {} to node {}",
-        with_unit(&wide, &solution.request.scene.units.length),
-        first.node,
-        last.node
-    ))
+/// Says how wide the contact is: from its first node to its last, whose edges leave the error; of several unbroken
+/// stretches also what each passes on.
+fn width(solution: &Solution) -> Vec<String> {
+    let (units, stretches) = (&solution.request.scene.units, engine::stretches(solution));
+    let span = |Stretch { nodes, width, .. }: &Stretch| {
+        let [first, .., last] = nodes[..] else { return format!("node {} alone", nodes[0]) };
+        let wide = figure(*width, Some(1.0 / (nodes.len() as f64 - 1.0)));
+        format!(
+            "{} along the surface, from node {first} to node {last}",
+            with_unit(&wide, &units.length)
+        )
+    };
+    match &stretches[..] {
+        [] => Vec::new(),
+        [one] if one.nodes.len() == 1 => Vec::new(),
+        [one] => vec![format!("Contact width {}", span(one))],
+        several => {
+            let line = |stretch: &Stretch| {
+                let [own, target] = &stretch.bodies;
+                let passed = match solution.transmits_nothing() {
+                    true => String::new(),
+                    false => format!(": {}", force_along(solution, &stretch.passed)),
+                };
+                format!("  {own} on {target}, {}{passed}", span(stretch))
+            };
+            let more = several.len().saturating_sub(MOST_STRETCHES);
+            std::iter::once(format!("Contact in {} stretches:", several.len()))
+                .chain(several.iter().take(MOST_STRETCHES).map(line))
+                .chain((more > 0).then(|| format!("  and {more} more, in result.json")))
+                .collect()
+        }
+    }
 }
 
 /// Names the node that moves farthest.
