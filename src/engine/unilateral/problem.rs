@@ -52,6 +52,9 @@ const WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * 5e-6;
 /// that is in contact. Flat surfaces have no arcs; a press fit whose nodes lie on each other has no such error.
 const COARSE: f64 = 0.05;
 
+/// The coefficient of friction beyond which a node slides at a pressure that is rounding: it sticks.
+const STICKS: f64 = 1e9;
+
 /// The height of an arc over its edge, over the smallest gap, beyond which arcs on both sides may close it.
 const BOTH: f64 = 0.5;
 
@@ -204,9 +207,10 @@ impl<'a> Problem<'a> {
             surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
-            friction: match model.has_contact() {
-                true => request.contact.friction.coefficient(),
-                false => 0.0,
+            friction: match request.contact.friction.coefficient() {
+                _ if !model.has_contact() => 0.0,
+                mu if mu > STICKS => f64::INFINITY,
+                mu => mu,
             },
             initial,
             springs: 0.0,

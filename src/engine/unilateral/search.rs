@@ -14,7 +14,7 @@ use super::problem::{
 use super::status::{History, nearest_open, next_closed};
 use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
-use crate::error::{Cause, Error, NoEquilibrium};
+use crate::error::{Cause, Error, NoEquilibrium, too_large};
 use crate::linear::largest;
 use crate::solution::{Cycle, Margin, NearestDecision};
 
@@ -75,6 +75,10 @@ impl Problem<'_> {
             };
             let stalled = before.as_ref().is_some_and(|(_, old)| shape_change > old / 2.0);
             let scale = largest(last.solution.u.as_slice());
+            // Distances in such a shape overflow.
+            if self.is_current() && !(scale * scale).is_finite() {
+                return Err(too_large().into());
+            }
             if shape_change <= SETTLED * scale || (stalled && shape_change <= STALLED * scale) {
                 let closing = first.and_then(|first| self.first_closing(&gaps, &first, &last));
                 self.along_forces(&mut config, &mut last);
