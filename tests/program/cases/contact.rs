@@ -238,4 +238,150 @@ const CASES: &[Case] = &[
         contains: &["triangles are turned inside out; linear elements are for strains below 0.1"],
         lacks: &[],
     },
+    // What lies behind a jump of the target, as the bottom of a slot, its slanted walls, or a stair under a corner that
+    // hangs over, changes nothing: the same as where it is in no group.
+    Case {
+        input: "slot",
+        command: "for s in slot walls stair; do for g in initial current; do \
+                  plane-contact -q solve $s.json --geometry $g --no-pictures --no-assessment --out a | grep -E 'Largest|Peak' >a.txt; \
+                  plane-contact -q solve $s-without.json --geometry $g --no-pictures --no-assessment --out b | grep -E 'Largest|Peak' >b.txt; \
+                  cmp a.txt b.txt && test -s a.txt && echo $s $g: same; done; done",
+        status: 0,
+        contains: &[
+            "slot initial: same",
+            "slot current: same",
+            "walls initial: same",
+            "walls current: same",
+            "stair initial: same",
+            "stair current: same",
+        ],
+        lacks: &["differ"],
+    },
+    // Three bodies: the force on the target is that on the body that rests on no other one.
+    Case {
+        input: "stack",
+        command: "plane-contact -q solve stack.json --no-pictures --no-assessment --out a; \
+                  plane-contact -q solve two-on-one.json --no-pictures --no-assessment --out b",
+        status: 0,
+        contains: &[
+            "Contact passes on 100 % of the load: force on the target 8",
+            "2 on 1, 3.0 along the surface, from node 66 to node 74: 0.00022, -8.00000, along a line through",
+            "3 on 2, 1.6 along the surface, from node 102 to node 107: ",
+            "Contact passes on 100 % of the load: force on the target 6",
+            "2 on 1, 2.0 along the surface, from node 106 to node 111: 0.00000, -2.00000, along a line through",
+            "3 on 1, 2.0 along the surface, from node 130 to node 135: 0.00000, -4.00000, along a line through",
+        ],
+        lacks: &["Contact width"],
+    },
+    // The air between two feet is no part of the contact.
+    Case {
+        input: "two-feet",
+        command: "plane-contact -q solve two-feet.json --no-pictures --no-assessment --out a",
+        status: 0,
+        contains: &[
+            "Contact in 2 stretches:",
+            "2 on 1, 0.5 along the surface, from node 206 to node 207",
+        ],
+        lacks: &["Contact width"],
+    },
+    // Hertz's theory is of one contact: none where two carry the load.
+    Case {
+        input: "two-rollers",
+        command: "plane-contact solve two-rollers.json --no-assessment --json",
+        status: 0,
+        contains: &["\"hertz\": null", "\"stretches\": ["],
+        lacks: &[],
+    },
+    // Loads that cancel each other leave a rounding error, which decides neither sign nor share.
+    Case {
+        input: "cancelling",
+        command: "for s in a b plain with-nothing; do \
+                  plane-contact -q solve $s.json --variant tied --no-pictures --no-assessment --out $s | grep 'force on the target'; done",
+        status: 0,
+        contains: &[
+            "Contact presses: force on the target 0.130536, down\n  Contact force on the target 0.033175, -0.126250, along a line \
+             through 0.4905, 0.0000\n  Contact presses: force on the target 0.130536",
+            "Contact passes on 100 % of the load: force on the target 2\n  Contact force on the target 0, -2.00000, along a \
+             line through 1.5000, 0.0000\n  Contact passes on 100 % of the load: force on the target 2\n",
+        ],
+        lacks: &[],
+    },
+    // A body that touches is not pressed by the rounding of a motion that strains nothing.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out s >log; sed -i 's/\"variant\": \"[a-z]*\",*//; \
+                  s/\"loads\": .*/\"loads\": [],/; s/\"contact\": {/\"contact\": { \"friction\": 0, \"coupling\": \"nts\",/' \
+                  s/scene.json; plane-contact -q solve s/scene.json --no-pictures --no-assessment --out o",
+        status: 0,
+        contains: &["Nothing pressed: the bodies touch without a force"],
+        lacks: &["Contact presses", "Peak contact"],
+    },
+    // Contact in the current shape is not convex: the tip may come to rest on the other flank.
+    Case {
+        input: "peak-of-a-roof",
+        command: "plane-contact -q solve scene.json --no-pictures --no-assessment --out o",
+        status: 0,
+        contains: &["unknown: contact in the current shape is not convex"],
+        lacks: &["the only one in the shape reached"],
+    },
+    // Two rings that fit exactly: the facets alone keep them apart.
+    Case {
+        input: "fitted",
+        command: "plane-contact -q solve scene.json --no-pictures --no-assessment --out o",
+        status: 0,
+        contains: &["Nothing transmitted", "the facets alone may keep the bodies apart"],
+        lacks: &[],
+    },
+    // Bodies that lie in each other before any load, or far apart; of steel, with an overlap of 0.02: E 0.02 / 2.
+    Case {
+        input: "apart",
+        command: "for s in inside touching apart; do plane-contact -q scene plan $s.json | grep NOTE; \
+                  plane-contact -q solve $s.json --no-pictures --no-assessment --out o | grep -E 'NOTE|force on'; done",
+        status: 0,
+        contains: &[
+            "NOTE: before any load 2 contact nodes lie inside the target, the deepest 0.02 mm at node 5: an interference fit",
+            "force on the target 2000 N",
+            "NOTE: before any load the bodies lie far apart: the smallest gap is 0.25 mm, at node 5",
+        ],
+        lacks: &[],
+    },
+    // A node beside a corner lies behind the line of a side that it looks past, and inside no body.
+    Case {
+        input: "overhang",
+        command: "for s in scene without; do \
+                  plane-contact -q solve $s.json --no-pictures --no-assessment --out $s | grep 'Largest |u|'; done",
+        status: 0,
+        contains: &["Largest |u| 0.0179 at node 88"],
+        lacks: &["inside the target"],
+    },
+    // A node in a concave corner of the target that rests on one of its edges alone.
+    Case {
+        input: "corner-node",
+        command: "for f in 0.05 0.1 0.3; do \
+                  plane-contact -q solve scene.json --friction $f --no-pictures --no-assessment --out o | grep 'Largest |u|'; done",
+        status: 0,
+        contains: &["Largest |u| 0.01289", "Largest |u| 0.01282", "Largest |u| 0.01275"],
+        lacks: &["no equilibrium"],
+    },
+    // Half of a press fit: at the end of the target on the line of symmetry the normal is along that line, as in the whole.
+    Case {
+        input: "half",
+        command: "for s in half whole; do plane-contact solve $s.json --no-assessment --json \
+                  | grep -o '\"target_force\": [0-9.]*' | tail -1; done",
+        status: 0,
+        contains: &[],
+        lacks: &["error"],
+    },
+    // A closed contact surface given as a list, refined, has the midpoint of its closing edge too.
+    Case {
+        input: "closed-list",
+        command: "for s in group list; do plane-contact trade $s.json --only mesh --runs 1 --out $s --json \
+                  | grep -o '\"in_contact\": [0-9]*' | tr '\\n' ' '; done",
+        status: 0,
+        contains: &[
+            "\"in_contact\": 16 \"in_contact\": 32 \"in_contact\": 64 \"in_contact\": 128 \"in_contact\": 256 \
+             \"in_contact\": 16 \"in_contact\": 32 \"in_contact\": 64 \"in_contact\": 128 \"in_contact\": 256",
+        ],
+        lacks: &[],
+    },
 ];
