@@ -80,8 +80,13 @@ impl Surfaces {
         let at = |n: NodeId| shape[n.index()].map(T::to_f64);
         let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
         let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
-        let search =
-            Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
+        let search = Search {
+            surfaces: self,
+            shape,
+            target: &target,
+            tree,
+            margin: bounds.fold(0.0, f64::max),
+        };
         let mut unsure = Vec::new();
         let cover = |edge: &Edge| {
             let placed = edge.in_shape(shape);
@@ -159,6 +164,8 @@ struct Covered<T> {
 /// The target in a shape, for the search of what contact edges cover.
 struct Search<'a, T> {
     surfaces: &'a Surfaces,
+    /// The coordinates of each node, length.
+    shape: &'a [[T; 2]],
     target: &'a [PlacedEdge<T>],
     tree: Tree,
     /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
@@ -191,7 +198,13 @@ impl<T: Scalar> Search<'_, T> {
             let ends = [T::zero(), one].map(|eta| contact.along(placed.at(eta)));
             let from = Scalar::max(Scalar::min(ends[0], ends[1]), T::zero());
             let to = Scalar::min(Scalar::max(ends[0], ends[1]), one);
-            if to - from > T::from_f64(ROUNDING) {
+            let seen_from = contact.at((from + to) / two).map(T::to_f64);
+            let placed_in_f64 = placed.map(T::to_f64);
+            let is_seen_through = || {
+                let place = |n: NodeId| self.shape[n.index()].map(T::to_f64);
+                self.surfaces.target.is_seen_through(&placed_in_f64, seen_from, place)
+            };
+            if to - from > T::from_f64(ROUNDING) && !is_seen_through() {
                 let distance = distance(contact, placed, (from + to) / two);
                 facing.push((distance, Stretch { edge, from, to, ends, length: contact.length }));
             }

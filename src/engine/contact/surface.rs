@@ -8,7 +8,7 @@ use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
-use problem::model::{EdgeId, Model, NodeId, unordered};
+use problem::model::{Body, EdgeId, Model, NodeId, unordered};
 
 /// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
 /// smooth surface: 30 degrees.
@@ -40,6 +40,8 @@ pub(super) struct Surface {
     pub(super) node_normals: FxHashMap<NodeId, Vector>,
     /// The direction across the line of symmetry on which the surface ends, as that of half a scene, by the node there.
     across: FxHashMap<NodeId, Vector>,
+    /// The sides that bound the surface's bodies.
+    outline: Vec<[NodeId; 2]>,
 }
 
 /// An edge of a body's surface.
@@ -71,7 +73,31 @@ impl Surface {
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         let node_normals = means.collect();
         let across = across(model, &at);
-        Surface { edges, once, at, undeformed, node_normals, across }
+        let has_surface = |body: &&Body| edges.iter().any(|edge| body.has(edge.nodes[0]));
+        let bodies: Vec<&Body> = model.bodies.iter().filter(has_surface).collect();
+        let sides = model.sides.outline().map(|side| side.nodes);
+        let outline = sides.filter(|nodes| bodies.iter().any(|body| body.has(nodes[0]))).collect();
+        Surface { edges, once, at, undeformed, node_normals, across, outline }
+    }
+
+    /// Returns whether an edge is seen from behind, through its body: from a point deeper behind it than the edge is long
+    /// that lies in no body of the surface in a shape, given by the place of each node.
+    pub(super) fn is_seen_through(
+        &self,
+        edge: &PlacedEdge,
+        p: Vector,
+        shape: impl Fn(NodeId) -> Vector,
+    ) -> bool {
+        if edge.outside(p) >= -edge.length {
+            return false;
+        }
+        // A node of the outline itself is of the body, however it is rounded; else the sides above the point are counted.
+        let ends = self.outline.iter().map(|nodes| nodes.map(&shape));
+        let crosses = |[a, b]: &[Vector; 2]| {
+            (a[1] > p[1]) != (b[1] > p[1]) && (f64::orientation(*a, *b, p) > 0.0) == (b[1] > a[1])
+        };
+        let is_node = ends.clone().any(|[a, _]| a == p);
+        !is_node && ends.filter(crosses).count() % 2 == 0
     }
 
     /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that
@@ -162,16 +188,14 @@ impl Edge {
     }
 }
 
-impl PlacedEdge {
+impl<T: Scalar> PlacedEdge<T> {
     /// Returns the same edge in other numbers.
-    pub(super) fn map<T>(&self, to: impl Fn(f64) -> T) -> PlacedEdge<T> {
+    pub(super) fn map<U>(&self, to: impl Fn(T) -> U) -> PlacedEdge<U> {
         let PlacedEdge { start, tangent, normal, length } = *self;
         let [start, tangent, normal] = [start, tangent, normal].map(|v| v.map(&to));
         PlacedEdge { start, tangent, normal, length: to(length) }
     }
-}
 
-impl<T: Scalar> PlacedEdge<T> {
     /// Returns where `p` projects on the edge's line: 0 at its first node, 1 at its second.
     pub(super) fn along(&self, p: [T; 2]) -> T {
         dot(minus(p, self.start), self.tangent) / self.length

@@ -134,14 +134,31 @@ fn of_two_target_edges_as_near_as_each_other_the_first_counts() {
 /// counts once.
 #[test]
 fn what_two_target_edges_cover_counts_once() {
-    let near: Chain = &[[2.0, -0.1], [0.5, -0.1]];
-    let far: Chain = &[[2.0, -0.3], [-1.0, -0.3]];
+    let near: Chain = &[[2.0, -0.1], [0.4, -0.1]];
+    let far: Chain = &[[2.0, -0.42], [-1.0, 0.18]];
     for target in [[near, far], [far, near]] {
         for pairing in faced(&model(&target, UNIT), Coupling::Mortar) {
             let pairing = pairing.expect("it is covered");
             assert_near("length", pairing.length, 0.5, 1.0, &CLOSEST_POINT);
             let sum = pairing.masters.iter().map(|(_, weight)| weight).sum();
             assert_near("weights", sum, 1.0, 1.0, &CLOSEST_POINT);
+        }
+    }
+}
+
+/// Behind a jump of the target a contact edge covers nothing: here 0 to 0.5, of which node 0 has 3/8 and node 1 1/8.
+/// What lies before the nearer edge's line, or meets it, is covered.
+#[test]
+fn what_lies_behind_a_jump_is_not_covered() {
+    let near: Chain = &[[2.0, -0.1], [0.5, -0.1]];
+    for (end, lengths) in [(-0.1, [0.5, 0.5]), (-0.1001, [0.125, 0.375]), (-0.9, [0.125, 0.375])] {
+        let far = [[0.5, end], [-1.0, end]];
+        for target in [[near, &far], [&far, near]] {
+            let found = faced(&model(&target, UNIT), Coupling::Mortar);
+            for (pairing, length) in found.into_iter().zip(lengths) {
+                let pairing = pairing.expect("it is covered");
+                assert_near("length", pairing.length, length, 1.0, &CLOSEST_POINT);
+            }
         }
     }
 }

@@ -28,9 +28,9 @@ const COUNTS: &str = "\
     mortar 0 Same 4990\n\
     mortar 0 NoAnswer 10\n\
     mortar 0.3 Same 216\n\
-    mortar stick Same 195\n\
-    mortar stick NoAnswer 15\n\
-    mortar stick Several 6\n\
+    mortar stick Same 201\n\
+    mortar stick NoAnswer 12\n\
+    mortar stick Several 3\n\
     nts 0 Same 4955\n\
     nts 0 NoAnswer 45\n\
     nts 0.3 Same 211\n\

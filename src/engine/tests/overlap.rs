@@ -169,15 +169,20 @@ fn rounded_coordinates_are_no_overlap() {
 }
 
 /// The lower block is 1 thick: however short the edges, a node up to 0.5 deep is read as an interference, and a deeper
-/// one as come from the other side.
+/// one as come from the other side; behind the block it faces nothing.
 #[test]
 fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
-    for (depth, is_refused) in [(0.49, false), (0.51, true), (1.5, true)] {
+    for (depth, is_refused, faces) in [(0.49, false, true), (0.51, true, true), (1.5, false, false)]
+    {
         let mut model = (*blocks(ALL[0], ALL[1]).model).clone();
         model.nodes[10..].iter_mut().for_each(|at| at[1] -= depth);
         let surfaces = Surfaces::new(&model).expect("edges of the outline");
         let refused = surfaces.check_initial_penetration(&model).is_err();
         assert_eq!(refused, is_refused, "{depth}");
+        for coupling in [Coupling::Nts, Coupling::Mortar] {
+            let pairings = surfaces.pairings(coupling, &model.nodes);
+            assert_eq!(pairings.iter().any(Option::is_some), faces, "{depth} {coupling}");
+        }
     }
 }
 

@@ -43,7 +43,7 @@ const COUNTS: &str = "\
     Roof nts: 125 0 0 0 0\n\
     Narrow mortar: 123 0 2 0 0\n\
     Narrow nts: 120 0 4 1 0\n\
-    Groove mortar: 125 0 0 0 0\n\
+    Groove mortar: 124 0 0 0 1\n\
     Groove nts: 124 0 0 0 1\n\
     Plate mortar: 125 0 0 0 0\n\
     Plate nts: 125 0 0 0 0\n\

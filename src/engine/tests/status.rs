@@ -537,6 +537,7 @@ fn tractions_on_two_nodes_by_hand() {
     let of = |forces: [[f64; 2]; 2], in_contact: bool| {
         let traction = Traction {
             model: &model,
+            u: &DVector::zeros(model.dofs()),
             surfaces: &surfaces,
             measured_in: &model.nodes,
             pairings: &pairings,
