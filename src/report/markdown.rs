@@ -2,11 +2,12 @@
 
 use super::csv::file_name;
 use super::model::{Block, Cell, Report, Table};
+use base::plain::{controls_a_terminal, is_hidden};
 
 impl Report {
-    /// Writes the report as a page of Markdown, whose figures are the files of
+    /// Writes the report as a page of Markdown of this name, whose figures are the files of
     /// [`figures`](Report::figures) beside it.
-    pub fn markdown(&self) -> String {
+    pub fn markdown(&self, page: &str) -> String {
         let blocks = self.blocks.iter().map(|block| match block {
             Block::Heading { level, text } => format!("{} {}\n", "#".repeat(*level), escaped(text)),
             Block::Line { level: 0, text } => format!("{}\n", escaped(text)),
@@ -17,7 +18,8 @@ impl Report {
                 // A fence longer than any in the lines.
                 let fences = lines.split(|c| c != '`').map(str::len);
                 let fence = "`".repeat(fences.max().unwrap_or(0).max(2) + 1);
-                format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
+                let lines = lines.trim_end().replace(controls_a_terminal, "\u{fffd}");
+                format!("{fence}text\n{lines}\n{fence}\n")
             }
             Block::Table { title, table } => {
                 let title = (!title.is_empty()).then(|| format!("## {}\n\n", escaped(title)));
@@ -26,17 +28,17 @@ impl Report {
                 title.unwrap_or_default() + &table.markdown() + &reasons.collect::<String>()
             }
             Block::Figure { title, .. } => {
-                format!("![{0}]({1})\n\n{0}\n", escaped(title), figure_file(title))
+                format!("![{0}]({1})\n\n{0}\n", escaped(title), figure_file(page, title))
             }
         });
         blocks.collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns each figure, a file of SVG, with the name of its file.
-    pub fn figures(&self) -> Vec<(String, &str)> {
+    /// Returns each figure of a page, a file of SVG, with the name of its file.
+    pub fn figures(&self, page: &str) -> Vec<(String, &str)> {
         let figures = self.blocks.iter().filter_map(|block| {
             let Block::Figure { title, svg } = block else { return None };
-            Some((figure_file(title), svg.as_str()))
+            Some((figure_file(page, title), svg.as_str()))
         });
         figures.collect()
     }
@@ -54,8 +56,14 @@ impl<R> Table<R> {
     }
 }
 
-fn figure_file(title: &str) -> String {
-    file_name(title) + ".svg"
+/// Names the file of a figure, in a folder of its page, so that those of another page stay.
+fn figure_file(page: &str, title: &str) -> String {
+    format!("{}/{}.svg", figures_of(page), file_name(title))
+}
+
+/// Returns the folder of the figures of a page, beside it: a name that is a link as it stands.
+pub fn figures_of(page: &str) -> String {
+    page.replace(|c: char| !c.is_alphanumeric() && !"_-".contains(c), "-") + "-figures"
 }
 
 /// Returns a text that stands in a line of Markdown or a cell of a table as it is.
@@ -64,7 +72,7 @@ fn escaped(text: &str) -> String {
         '&' => "&amp;".into(),
         '<' => "&lt;".into(),
         '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '$' => format!("\\{c}"),
-        c if c.is_control() => " ".into(),
+        c if is_hidden(c) => " ".into(),
         c => c.to_string(),
     };
     text.chars().map(escape).collect()

@@ -5,6 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+#[cfg(unix)]
+use std::time::SystemTime;
 
 /// The bytes of a text that is read whole.
 pub const MOST: u64 = 1 << 28;
@@ -12,9 +14,10 @@ pub const MOST: u64 = 1 << 28;
 /// What this process has opened to read.
 static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// What a file is known by, whatever it is called: its device and its number there.
+/// What a file is known by, whatever it is called: its device, its number there, and when it was made, as the number
+/// of a file that is gone is given to another one.
 #[cfg(unix)]
-type Identity = (u64, u64);
+type Identity = (u64, u64, Option<SystemTime>);
 /// What a file is known by: its path without links.
 #[cfg(not(unix))]
 type Identity = PathBuf;
@@ -22,7 +25,7 @@ type Identity = PathBuf;
 #[cfg(unix)]
 fn identity(path: &Path) -> io::Result<Identity> {
     use std::os::unix::fs::MetadataExt;
-    path.metadata().map(|file| (file.dev(), file.ino()))
+    path.metadata().map(|file| (file.dev(), file.ino(), file.created().ok()))
 }
 
 #[cfg(not(unix))]
@@ -82,20 +85,53 @@ pub fn read_from(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
 /// file, or the file may not be read or is longer.
 pub fn read_in(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
     let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let folder = folder.canonicalize()?;
+    let folder = whole(folder)?;
     let path = match name.components().all(is_plain) {
         true => folder.join(name).canonicalize()?,
         false => PathBuf::new(),
     };
     if !path.starts_with(&folder) {
-        let why = "the name leads out of the folder";
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+        return Err(leads_elsewhere("the name leads out of the folder"));
     }
-    if !path.metadata()?.is_file() {
-        return Err(io::Error::other("it is no ordinary file"));
+    read_ordinary(&path, most)
+}
+
+/// Reads an ordinary file as [`read_in`], but that the name may lead out of the folder by `..`.
+///
+/// # Errors
+/// The name is absolute or leads through a link, or to no ordinary file, or the file may not be read or is longer.
+pub fn read_near(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut path = whole(folder)?;
+    for part in name.components() {
+        match part {
+            Component::Normal(name) => path.push(name),
+            Component::ParentDir => drop(path.pop()),
+            Component::CurDir => (),
+            Component::RootDir | Component::Prefix(_) => {
+                return Err(leads_elsewhere("the name is absolute"));
+            }
+        }
     }
-    read_from(open(&path)?, most)
+    if path.canonicalize()? != path {
+        return Err(leads_elsewhere("the name leads through a link"));
+    }
+    read_ordinary(&path, most)
+}
+
+/// Returns a folder by its path without links; the current one where it is empty.
+fn whole(folder: &Path) -> io::Result<PathBuf> {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }.canonicalize()
+}
+
+fn leads_elsewhere(why: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::PermissionDenied, why)
+}
+
+fn read_ordinary(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    match path.metadata()?.is_file() {
+        true => read_from(open(path)?, most),
+        false => Err(io::Error::other("it is no ordinary file")),
+    }
 }
 
 /// Returns the names in `folder` that end in `.extension`, sorted; a name that is no text is left out.

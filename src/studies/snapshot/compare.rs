@@ -31,6 +31,8 @@ pub enum Kind {
     Unit { was: String, is: String },
     /// The arrays have other lengths or other rows.
     Shape { was: usize, is: usize, at: Option<f64> },
+    /// The bound of an array is none that a snapshot is recorded with: it lets pass what differs.
+    Bound { was: f64, most: f64 },
     /// Numbers differ by more than the limit.
     Numbers(Worst),
 }
@@ -100,12 +102,17 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
         if was.unit != is.unit {
             add(entry, Kind::Unit { was: was.unit.clone(), is: is.unit.clone() });
         }
-        if let Some(kind) = numbers(was, is) {
-            add(entry, kind);
-        }
+        let kinds = [was, is].into_iter().filter_map(bound).chain(numbers(was, is));
+        kinds.for_each(|kind| add(entry, kind));
     }
     found.sort_by_key(|difference| difference.entry.place());
     (found, compared)
+}
+
+/// Returns the bound of an array where it is too large; a tolerance takes its place.
+fn bound(numbers: &Numbers) -> Option<Kind> {
+    let (was, most) = (numbers.bound?, numbers.largest_bound());
+    (numbers.tolerance.is_none() && was > most).then_some(Kind::Bound { was, most })
 }
 
 /// Returns how two arrays differ; None where they do not.
@@ -120,11 +127,11 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     }
     let largest = was.largest();
     let bounds = was.bound.zip(is.bound).map(|(a, b)| a + b);
-    let floor = was.floor.max(is.floor);
+    // A larger one in a file lets nothing pass that the run does not.
+    let floor = was.floor.min(is.floor);
     let limit = |value: f64| match (was.tolerance, bounds) {
         (Some(tolerance), _) => tolerance.limit(value, largest, floor),
-        (None, Some(bounds)) => bounds.max(floor),
-        (None, None) => (WITHOUT_BOUND * largest).max(floor),
+        (None, bounds) => bounds.unwrap_or(WITHOUT_BOUND * largest).max(floor),
     };
     let bounded = was.tolerance.is_some() || bounds.is_some();
     let mut worst: Option<(f64, Worst)> = None;

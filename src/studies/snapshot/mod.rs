@@ -216,6 +216,11 @@ impl Snapshot {
             return Err(json::instead(text, &kind).unwrap_or(error));
         }
         let snapshot: Self = json::read(text, &kind)?;
+        if snapshot.units != snapshot.input.scene.units {
+            let what = "the units are not those of the scene in the snapshot";
+            let fix = "undo the change; in other units a scene is recorded anew";
+            return Err(InputError::new("field units", what, fix));
+        }
         for (name, run) in snapshot.runs.iter() {
             run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
         }

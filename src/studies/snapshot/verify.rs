@@ -117,7 +117,7 @@ pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     let (scene, input) = given_or_own(snapshot, scene)?;
     let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
     let again = runs.par_iter().map(|(name, old)| {
-        let mut run = record(&old.options.request(&scene), Bounds::Computed)?;
+        let mut run = record(&old.options.request(&scene)?, Bounds::Computed)?;
         run.keep_only(old.only.clone());
         for (entry, numbers) in &mut run.numbers {
             numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
@@ -151,7 +151,7 @@ fn verify_run(
     name: &str,
     old: &Run,
 ) -> Result<VerifiedRun> {
-    let request = old.options.request(scene);
+    let request = old.options.request(scene)?;
     let rerun = |bounds: Bounds| -> Result<Run> {
         let mut run = record(&request, bounds)?;
         run.keep_only(old.only.clone());
