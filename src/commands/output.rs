@@ -200,7 +200,7 @@ pub fn write_or_print(
 ) -> Result<()> {
     let Some(path) = file else { return print(&text()?) };
     files::check_file(path, mark)?;
-    Ok(files::write(path, mark, &text()?)?)
+    Ok(files::write(path, &text()?)?)
 }
 
 /// A progress bar on standard error; it shows only in a terminal.

@@ -5,9 +5,14 @@ use super::model::{Block, Cell, Report, Table};
 use base::plain::{controls_a_terminal, is_hidden};
 
 impl Report {
-    /// Writes the report as a page of Markdown of this name, whose figures are the files of
+    /// Returns the report as that of a page of this name, in whose folder its figures are.
+    pub fn of_page(self, page: &str) -> Self {
+        Report { figures: figures_of(page) + "/", ..self }
+    }
+
+    /// Writes the report as a page of Markdown, whose figures are the files of
     /// [`figures`](Report::figures) beside it.
-    pub fn markdown(&self, page: &str) -> String {
+    pub fn markdown(&self) -> String {
         let blocks = self.blocks.iter().map(|block| match block {
             Block::Heading { level, text } => format!("{} {}\n", "#".repeat(*level), escaped(text)),
             Block::Line { level: 0, text } => format!("{}\n", escaped(text)),
@@ -28,19 +33,23 @@ impl Report {
                 title.unwrap_or_default() + &table.markdown() + &reasons.collect::<String>()
             }
             Block::Figure { title, .. } => {
-                format!("![{0}]({1})\n\n{0}\n", escaped(title), figure_file(page, title))
+                format!("![{0}]({1})\n\n{0}\n", escaped(title), self.figure_file(title))
             }
         });
         blocks.collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns each figure of a page, a file of SVG, with the name of its file.
-    pub fn figures(&self, page: &str) -> Vec<(String, &str)> {
+    /// Returns each figure, a file of SVG, with the name of its file.
+    pub fn figures(&self) -> Vec<(String, &str)> {
         let figures = self.blocks.iter().filter_map(|block| {
             let Block::Figure { title, svg } = block else { return None };
-            Some((figure_file(page, title), svg.as_str()))
+            Some((self.figure_file(title), svg.as_str()))
         });
         figures.collect()
+    }
+
+    fn figure_file(&self, title: &str) -> String {
+        format!("{}{}.svg", self.figures, file_name(title))
     }
 }
 
@@ -56,12 +65,8 @@ impl<R> Table<R> {
     }
 }
 
-/// Names the file of a figure, in a folder of its page, so that those of another page stay.
-fn figure_file(page: &str, title: &str) -> String {
-    format!("{}/{}.svg", figures_of(page), file_name(title))
-}
-
-/// Returns the folder of the figures of a page, beside it: a name that is a link as it stands.
+/// Returns the folder of the figures of a page, beside it, so that those of another page stay: a name that is a link as
+/// it stands.
 pub fn figures_of(page: &str) -> String {
     page.replace(|c: char| !c.is_alphanumeric() && !"_-".contains(c), "-") + "-figures"
 }

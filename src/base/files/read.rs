@@ -149,15 +149,13 @@ pub fn names(folder: &Path, extension: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// Returns a text in UTF-8.
+/// Returns what was read as [`utf8`] does.
 ///
 /// # Errors
-/// Says the line where it is not.
+/// Says in which encoding it is, or in which line it is not in UTF-8.
 pub fn text(bytes: Vec<u8>) -> io::Result<String> {
-    String::from_utf8(bytes).map_err(|wrong| {
-        let before = &wrong.as_bytes()[..wrong.utf8_error().valid_up_to()];
-        io::Error::new(io::ErrorKind::InvalidData, not_utf8(before))
-    })
+    let text = utf8(&bytes).map(String::from);
+    text.map_err(|why| io::Error::new(io::ErrorKind::InvalidData, why))
 }
 
 /// Returns a text in UTF-8 without its byte order mark.
@@ -172,13 +170,11 @@ pub fn utf8(text: &[u8]) -> Result<&str, String> {
         }
         _ => {
             let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-            std::str::from_utf8(text).map_err(|wrong| not_utf8(&text[..wrong.valid_up_to()]))
+            std::str::from_utf8(text).map_err(|wrong| {
+                let before = &text[..wrong.valid_up_to()];
+                let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+                format!("line {line} is not in UTF-8")
+            })
         }
     }
-}
-
-/// Says in which line a text is not in UTF-8, of which `before` is the part that is.
-fn not_utf8(before: &[u8]) -> String {
-    let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-    format!("line {line} is not in UTF-8")
 }

@@ -43,6 +43,12 @@ pub const PER_CENT: &str = "% plane-contact\n";
 /// What begins a deck of CalculiX.
 pub const DECK: &str = "** plane-contact\n";
 
+/// The outermost element of a report for JUnit.
+pub const JUNIT: &str = "<testsuites name=\"plane-contact\"";
+
+/// All marks.
+const MARKS: [&str; 6] = [MARKDOWN, HTML, WORKSHEET, PER_CENT, DECK, JUNIT];
+
 /// The temporary files and folders of this process.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -78,14 +84,20 @@ pub fn temporary_folder() -> io::Result<TempDir> {
     Ok(folder)
 }
 
-/// Writes `content`, which has the mark of its kind, to a file that the user named, and creates its folder where it is
-/// missing.
+/// Writes `content` to a file that the user named, and creates its folder where it is missing.
 ///
 /// # Errors
-/// Those of [`check_file`], or the file cannot be written; an existing file keeps its content.
-pub fn write(path: &Path, mark: &str, content: &str) -> Result<()> {
-    check_file(path, mark)?;
-    let written = staged(path, content.as_bytes()).and_then(|file| put(vec![file]));
+/// Those of [`check_file`] for the mark of the content, but a file without it may have the same content; or the file
+/// cannot be written. An existing file keeps its content.
+pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
+    let content = content.as_ref();
+    let head = &content[..content.len().min(HEAD as usize)];
+    let mark = MARKS.iter().find(|mark| is_marked(head, mark));
+    check_new(path)?;
+    if !is_same(path, content).unwrap_or(false) {
+        check_file(path, mark.unwrap_or(&""))?;
+    }
+    let written = staged(path, content).and_then(|file| put(vec![file]));
     written.map_err(|why| unwritable(path, &why))
 }
 
@@ -272,8 +284,13 @@ fn marks_a_folder(path: &Path) -> io::Result<bool> {
 /// Returns whether a file has a mark in its first bytes, or nothing in it.
 fn has_mark(path: &Path, mark: &str) -> io::Result<bool> {
     let head = head(path)?;
-    let is_marked = head.windows(mark.len()).any(|part| part == mark.as_bytes());
-    Ok(head.is_empty() || is_marked && !is_json(&head))
+    Ok(head.is_empty() || is_marked(&head, mark))
+}
+
+/// Returns whether a text has a mark, which is none where it is empty; no document of JSON has one.
+fn is_marked(head: &[u8], mark: &str) -> bool {
+    let has = || head.windows(mark.len()).any(|part| part == mark.as_bytes());
+    !mark.is_empty() && !is_json(head) && has()
 }
 
 fn in_the_way(name: &str, names: &[&str]) -> io::Error {

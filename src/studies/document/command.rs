@@ -130,12 +130,12 @@ fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) ->
         charts,
     };
     match args.format {
-        Format::Html => files::write(out, HTML, &page::html(&contents))?,
+        Format::Html => files::write(out, &page::html(&contents))?,
         Format::Markdown => {
             let (folder, name, stem) = place_of(out)?;
-            let report = document(&contents);
-            let page = MARKDOWN.to_string() + &report.markdown(stem);
-            let mut written = report.figures(stem);
+            let report = document(&contents).of_page(stem);
+            let page = MARKDOWN.to_string() + &report.markdown();
+            let mut written = report.figures();
             written.push((name.into(), &page));
             files::write_all(folder, &written)?;
         }

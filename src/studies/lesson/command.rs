@@ -55,7 +55,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
     files::check_file(&out, HTML)?;
-    files::write(&out, HTML, &lesson(args)?)?;
+    files::write(&out, &lesson(args)?)?;
     report_written(&out);
     Ok(())
 }

@@ -175,9 +175,13 @@ impl Snapshot {
         let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, bounds)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
-        let (version, units) = (VERSION.into(), scene.units.clone());
-        let input = Input::from_scene(scene)?;
-        Ok(Snapshot { format: FORMAT, version, units, scene_file: None, input, runs })
+        Ok(Snapshot::of_runs(Input::from_scene(scene)?, None, runs))
+    }
+
+    /// Returns the snapshot of runs that this program made of an input, read from `scene_file`.
+    fn of_runs(input: Input, scene_file: Option<String>, runs: IndexMap<String, Run>) -> Self {
+        let (version, units) = (VERSION.into(), input.scene.units.clone());
+        Snapshot { format: FORMAT, version, units, scene_file, input, runs }
     }
 
     /// Returns the scene that was recorded.

@@ -175,13 +175,8 @@ impl Numbers {
     fn new(unit: &str, values: Values, Error { bound, floor }: Error) -> Self {
         let floor = Some(floor).filter(|error| error.is_finite()).unwrap_or_default();
         let numbers = Numbers { unit: unit.into(), bound: None, floor, tolerance: None, values };
-        let bound = bound.filter(|bound| *bound <= numbers.largest_bound());
-        Numbers { bound, ..numbers }
-    }
-
-    /// Returns the largest bound with which the numbers are recorded.
-    pub fn largest_bound(&self) -> f64 {
-        (WITHOUT_BOUND * self.largest()).max(self.floor)
+        let most = (WITHOUT_BOUND * numbers.largest()).max(floor);
+        Numbers { bound: bound.filter(|bound| *bound <= most), ..numbers }
     }
 
     /// Returns whether what rounding does at the least is a thousandth of the numbers or more.

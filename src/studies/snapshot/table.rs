@@ -35,11 +35,16 @@ impl VerifiedFile {
 }
 
 /// Returns the text of a snapshot's file.
+pub fn file(snapshot: &Snapshot) -> String {
+    pretty(snapshot)
+}
+
+/// Returns the text of a snapshot's file, which can be read again.
 ///
 /// # Errors
-/// It is larger than what is read.
-pub fn file(snapshot: &Snapshot) -> Result<String, InputError> {
-    let text = pretty(snapshot);
+/// It is too large.
+pub fn readable(snapshot: &Snapshot) -> Result<String, InputError> {
+    let text = file(snapshot);
     let checked = files::json::check_size(&text, "the snapshot");
     checked.map_err(|error| InputError { fix: "record less by --only u".into(), ..error })?;
     Ok(text)
@@ -128,9 +133,6 @@ fn outcome(verified: &Verified) -> String {
 fn run_words(run: &VerifiedRun) -> String {
     words::first(run) + &words::summary(&run.differences)
 }
-
-/// What tells that a report for JUnit is from this program.
-pub const JUNIT: &str = "<testsuites name=\"plane-contact\">";
 
 /// Returns what verifying found as JUnit XML: a suite a file, a case a run.
 pub fn junit(checked: &[VerifiedFile]) -> String {

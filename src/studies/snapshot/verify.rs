@@ -7,7 +7,7 @@ use super::compare::{Difference, compare};
 use super::first::{First, first};
 use super::record::{Bounds, record};
 use super::{Entry, Quantity};
-use super::{FORMAT, Input, Numbers, Run, Snapshot, VERSION};
+use super::{Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
 use engine::Request;
 use engine::error::Result;
@@ -125,15 +125,7 @@ pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
         Ok(((*name).clone(), run))
     });
     let runs = again.collect::<Result<Vec<_>>>()?.into_iter().collect();
-    let (version, units) = (VERSION.into(), scene.units.clone());
-    Ok(Snapshot {
-        format: FORMAT,
-        version,
-        units,
-        scene_file: snapshot.scene_file.clone(),
-        input,
-        runs,
-    })
+    Ok(Snapshot::of_runs(input, snapshot.scene_file.clone(), runs))
 }
 
 /// Returns `scene`, or that of the snapshot, with what a snapshot of it has.

@@ -75,7 +75,7 @@ fn difference(difference: &Difference) -> String {
         }
         Kind::Bound { was, most } => {
             format!(
-                "bound of {entry}: {was:.3e} lets pass what differs; none above {most:.3e} is recorded"
+                "bound of {entry}: {was:.3e} lets everything pass; no run has one above {most:.3e}"
             )
         }
         Kind::Fact { was, is } => format!("{entry}: {}", fact(was, is)),

@@ -51,7 +51,7 @@ const CASES: &[Case] = &[
                   scene export SCENE --variant tied --out d.inp\n\
                   mathcad export SCENE --out w.xmcd\n\
                   mathcad export SCENE --to octave --out w.m\n\
-                  listing run km SCENE --matrix-market k.mtx\n\
+                  listing run Km SCENE --matrix-market k.mtx\n\
                   end\n\
                   for d in a b c; do diff -r $d kept/$d || echo CHANGED; done",
         status: 0,
@@ -62,9 +62,9 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "plane-contact scene copy fig1 --out my >t; cd my; plane-contact snapshot record scene.json --variant tied \
-                  --out a.json >t; cp a.json b.json; mkdir ../kept; cp * ../kept; \
-                  while read -r c; do for f in scene.json a.json fig1.msh; do plane-contact $c $f 2>e && echo REPLACED $c; \
-                  grep -c 'does not tell that it is from this program' e; done; done <<end | sort | uniq -c\n\
+                  --out a.json >t; cp a.json b.json; echo '$MeshFormat' >fig1.msh; mkdir ../kept; cp * ../kept; \
+                  while read -r c; do for f in scene.json a.json fig1.msh; do plane-contact $c $f >../out 2>../e && echo REPLACED $c; \
+                  grep -c 'does not tell that it is from this program' ../e; done; done <<end | sort | uniq -c\n\
                   snapshot verify b.json --report\n\
                   snapshot verify b.json --junit\n\
                   report two-blocks --no-audit --out\n\
@@ -73,7 +73,7 @@ const CASES: &[Case] = &[
                   scene export two-blocks --out\n\
                   mathcad export two-blocks --out\n\
                   mathcad export two-blocks --to octave --out\n\
-                  listing run km two-blocks --matrix-market\n\
+                  listing run Km two-blocks --matrix-market\n\
                   end\n\
                   plane-contact snapshot verify --report *.json; diff -r . ../kept && echo kept",
         status: 0,

@@ -63,7 +63,7 @@ fn record(path: &Path, text: io::Result<Vec<u8>>, given_file: Option<&SceneFile>
     if let Some(scene) = given_file {
         new.scene_file = scene.path().and_then(|scene| from_folder_of(path, scene));
     }
-    let text = report::file(&new)?;
+    let text = report::readable(&new)?;
     files::rewrite(path, &was, &text)?;
     let done = match text.as_bytes() == was {
         true => format!("Nothing changed: {file} stays as it was"),

@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         snapshot.scene_file = scene_file.path().and_then(|scene| from_folder_of(&file, scene));
-        write_new(&file, &report::file(&snapshot)?)?;
+        write_new(&file, &report::readable(&snapshot)?)?;
         print_report(report::recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
     Ok(())

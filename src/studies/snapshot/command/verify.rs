@@ -7,7 +7,7 @@ use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{self, Snapshot};
 use base::error::InputError;
 use base::exit::ExitStatus;
-use base::files::{self, MARKDOWN, kind_of};
+use base::files::{self, JUNIT, MARKDOWN, kind_of};
 use base::plain::shown;
 use engine::error::Result;
 use problem::scene::{Scene, SceneFile};
@@ -58,7 +58,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     }
     let snapshots = snapshots.into_iter().map(|(file, text)| (&**file, snapshot_of(file, text)));
     let snapshots = snapshots.collect();
-    args.junit.as_deref().map_or(Ok(()), |file| files::check_file(file, report::JUNIT))?;
+    args.junit.as_deref().map_or(Ok(()), |file| files::check_file(file, JUNIT))?;
     args.report.as_deref().map_or(Ok(()), |file| files::check_file(file, MARKDOWN))?;
     if let (Some(junit), Some(report)) = (&args.junit, &args.report)
         && files::is_same_place(junit, report)
@@ -68,11 +68,11 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     }
     let checked = check(snapshots, scene.as_ref());
     if let Some(file) = &args.junit {
-        files::write(file, report::JUNIT, &report::junit(&checked))?;
+        files::write(file, &report::junit(&checked))?;
     }
     if let Some(file) = &args.report {
-        let page = MARKDOWN.to_string() + &report::report(&checked, true).markdown("");
-        files::write(file, MARKDOWN, &page)?;
+        let page = MARKDOWN.to_string() + &report::report(&checked, true).markdown();
+        files::write(file, &page)?;
     }
     report(&checked, args.json)
 }
