@@ -155,9 +155,9 @@ pub fn corrected(export: &CorrectedExport) -> String {
 /// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
 /// begins with a function is no script.
 fn head(title: &str, about: &str) -> String {
-    let title = on_a_line(title);
+    let title: String = on_a_line(title).chars().take(100).collect();
     format!(
-        "{PER_CENT}% {title}\n% {about}\n% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
+        "% {title}\n% {about}\n{PER_CENT}% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
     )
 }
 
