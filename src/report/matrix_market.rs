@@ -13,7 +13,7 @@ pub fn matrix_market(matrix: &SparseSquare, comment: &str) -> String {
     let lines = entries.iter().map(|(i, j, value)| format!("{} {} {value:.16e}\n", i + 1, j + 1));
     let comment = on_a_line(comment);
     format!(
-        "%%MatrixMarket matrix coordinate real general\n{PER_CENT}% {comment}\n{n} {n} {}\n{}",
+        "%%MatrixMarket matrix coordinate real general\n{PER_CENT}{comment}\n{n} {n} {}\n{}",
         entries.len(),
         lines.collect::<String>()
     )

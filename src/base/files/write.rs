@@ -37,8 +37,8 @@ pub const HTML: &str = "<meta name=\"generator\" content=\"plane-contact\">";
 /// What tells that a worksheet of Mathcad is; one that Mathcad saved names Mathcad there.
 pub const WORKSHEET: &str = "<generator>plane-contact</generator>";
 
-/// What begins a text whose comments begin with a per cent sign.
-pub const PER_CENT: &str = "% plane-contact\n";
+/// What begins a line of a text whose comments begin with a per cent sign.
+pub const PER_CENT: &str = "% Written by plane-contact: ";
 
 /// What begins a deck of CalculiX.
 pub const DECK: &str = "** plane-contact\n";

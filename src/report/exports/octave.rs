@@ -157,7 +157,7 @@ pub fn corrected(export: &CorrectedExport) -> String {
 fn head(title: &str, about: &str) -> String {
     let title: String = on_a_line(title).chars().take(100).collect();
     format!(
-        "% {title}\n% {about}\n{PER_CENT}% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
+        "% {title}\n% {about}\n{PER_CENT}run octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
     )
 }
 

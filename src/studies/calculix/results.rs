@@ -3,9 +3,6 @@
 use super::fields::Fields;
 use base::error::{InputError, Result};
 
-/// The integration points of a triangle.
-const POINTS: usize = 2;
-
 #[derive(Clone, Copy)]
 enum Block {
     /// Node, u_x, u_y, u_z.
@@ -34,18 +31,15 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
     for line in text.lines().filter(|line| !line.trim().is_empty()) {
         let words = line.trim_start();
         if words.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            // Each block stands by itself: what an earlier one had is no part of it.
-            let time = words.split_whitespace().last().and_then(float);
+            let is_last = words.split_whitespace().last().and_then(float) == Some(END);
             block = match words {
-                _ if time != Some(END) => Block::Other,
-                words if words.starts_with("displacements") => {
+                words if is_last && words.starts_with("displacements") => {
+                    // An increment begins: what an earlier one had is no part of it.
                     u.fill(None);
+                    points.iter_mut().for_each(Vec::clear);
                     Block::Displacements
                 }
-                words if words.starts_with("stresses") => {
-                    points.iter_mut().for_each(Vec::clear);
-                    Block::Stresses
-                }
+                words if is_last && words.starts_with("stresses") => Block::Stresses,
                 _ => Block::Other,
             };
             continue;
@@ -58,7 +52,7 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
             Block::Stresses => {
                 let ([triangle, point], stress) = row(line)?;
                 let points = entry(&mut points, triangle, line)?;
-                match point == points.len() + 1 && point <= POINTS {
+                match point == points.len() + 1 {
                     true => points.push(stress),
                     false => return Err(not_understood(line)),
                 }
@@ -67,11 +61,14 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
         }
     }
     let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
+    // All triangles have as many points, of which the last one may have lost some.
+    let most = points.iter().map(Vec::len).max().unwrap_or_default();
     let stresses = points.iter().enumerate();
     let stresses = stresses.map(|(k, points)| {
         let sum = |c: usize| points.iter().map(|point| point[c]).sum::<f64>();
         let mean = std::array::from_fn(|c| sum(c) / points.len() as f64);
-        (points.len() == POINTS).then_some(mean).ok_or_else(|| missing("element", k + 1))
+        let is_whole = points.len() == most && most > 0;
+        is_whole.then_some(mean).ok_or_else(|| missing("element", k + 1))
     });
     Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
 }

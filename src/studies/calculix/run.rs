@@ -83,12 +83,13 @@ fn version(program: &str) -> Result<String> {
 /// what it printed; one that prints without end is killed.
 fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
     let fault = |how: &str, why: io::Error| {
-        let fix = match why.kind() {
-            io::ErrorKind::NotFound | io::ErrorKind::PermissionDenied => {
+        let fix = match why.raw_os_error() {
+            // Processes, memory or open files.
+            Some(11 | 12 | 23 | 24) => "see what the system runs short of: ulimit -a",
+            Some(_) | None => {
                 "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
                  its program"
             }
-            _ => "see what the system runs short of (ulimit -a, df)",
         };
         InputError::new("ccx", format!("{program} {how}: {why}"), fix)
     };
