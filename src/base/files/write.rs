@@ -276,9 +276,9 @@ fn head(path: &Path) -> io::Result<Vec<u8>> {
 /// Returns whether this program wrote the file, which marks a folder: a page, or a document that can be made again,
 /// as a snapshot cannot.
 fn marks_a_folder(path: &Path) -> io::Result<bool> {
-    let is_document =
-        is_from_program(&head(path)?) && kind_of(&fs::read(path)?) != Some("a snapshot");
-    Ok(is_document || has_mark(path, MARKDOWN)?)
+    let head = head(path)?;
+    let is_document = || Ok(kind_of(&fs::read(path)?) != Some("a snapshot"));
+    if is_from_program(&head) { is_document() } else { Ok(is_marked(&head, MARKDOWN)) }
 }
 
 /// Returns whether a file has a mark in its first bytes, or nothing in it.

@@ -80,6 +80,15 @@ const CASES: &[Case] = &[
         contains: &["27 1\n", "kept"],
         lacks: &["REPLACED"],
     },
+    // An empty file marks no folder.
+    Case {
+        input: "",
+        command: "mkdir o; >o/result.json; echo mine >o/fields.vtu; \
+                  plane-contact solve fig1 --no-pictures --out o || cat o/fields.vtu",
+        status: 0,
+        contains: &["fields.vtu is in the way", "mine"],
+        lacks: &["Written"],
+    },
     // A snapshot marks no folder.
     Case {
         input: "",
