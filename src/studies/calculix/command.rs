@@ -110,15 +110,20 @@ fn beside_calculix(args: &Args) -> Result<()> {
         return Err(InputError::new("--rtol", what, "leave it out").into());
     }
     let ccx = args.ccx.as_deref().unwrap_or("ccx");
-    if let Some(out) = &args.out {
-        files::check_folder(out, &["nodes.csv", "elements.csv", "compare.json"])?;
-    }
     calculix::check(ccx)?;
     let solution = args.deck.solve(&args.scene)?;
     let request = solution.request.clone();
     let (solution, certainty) = certain(solution);
     let parts = args.deck.parts(&solution)?;
     let (scene, model) = (&solution.request.scene, &solution.model);
+    let mut asked = vec![format!("calculix-{}", args.deck.contact)];
+    asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
+    let start = format!("{}-{}", scene.name, request.variant);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let is_written = !args.tables.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, &report::FILES)?;
+    }
     let ran = waiting("running ccx", || calculix::run(ccx, scene, model, &parts))?;
     let compared = Compared {
         scene,
@@ -130,11 +135,7 @@ fn beside_calculix(args: &Args) -> Result<()> {
         version: &ran.version,
         comparison: &Comparison::new(model, Fields::from_solution(&solution), ran.fields),
     };
-    let mut asked = vec![format!("calculix-{}", args.deck.contact)];
-    asked.extend(args.deck.penalty.map(|penalty| format!("penalty-{penalty:e}")));
-    let start = format!("{}-{}", scene.name, request.variant);
-    let out = folder(&args.out, folder_name(start, &request, &asked));
-    if args.tables.json && args.out.is_none() {
+    if !is_written {
         return print(&report::json(&compared));
     }
     let json = report::write(&out, &compared)?;

@@ -2,6 +2,8 @@
 
 use super::problem::{Contact, Equation, Pair, Problem};
 use base::error::{InputError, Result};
+use base::files::DECK;
+use base::plain::on_a_line;
 use engine::support_constraints;
 use problem::element::Plane;
 use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
@@ -29,16 +31,15 @@ pub fn deck(problem: &Problem) -> Result<String> {
         Contact::Pair(_) if !model.has_contact() => equation_cards(model, &own),
         Contact::Pair(pair) => equation_cards(model, &own) + &pair_cards(model, pair)?,
     };
-    // Comment lines: the scene's title, the plane problem, and how the bodies touch.
-    let words: Vec<&str> = problem.scene.title.split_whitespace().collect();
-    let title: String = words.join(" ").chars().take(100).collect();
+    // Comment lines: what wrote it, the scene's title, the plane problem, and how the bodies touch.
+    let title: String = on_a_line(&problem.scene.title).chars().take(100).collect();
     let touch = match problem.contact {
         Contact::Equations(equations, _) => format!("{} equations", equations.len()),
         Contact::Pair(Pair { penalty, friction }) => {
             format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
         }
     };
-    let mut text = format!("** {title}\n** plane {}; contact: {touch}\n", model.plane);
+    let mut text = format!("{DECK}** {title}\n** plane {}; contact: {touch}\n", model.plane);
     text += "*NODE, NSET=NODES\n";
     for node in model.node_ids() {
         let [x, y] = model.coordinates(node).map(field);

@@ -19,8 +19,17 @@ use report::model::Table;
 use report::picture::{self, Drawing, Field};
 use report::quantities::{MeasuredValue, measured};
 
-/// Writes `compare.json`, `nodes.csv`, `elements.csv` and three pictures to `folder`; gives back
-/// the first one's content.
+/// The files of a comparison; the last marks their folder.
+pub const FILES: [&str; 6] = [
+    "nodes.csv",
+    "elements.csv",
+    "von_mises_stress.svg",
+    "von_mises_stress_calculix.svg",
+    "difference.svg",
+    "compare.json",
+];
+
+/// Writes the files to `folder`; gives back the content of `compare.json`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -49,23 +58,16 @@ pub fn write(folder: &Path, compared: &Compared) -> Result<String> {
     let stress = &scene.units.stress;
     let (nodes, elements) = (nodes(comparison), elements(comparison));
     let json = document(compared, &nodes, &elements);
-    write_all(
-        folder,
-        &[
-            ("nodes.csv", &nodes_csv(&nodes)),
-            ("elements.csv", &elements_csv(&elements)),
-            (
-                "von_mises_stress.svg",
-                &field("von Mises stress, this program", stress, &von_mises[0], &ours.u),
-            ),
-            (
-                "von_mises_stress_calculix.svg",
-                &field("von Mises stress, CalculiX", stress, &von_mises[1], &theirs.u),
-            ),
-            ("difference.svg", &picture::field(&drawing, &difference)),
-            ("compare.json", &json),
-        ],
-    )?;
+    let contents = [
+        nodes_csv(&nodes),
+        elements_csv(&elements),
+        field("von Mises stress, this program", stress, &von_mises[0], &ours.u),
+        field("von Mises stress, CalculiX", stress, &von_mises[1], &theirs.u),
+        picture::field(&drawing, &difference),
+        json.clone(),
+    ];
+    let files: Vec<_> = FILES.into_iter().zip(contents).collect();
+    write_all(folder, &files)?;
     Ok(json)
 }
 

@@ -12,23 +12,34 @@ enum Block {
     Other,
 }
 
-/// Reads the displacements of `nodes` nodes and the stresses of `triangles` triangles; of several
-/// increments the last.
+/// The time at the end of a deck's step, as it is printed.
+const END: f64 = 1.0;
+
+/// Reads the displacements of `nodes` nodes and the stresses of `triangles` triangles at the end of the step.
 ///
 /// A plane triangle has two integration points across the thickness: its stress is their mean.
 ///
 /// # Errors
-/// A node or a triangle is missing; something is no number.
+/// A node or a triangle is missing, as where the file is cut; something is no number.
 pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
+    if !text.ends_with('\n') {
+        return Err(cut("its last line has no end".into()));
+    }
     let mut u = vec![None; nodes];
     let mut points: Vec<Vec<[f64; 6]>> = vec![Vec::new(); triangles];
     let mut block = Block::Other;
     for line in text.lines().filter(|line| !line.trim().is_empty()) {
         let words = line.trim_start();
         if words.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            let is_last = words.split_whitespace().last().and_then(float) == Some(END);
             block = match words {
-                words if words.starts_with("displacements") => Block::Displacements,
-                words if words.starts_with("stresses") => Block::Stresses,
+                words if is_last && words.starts_with("displacements") => {
+                    // An increment begins: what an earlier one had is no part of it.
+                    u.fill(None);
+                    points.iter_mut().for_each(Vec::clear);
+                    Block::Displacements
+                }
+                words if is_last && words.starts_with("stresses") => Block::Stresses,
                 _ => Block::Other,
             };
             continue;
@@ -41,21 +52,23 @@ pub fn parse(text: &str, nodes: usize, triangles: usize) -> Result<Fields> {
             Block::Stresses => {
                 let ([triangle, point], stress) = row(line)?;
                 let points = entry(&mut points, triangle, line)?;
-                if point == 1 {
-                    // A new increment begins.
-                    points.clear();
+                match point == points.len() + 1 {
+                    true => points.push(stress),
+                    false => return Err(not_understood(line)),
                 }
-                points.push(stress);
             }
             Block::Other => {}
         }
     }
     let u = u.into_iter().enumerate().map(|(k, u)| u.ok_or_else(|| missing("node", k + 1)));
+    // All triangles have as many points, of which the last one may have lost some.
+    let most = points.iter().map(Vec::len).max().unwrap_or_default();
     let stresses = points.iter().enumerate();
     let stresses = stresses.map(|(k, points)| {
         let sum = |c: usize| points.iter().map(|point| point[c]).sum::<f64>();
         let mean = std::array::from_fn(|c| sum(c) / points.len() as f64);
-        (!points.is_empty()).then_some(mean).ok_or_else(|| missing("element", k + 1))
+        let is_whole = points.len() == most && most > 0;
+        is_whole.then_some(mean).ok_or_else(|| missing("element", k + 1))
     });
     Ok(Fields { u: u.collect::<Result<_, _>>()?, sigma: stresses.collect::<Result<_, _>>()? })
 }
@@ -96,6 +109,11 @@ fn not_understood(line: &str) -> InputError {
 }
 
 fn missing(what: &str, number: usize) -> InputError {
-    let what = format!("{what} {number} is not in them");
-    InputError::new("the results of ccx", what, "export the deck and see what ccx says of it")
+    cut(format!("{what} {number} is not in them at time {END}, the end of the step"))
+}
+
+fn cut(what: String) -> InputError {
+    let fix =
+        "see whether the disk of TMPDIR is full; else export the deck and see what ccx says of it";
+    InputError::new("the results of ccx", what, fix)
 }

@@ -83,8 +83,14 @@ fn version(program: &str) -> Result<String> {
 /// what it printed; one that prints without end is killed.
 fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
     let fault = |how: &str, why: io::Error| {
-        let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
-                   its program";
+        let fix = match why.raw_os_error() {
+            // Processes, memory or open files.
+            Some(11 | 12 | 23 | 24) => "see what the system runs short of: ulimit -a",
+            Some(_) | None => {
+                "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
+                 its program"
+            }
+        };
         InputError::new("ccx", format!("{program} {how}: {why}"), fix)
     };
     let start = || {

@@ -12,7 +12,7 @@ use report::model::{Cell, Report, Table};
 use report::numbers::{coordinates, quantity, short, with_unit};
 use report::tables::certainty;
 
-pub use super::files::{Document, json, write};
+pub use super::files::{Document, FILES, json, write};
 
 /// How many nodes are listed, those with the largest differences.
 pub(super) const WORST: usize = 10;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::calculix::{Problem, deck};
-use base::files;
+use base::files::DECK;
 use engine::error::Result;
 
 use crate::calculix::arguments::{Code, DeckArgs};
@@ -37,11 +37,11 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let Code::Calculix = args.to;
-    args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let solution = args.deck.solve(&args.scene)?;
-    let parts = args.deck.parts(&solution)?;
-    let last = parts.last().expect("a run has an iteration");
-    let (scene, model) = (&solution.request.scene, &solution.model);
-    let text = deck(&Problem { scene, model, contact: &last.contact })?;
-    write_or_print(&args.out, &text)
+    write_or_print(&args.out, DECK, || {
+        let solution = args.deck.solve(&args.scene)?;
+        let parts = args.deck.parts(&solution)?;
+        let last = parts.last().expect("a run has an iteration");
+        let (scene, model) = (&solution.request.scene, &solution.model);
+        Ok(deck(&Problem { scene, model, contact: &last.contact })?)
+    })
 }
