@@ -137,7 +137,7 @@ impl fmt::Display for Cause {
     if .pivot.is_nan() {
         "no pivot: the matrix is not positive definite".into()
     } else {
-        format!("pivot {pivot:e}")
+        format!("pivot {pivot:.1e}")
     },
     match .in_contact {
         0 => "no node is".into(),

@@ -43,10 +43,15 @@ static VARIANTS: LazyLock<[Solution; 6]> = LazyLock::new(|| {
     runs.map(|request| solve(&request, &mut |_| ()).expect("strand has a solution"))
 });
 
-/// Asserts that `golden/tables/<name>.md` has a title, the command that prints its numbers, and a table.
+/// Asserts that `golden/tables/<name>.md` has a title, where its numbers come from (a command that prints them, or this
+/// test), and a table.
 #[track_caller]
-fn assert_table(name: &str, title: &str, command: &str, table: &str) {
-    let text = format!("**{title}** Printed by `plane-contact {command}`.\n\n{table}");
+fn assert_table(name: &str, title: &str, source: &str, table: &str) {
+    let source = match source {
+        "" => format!("Made by the test `{name}`"),
+        command => format!("Printed by `plane-contact {command}`"),
+    };
+    let text = format!("**{title}** {source}.\n\n{table}");
     let file = format!("golden/tables/{name}.md");
     assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &text);
 }
@@ -276,7 +281,7 @@ fn claims() {
     assert_table(
         "claims",
         &title,
-        "audit",
+        "audit --range",
         &studies::audit::claims::table::verdicts(&JUDGED).markdown(),
     );
     assert_table(
@@ -362,7 +367,7 @@ fn calculix() {
 
 /// What the scenes of `scene mesh` are made of.
 #[test]
-fn generated_scenes() {
+fn scenes() {
     let rows = Kind::all().into_iter().flat_map(|kind| {
         let builder = kind.generate().expect("the defaults are sound");
         let scene = builder.build().expect("the defaults are sound");
@@ -373,7 +378,7 @@ fn generated_scenes() {
         scene.model.bodies.iter().map(row).collect::<Vec<_>>()
     });
     let head = "scene | body | E | nu | width x height | distances from the origin | thickness | load, x and y";
-    assert_table("scenes", "Generated scenes.", "scene mesh KIND", &markdown(head, rows));
+    assert_table("scenes", "What the scenes of `scene mesh` are made of.", "", &markdown(head, rows));
 }
 
 /// Material, size and distances from the origin of a body, and its thickness.
@@ -500,7 +505,7 @@ fn limit() {
                  differences from mesh to mesh fall by one factor; where they do not, the own mesh is compared \
                  with the finest. Peak and half width are those of Hertz's parabola for p² through the \
                  pressures of nodes.";
-    assert_table("limit", title, "scene mesh strand --size S", &table);
+    assert_table("limit", title, "", &table);
 }
 
 /// Where values on meshes of halved edges lead to; nothing where their differences change their sign or do not

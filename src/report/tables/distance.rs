@@ -17,6 +17,8 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> Report {
     for (what, other) in others {
         report = match other {
             None => report,
+            // The run itself.
+            Some(Ok(measured)) if measured.reference.u == solution.u => report,
             Some(Err(why)) => report.heading(format!("No {what} to compare with: {why}")),
             Some(Ok(measured)) => report.then(distance_from(solution, what, measured, error)),
         };
@@ -45,7 +47,7 @@ fn distance_from(
         .column(quantity("largest von Mises stress", &units.stress), |body| {
             Cell::of_digits(body.von_mises_stress, digits)
         })
-        .column("there", |body| Cell::of_digits(body.reference, digits))
+        .column("reference", |body| Cell::of_digits(body.reference, digits))
         .column("difference", |body| Cell::percent(body.relative).because(reason("relative")));
     let relative = match distance.displacement_relative {
         relative if relative.is_finite() => format!(" = {}", percent(relative)),

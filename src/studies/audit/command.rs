@@ -4,14 +4,12 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use crate::audit::claims::{CLAIMS, Claim, by_reading};
-use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Compared};
 use crate::audit::range::{Range, range};
-use crate::audit::{Audit, Case, audit, screen, steps};
-use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
-use ::report::folder::FolderOptions;
-use ::report::{folder, json, pressure};
+use crate::audit::words::{self, Depth};
+use crate::audit::{Audit, Case, audit, steps, tables};
+use crate::audit::{claims::table as claims, prices::table as price_report};
 use base::error::InputError;
 use base::files;
 use base::suggestion::did_you_mean;
@@ -20,6 +18,8 @@ use engine::{Assessment, Hertz, Solution};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
+use report::folder::FolderOptions;
+use report::{folder, json, pressure};
 
 use commands::{
     ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
@@ -28,16 +28,15 @@ use commands::{
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its statements,
-what each fault costs, what was assumed. --full prints the whole: five answers, each with its number and
-the command that prints it; the claims of the paper in full; the readings (what each other value
-changes), the findings (present, not triggered here, contradicted; with a number), and the variants side
-by side. --finding explains one on its smallest
-scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
-threshold, value, and the verdict under each other reading. --reading audits under another reading
-than the default, to see whether it rescues a claim. All figures are repeated on inputs that
-mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
-takes 150 to 300 times as long as solve.
+One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its
+claims, what each fault costs, what was assumed. --full prints the whole: what the verdict
+leaves out, the claims of the paper in full, the readings (what each other value changes), the
+findings (present, not triggered here, contradicted; with a number), and the variants side by side.
+--finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one:
+the paper's sentence, what is judged, threshold, value, and the verdict under each other reading.
+--reading audits under another reading than the default, to see whether it rescues a claim. All
+figures are repeated on inputs that mean the same; one that moves by more than a millionth is
+'decided by rounding', and left out. The whole takes 150 to 300 times as long as solve.
 
 A variant that runs to its end and passes no load on, as printed does, is an audit result, no
 failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
@@ -81,7 +80,7 @@ pub struct Args {
     /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
     #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
-    /// Print everything: conclusion, claims, prices, readings, findings and variants.
+    /// Print everything: verdict, claims, prices, readings, findings and variants.
     #[arg(long, conflicts_with_all = ["finding", "claim", "prices"])]
     full: bool,
     #[command(flatten)]
@@ -197,14 +196,14 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
     let json =
-        || json::line(Some(&case.scene), &report::FindingRow { finding, measured: &measured });
+        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured });
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
         let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
         files::write_all(out, &[(svg, picture), (document, json())])?;
     }
     print_either(args.tables.json, json, || {
-        report::explanation(finding, &measured, &case.scene, &reading)
+        tables::explanation(finding, &measured, &case.scene, &reading)
     })
 }
 
@@ -223,10 +222,9 @@ fn whole(args: &Args) -> Result<()> {
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
     let found = audit(&case, &places, is_whole, &watch);
     bar.finish();
-    let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
     if is_whole {
-        let json = report::json(&found, &conclusion, &case.scene);
-        let report = report::report(&found, &conclusion, &case.scene);
+        let json = tables::json(&found);
+        let report = words::report(&found, Depth::Full);
         if let Some(out) = &args.out {
             write(out, &case, &found, &report.text(usize::MAX), &json)?;
         }
@@ -238,7 +236,7 @@ fn whole(args: &Args) -> Result<()> {
         }
         args.tables.write(&report)?;
     }
-    print(&screen::report(&found, &conclusion, &case.scene).text(width().min(screen::WIDTH)))
+    print(&words::report(&found, Depth::Screen).text(width().min(words::WIDTH)))
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

@@ -4,7 +4,6 @@
 pub mod table;
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -63,12 +62,6 @@ pub struct Price {
     /// What came of the run.
     #[serde(flatten)]
     pub outcome: Outcome,
-}
-
-impl Display for Price {
-    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: {}", self.name.as_deref().unwrap_or("-"), self.fault)
-    }
 }
 
 /// What came of a run of the corrected algorithm.

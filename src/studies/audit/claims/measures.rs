@@ -82,8 +82,7 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
 pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
     let sticking = case.sticking()?;
     let needed = case.friction_needed().ok_or("no node is in contact")?;
-    let detail = "the coefficient of friction is at least the value";
-    let measured = Evidence::new(Verdict::TrueOnlyIf, beyond_noise(needed), detail);
+    let measured = Evidence::new(Verdict::TrueOnlyIf, beyond_noise(needed), "friction");
     Ok(measured.on([("unilateral, sticking", sticking)]))
 }
 
