@@ -62,7 +62,9 @@ impl Error {
             Error::Equilibrium(NoEquilibrium { cause, what }) => {
                 NoEquilibrium { cause, what: what + &added }.into()
             }
-            Error::Singular(why) => SingularMatrix { slits: cause.map(str::to_owned), ..why }.into(),
+            Error::Singular(why) => {
+                SingularMatrix { slits: cause.map(str::to_owned), ..why }.into()
+            }
             Error::Listing(_) | Error::Execution(_) => self,
         }
     }

@@ -119,14 +119,14 @@ fn prices() {
         }
         Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | - | -".into(),
         Outcome::Rounding {} => "decided by rounding | - | - | - | - | -".into(),
-        Outcome::NoFault {} => "no fault here | - | - | - | - | -".into(),
+        Outcome::NoFault {} => "no effect, as nothing slides | - | - | - | - | -".into(),
     };
     let named =
         |price: &Price| format!("{} | {}", price.name.as_deref().unwrap_or("-"), price.fault);
     let columns = "iterations | contact nodes | load that reaches the block | error in the energy norm | \
                    error of the largest von Mises stress | from the equilibrium under friction";
     let alone = markdown(
-        &format!("finding | fault put back | {columns}"),
+        &format!("finding | fault reintroduced | {columns}"),
         alone.iter().map(|price| format!("{} | {}", named(price), cells(price))),
     );
     let row = |(k, price)| format!("{k} | {} | {}", named(price), cells(price));
@@ -134,11 +134,11 @@ fn prices() {
         &format!("repairs | finding repaired | its fault | {columns}"),
         repairs.iter().enumerate().map(row),
     );
-    let title = "What each printed fault costs on the paper's example, put back alone into the corrected \
+    let title = "What each printed fault costs on the paper's example, reintroduced alone into the corrected \
                  algorithm: errors against the solution without friction, which that has, and the \
                  distance from the equilibrium under friction, on the same mesh.";
     let way = "**From the print to the solution on figure 1. The order is found from the end: into the \
-               corrected algorithm the faults are put back one at a time, each time the one that leaves \
+               corrected algorithm the faults are reintroduced one at a time, each time the one that leaves \
                the least error; the last one is repaired first.** Printed by \
                `plane-contact audit fig1 --prices --repairs`.";
     assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
@@ -378,7 +378,12 @@ fn scenes() {
         scene.model.bodies.iter().map(row).collect::<Vec<_>>()
     });
     let head = "scene | body | E | nu | width x height | distances from the origin | thickness | load, x and y";
-    assert_table("scenes", "What the scenes of `scene mesh` are made of.", "", &markdown(head, rows));
+    assert_table(
+        "scenes",
+        "What the scenes of `scene mesh` are made of.",
+        "",
+        &markdown(head, rows),
+    );
 }
 
 /// Material, size and distances from the origin of a body, and its thickness.

@@ -6,13 +6,13 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::Scene;
 use super::check;
 use super::description::{Description, Material, Materials};
 use super::file::{self, text_of};
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::surface::Surface;
-use super::Scene;
 use crate::element::Plane;
 use crate::model::{Bounds, Model, NodeId, Sides};
 use base::error::{InputError, Result};
@@ -334,7 +334,9 @@ fn length([[ax, ay], [bx, by]]: &Ends) -> f64 {
 fn facing(edges: &[Ends], others: &[Ends]) -> Vec<[f64; 2]> {
     let reach = edges.iter().chain(others).map(length).fold(0.0, f64::max);
     let nearest = |edge: &Ends| {
-        let gaps = others.iter().filter_map(|other| Some([gap(edge, other)?, length(edge) / length(other)]));
+        let gaps = others
+            .iter()
+            .filter_map(|other| Some([gap(edge, other)?, length(edge) / length(other)]));
         gaps.filter(|[gap, _]| *gap >= -reach).min_by(|a, b| a[0].abs().total_cmp(&b[0].abs()))
     };
     edges.iter().filter_map(nearest).collect()
@@ -440,7 +442,10 @@ fn contact_surface(a: &Curve, b: &Curve) -> (bool, String) {
     }
     if (ratio.ln()).abs() > EQUAL {
         let more = times(ratio.max(ratio.recip()));
-        return (ratio > 1.0, format!("its edges are longer, {more} times, so that its pressure is smoother"));
+        return (
+            ratio > 1.0,
+            format!("its edges are longer, {more} times, so that its pressure is smoother"),
+        );
     }
     let is_shorter = a.lengths().sum::<f64>() <= b.lengths().sum();
     (is_shorter, "it is the shorter surface, and their edges are equally long".into())

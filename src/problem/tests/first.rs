@@ -141,7 +141,8 @@ fn the_surface_with_the_longer_edges_is_the_contact_surface() {
     let scene = |[cnt, trg]: [&str; 2]| {
         let text = first("m.msh", file.as_bytes()).unwrap().text;
         let text = text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
-        let text = text.replace("\"cnt\":\"block_top\",\"trg\":\"punch_bottom\"", &format!("{cnt},{trg}"));
+        let text =
+            text.replace("\"cnt\":\"block_top\",\"trg\":\"punch_bottom\"", &format!("{cnt},{trg}"));
         build(&text, &file).unwrap().adapted().join(" ")
     };
     let fine = scene(["\"cnt\":\"punch_bottom\"", "\"trg\":\"block_top\""]);
@@ -168,7 +169,10 @@ fn inner_edges_are_left_over_and_slits_are_named() {
     let halves = [("left", [0.0, 1.0], [0.0, 1.0], 2), ("right", [1.0, 2.0], [0.0, 1.0], 2)];
     let mesh = blocks(&halves);
     let said = notes(&mesh);
-    assert!(said.contains("The mesh has a slit") && said.contains("nothing holds the body"), "{said}");
+    assert!(
+        said.contains("The mesh has a slit") && said.contains("nothing holds the body"),
+        "{said}"
+    );
     let file = gmsh::write(&mesh);
     let text = first("m.msh", file.as_bytes()).unwrap().text;
     let text = text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");

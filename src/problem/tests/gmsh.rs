@@ -593,7 +593,9 @@ fn triangles_that_run_clockwise_are_turned() {
     let turned = SMALL_2.replace("4 10 20 30", "4 10 30 20");
     let scene = scene_on(turned.as_bytes(), 30).expect("it is read");
     assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
-    assert!(scene.mesh.adapted[1].contains("1 of 1 triangles run clockwise, the first 9 (surface 4"));
+    assert!(
+        scene.mesh.adapted[1].contains("1 of 1 triangles run clockwise, the first 9 (surface 4")
+    );
     // One of two that share the side 20-30, and of two that lie over the same side 10-20.
     let both = |other: &str| {
         let more = turned.replace("$Elements\n3\n", &format!("$Elements\n4\n7 2 2 1 4 {other}\n"));

@@ -31,7 +31,8 @@ pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
     let (errors, units) = (&estimates.errors, &solution.request.scene.units);
     let report = Report::default().heading("Rounding");
     if solution.request.variant == Variant::Unilateral {
-        return report.notes(assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed));
+        return report
+            .notes(assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed));
     }
     let displacement = moved_by_rounding(errors.displacement_arithmetic, &units.length);
     let stress = |body: &BodyEstimates| {

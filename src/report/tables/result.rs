@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use super::{direction, equilibrium, error_of_mesh};
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
+use crate::numbers::{
+    Digits, coordinates, decimals_of_places, figure, percent, six_digits, with_unit,
+};
 use engine::estimates::{Cause, NoLimit, contact_ends};
 use engine::{Assessment, Cycle, Resultant, Solution, locking_of, share_of_load};
 use numbers::largest::largest;
@@ -219,6 +221,9 @@ fn displacement(
     let node = solution.model.node_ids().nth(found.first).expect("it has a displacement");
     let size = figure(sizes[found.first], error);
     let size = with_unit(&size, &solution.request.scene.units.length);
+    if sizes[found.first] == 0.0 {
+        return Some(format!("Largest |u| {size}"));
+    }
     let no_limit = assessment.estimates.as_ref().and_then(|of| of.errors.displacement_no_limit);
     let diverges =
         no_limit.map_or(String::new(), |(node, cause)| format!("; {}", unbounded(node, cause)));
@@ -231,11 +236,7 @@ fn unbounded(node: NodeId, cause: Cause) -> String {
 }
 
 /// Says how large the error of the mesh is, or why that is not known.
-fn mesh_error(
-    assessment: &Assessment,
-    solution: &Solution,
-    error: Option<f64>,
-) -> Option<String> {
+fn mesh_error(assessment: &Assessment, solution: &Solution, error: Option<f64>) -> Option<String> {
     assessment.estimates.as_ref()?;
     Some(match (error, locking_of(&solution.model)) {
         (Some(error), _) => format!("Mesh error {}, {PROBABLY_MORE}", percent(error)),
@@ -250,6 +251,11 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
     let limits = assessment.estimates.as_ref().map(|estimates| &estimates.errors.bodies);
     let mut lines = Vec::new();
     for (k, body) in assessment.bodies.iter().enumerate() {
+        if body.max_von_mises_stress == 0.0 {
+            let none = with_unit("0", &units.stress);
+            lines.push(format!("Largest von Mises stress, {}: {none}", body.name));
+            continue;
+        }
         let limit = limits.and_then(|bodies| bodies.get(k)?.no_limit.as_ref());
         let diverges = match limit {
             Some(NoLimit { node, cause, is_largest: true }) => {
@@ -310,7 +316,7 @@ pub(super) fn place(solution: &Solution, node: NodeId) -> String {
 
 /// Returns the decimals of places: four digits of the size of the bodies.
 pub fn decimals(solution: &Solution) -> usize {
-    (4.0 - solution.model.bounds().larger_side().log10()).ceil().clamp(0.0, 12.0) as usize
+    decimals_of_places(solution.model.bounds().larger_side())
 }
 
 /// Says how many other places have the same value to 1e-9 of it, as mirror images have.

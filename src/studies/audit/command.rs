@@ -71,13 +71,13 @@ pub struct Args {
     /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
-    /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault put
-    /// back, and show what each costs. It takes half a minute on strand. Of --reading only what
+    /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault
+    /// reintroduced, and show what each costs. It takes half a minute on strand. Of --reading only what
     /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
     #[arg(long, conflicts_with_all = ["finding", "claim"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
-    /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
+    /// reintroduced, each time the one that leaves the least error. It takes a few minutes on strand.
     #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
     /// Print everything: verdict, claims, prices, readings, findings and variants.

@@ -13,7 +13,7 @@ use numbers::finite;
 use problem::modelling::Variant;
 use report::layout::first_line;
 use report::model::Cell;
-use report::numbers::short;
+use report::numbers::{Digits, short};
 
 /// What is said in place of a figure that inputs of the same meaning change.
 pub const BY_ROUNDING: &str = "decided by rounding";
@@ -117,7 +117,11 @@ impl<V> Evidence<V> {
 
     /// Returns the number as a cell of a table; where rounding decides on it, that.
     pub fn cell(&self) -> Cell {
-        if self.by_rounding { self.figure(short).into() } else { self.number.into() }
+        match self.number {
+            Some(number) => Cell::of_digits(number, Digits::of(number, None)),
+            None if self.by_rounding => self.figure(short).into(),
+            None => Cell::Missing(None),
+        }
     }
 
     /// Returns whether another input leads to another verdict or number.
@@ -161,9 +165,10 @@ impl From<&Error> for NoFigures {
         let words = why.to_string();
         match why {
             Error::Input(_) => NoFigures::Refused(words),
-            Error::Listing(_) | Error::Execution(_) | Error::Singular(_) | Error::Equilibrium(_) => {
-                NoFigures::Fails(words)
-            }
+            Error::Listing(_)
+            | Error::Execution(_)
+            | Error::Singular(_)
+            | Error::Equilibrium(_) => NoFigures::Fails(words),
         }
     }
 }

@@ -53,7 +53,7 @@ pub struct Audit {
     /// What the scene shows of each finding, in the order of the register.
     #[serde(serialize_with = "tables::rows")]
     pub findings: Vec<(&'static Finding, Evidence)>,
-    /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
+    /// What each printed fault costs, reintroduced alone into the corrected algorithm; or why that is not known.
     pub prices: Result<Vec<Price>, String>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,

@@ -41,8 +41,7 @@ const OF_CALCULIX: &str = "CalculiX, recorded: its own contact without sliding, 
      this audit does not run it.";
 
 /// What the faults are, and what stands beside each.
-const FAULTS: &str =
-    "Faults, each put back alone into the corrected algorithm, with the error in energy that it causes";
+const FAULTS: &str = "Faults, each reintroduced alone into the corrected algorithm, with the error in energy that it causes";
 
 /// Where the clearance comes from.
 const CLEARANCE: &str = "The clearance of 0.1 mm is ours: with it contact spans several nodes, as in figure 1. Real ducts are wider.";
@@ -239,7 +238,9 @@ fn beside(audit: &Audit) -> Vec<String> {
     }
     said.extend(conclusion.fields.iter().flat_map(|found| fields(audit, found)));
     let unpriced = listed(&conclusion.unpriced);
-    said.extend((!unpriced.is_empty()).then(|| format!("Present, but not put back: {unpriced}.")));
+    said.extend(
+        (!unpriced.is_empty()).then(|| format!("Present, but not reintroduced: {unpriced}.")),
+    );
     if is_example(scene) {
         said.push(CLEARANCE.into());
         said.extend((conclusion.reading == Reading::default()).then(|| WIDER.into()));

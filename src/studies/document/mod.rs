@@ -6,6 +6,7 @@ mod glossary;
 pub mod page;
 
 use crate::audit::claims::Verdict as ClaimVerdict;
+use crate::audit::claims::table::in_full;
 use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
@@ -103,7 +104,7 @@ fn audited(found: &Audit, repairs: &[Price]) -> Report {
             .then(explanation(finding, measured, &found.scene, &found.conclusion.reading).deeper(2))
             .figure(format!("The smallest scene that shows {}", finding.id), picture)
     });
-    evidence(found, repairs).then(findings)
+    evidence(found, repairs).then(in_full(&found.claims)).then(findings)
 }
 
 /// Says what the paper does, and what stands beside it.
@@ -229,8 +230,9 @@ fn other_codes(contents: &Contents) -> Report {
     match &contents.calculix {
         Some(compared) => report.then(comparison::report(compared).deeper(2)),
         None => {
-            let recorded = is_example(contents.scene)
-                .then(|| "What was recorded of CalculiX is in `plane-contact guide calculix`.".into());
+            let recorded = is_example(contents.scene).then(|| {
+                "What was recorded of CalculiX is in `plane-contact guide calculix`.".into()
+            });
             let again = format!(
                 "This report ran no other code. `plane-contact report {} --ccx` runs CalculiX by its own contact \
                  beside the variant unilateral.",
@@ -251,7 +253,9 @@ fn unchecked(audit: &Audit) -> Report {
     });
     let why = |none: &NoFigures| match none {
         NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
-        NoFigures::Refused(_) => format!("which cannot be asked for this scene: {}", none.in_short()),
+        NoFigures::Refused(_) => {
+            format!("which cannot be asked for this scene: {}", none.in_short())
+        }
         NoFigures::Rounding => "on which rounding decides".into(),
     };
     let variants = audit

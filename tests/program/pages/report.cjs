@@ -85,7 +85,7 @@ async function tables(browser) {
     assert.equal(await rows(page, title), list.length, title);
   }
   const text = await page.textContent("article");
-  for (const id of audit.conclusion.unpriced) assert.ok(text.includes("Present, but not put back:") && text.includes(id), id);
+  for (const id of audit.conclusion.unpriced) assert.ok(text.includes("Present, but not reintroduced:") && text.includes(id), id);
   await page.click("#menu > summary");
   await page.click('#menu a[href="#readings"]');
   await page.click('button[aria-label^="copy as CSV: 2. Findings"]');

@@ -58,8 +58,9 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         let end = format!("$End{section}");
         reader.tokens.keyword(&end, &end)?;
     }
-    let Reader { tokens, sections, mut names, names_have_dimensions, mut nodes, mut elements, .. } =
-        reader;
+    let Reader {
+        tokens, sections, mut names, names_have_dimensions, mut nodes, mut elements, ..
+    } = reader;
     for section in ["Nodes", "Elements"] {
         if !sections.contains(section) {
             return Err(tokens.refused(format!("the file has no section ${section}")));

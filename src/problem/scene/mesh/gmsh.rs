@@ -41,9 +41,8 @@ impl Mesh {
 
     /// Turns each triangle that runs clockwise.
     fn turn_triangles(&mut self) {
-        let is_clockwise = |element: &Element| {
-            element.dim() == 2 && element::area(&self.corners(element)) < 0.0
-        };
+        let is_clockwise =
+            |element: &Element| element.dim() == 2 && element::area(&self.corners(element)) < 0.0;
         let places = (0..self.elements.len()).filter(|k| is_clockwise(&self.elements[*k]));
         let clockwise: Vec<usize> = places.collect();
         let Some(first) = clockwise.first().map(|k| &self.elements[*k]) else { return };

@@ -15,7 +15,7 @@ use report::model::{Report, Table};
 use report::numbers::{or_dash, percent, short};
 use report::tables::PROBABLY_MORE;
 
-/// Reports the verdicts, and each claim in full.
+/// Reports the verdicts.
 pub fn report(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
     let judged = Table::from_rows(claims)
         .column("id", |judged| judged.claim.id)
@@ -47,15 +47,18 @@ pub fn report(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
             )
             .then(over_the_range(claims))
     };
+    report.then(other_readings(claims, by_reading))
+}
+
+/// Reports each claim in full.
+pub fn in_full(claims: &[JudgedClaim]) -> Report {
     let entry = |report: Report, judged: &JudgedClaim| {
         let Claim { id, judged: what, .. } = judged.claim;
         let heading = format!("{id}: {what}: {}", judged.measured.verdict);
         report.then(Report::default().heading(heading).deeper(1)).then(entry(judged))
     };
-    let report = report
-        .then(other_readings(claims, by_reading))
-        .heading("Each claim in full (`audit --claim P12` explains one)");
-    claims.iter().fold(report, entry)
+    let heading = "Each claim in full (`audit --claim P12` explains one)";
+    claims.iter().fold(Report::default().heading(heading), entry)
 }
 
 /// One claim on a scene.

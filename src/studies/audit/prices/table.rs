@@ -18,8 +18,8 @@ use report::picture::{Axis, Series, Style, chart};
 
 /// How the order of repairs is found, in words.
 pub const ORDER: &str = "The order is found from the end: \
-    into the corrected algorithm the faults are put back one at a time, each time the one that \
-    leaves the least error. The last to be put back is the first to be repaired.";
+    into the corrected algorithm the faults are reintroduced one at a time, each time the one that \
+    leaves the least error. The last to be reintroduced is the first to be repaired.";
 
 /// Why a finding and its price may differ.
 pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the shapes that the print itself comes \
@@ -34,9 +34,9 @@ const NO_FAULT: &str = "no effect, as nothing slides";
 pub struct Document<'a> {
     /// The reading, of which only what changes the model matters.
     pub reading: Reading,
-    /// The corrected algorithm, then a fault put back a row.
+    /// The corrected algorithm, then a fault reintroduced a row.
     pub prices: &'a [Price],
-    /// The corrected algorithm with all faults put back, then a repair a row, with those above it; empty
+    /// The corrected algorithm with all faults reintroduced, then a repair a row, with those above it; empty
     /// where that was not asked for.
     pub repairs: &'a [Price],
     /// The prices at the other places of the range of what the paper leaves open; empty where that was not
@@ -74,7 +74,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     let Document { reading, prices, repairs, range } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.name.as_deref().unwrap_or("-"))
-        .column("fault put back", |price| price.fault.clone());
+        .column("fault reintroduced", |price| price.fault.clone());
     let repaired = || {
         Table::from_rows(repairs.iter().enumerate())
             .column("repairs", |(k, _)| Cell::from(*k))
@@ -93,7 +93,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         under(reading)
     ))
     .line(
-        "The corrected algorithm (plane-contact guide corrected), and the same with one printed fault put back. It has \
+        "The corrected algorithm (plane-contact guide corrected), and the same with one printed fault reintroduced. It has \
          no friction, and is compared with two solutions on the same mesh: the one that it has itself \
          (without friction, node to segment, in the initial geometry), and the equilibrium under the scene's \
          own friction.",
@@ -144,7 +144,7 @@ fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
     let rows = rows.filter_map(|(k, price)| Some((k, price, extremes(&places, k)?)));
     let table = Table::from_rows(rows)
         .column("finding", |(_, price, _)| price.name.as_deref().unwrap_or("-"))
-        .column("fault put back", |(_, price, _)| price.fault.clone())
+        .column("fault reintroduced", |(_, price, _)| price.fault.clone())
         .column("least error in energy, %", |(k, _, [least, _])| error(least, *k))
         .column("where it is least", |(_, _, [least, _])| place(least.0))
         .column("greatest error in energy, %", |(k, _, [_, greatest])| error(greatest, *k))
