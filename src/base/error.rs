@@ -28,6 +28,12 @@ impl InputError {
             if self.place.is_empty() { outer.into() } else { format!("{outer}: {}", self.place) };
         self
     }
+
+    /// Returns the same error with what may be its cause beside how to fix it.
+    pub fn hinting(mut self, cause: Option<&str>) -> Self {
+        self.fix.extend(cause.map(|cause| format!(". {cause}")));
+        self
+    }
 }
 
 impl fmt::Display for InputError {

@@ -211,6 +211,7 @@ impl<'a, T: Precision> Equations<'a, T> {
             in_contact,
             no_contact: first.then(|| self.no_contact()).flatten(),
             scalar: self.request.arithmetic.scalar,
+            slits: None,
             body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
         }
         .into()

@@ -54,6 +54,21 @@ impl Error {
         }
     }
 
+    /// Returns the same with what may be its cause, such as a slit of the mesh.
+    pub fn hinting(self, cause: Option<&str>) -> Self {
+        let added = cause.map_or(String::new(), |cause| format!(". {cause}"));
+        match self {
+            Error::Input(why) => why.hinting(cause).into(),
+            Error::Equilibrium(NoEquilibrium { cause, what }) => {
+                NoEquilibrium { cause, what: what + &added }.into()
+            }
+            Error::Singular(why) => {
+                SingularMatrix { slits: cause.map(str::to_owned), ..why }.into()
+            }
+            Error::Listing(_) | Error::Execution(_) => self,
+        }
+    }
+
     /// Returns what a run found; None where the published algorithm fails, or no equilibrium is found.
     ///
     /// # Errors
@@ -124,7 +139,7 @@ impl fmt::Display for Cause {
     if .pivot.is_nan() {
         "no pivot: the matrix is not positive definite".into()
     } else {
-        format!("pivot {pivot:e}")
+        format!("pivot {pivot:.1e}")
     },
     match .in_contact {
         0 => "no node is".into(),
@@ -139,7 +154,7 @@ impl fmt::Display for Cause {
         false => format!(
             "; {scalar} rounds: --scalar exact, or f64x2 on a large mesh, tells whether rounding is at fault"
         ),
-    }
+    } + &.slits.as_ref().map_or(String::new(), |slits| format!(". {slits}"))
 )]
 pub struct SingularMatrix {
     /// The name of the variant that was run.
@@ -158,6 +173,8 @@ pub struct SingularMatrix {
     pub no_contact: Option<String>,
     /// The scalar of the run, whose rounding may be the cause.
     pub scalar: ScalarName,
+    /// Where the mesh has slits, in words.
+    pub slits: Option<String>,
     /// The text ` of body "stamp"`, or no text where no body has the node.
     pub body: String,
 }

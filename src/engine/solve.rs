@@ -38,12 +38,13 @@ macro_rules! in_scalar {
 pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution, Error> {
     check(request)?;
     let solution = match request.variant {
-        Variant::Unilateral => unilateral(request, watch)?,
+        Variant::Unilateral => unilateral(request, watch),
         Variant::Printed | Variant::Tied | Variant::Stepped => {
             let solved = in_scalar!(request.arithmetic.scalar, published(request, watch));
-            solved.map_err(|why| blamed(request, why))?
+            solved.map_err(|why| blamed(request, why))
         }
     };
+    let solution = solution.map_err(|why| why.hinting(request.scene.slits()))?;
     check_finite(&solution)?;
     Ok(solution)
 }

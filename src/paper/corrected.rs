@@ -59,7 +59,7 @@ choices! {
     }
 }
 
-/// A printed fault that is put back into the corrected programs.
+/// A printed fault that is reintroduced into the corrected programs.
 pub struct Fault {
     /// The finding that describes it.
     pub finding: &'static str,
@@ -68,7 +68,7 @@ pub struct Fault {
     pub edit: &'static str,
 }
 
-/// The faults that can be put back: one at a time, or several, applied from the last to the first. C1
+/// The faults that can be reintroduced: one at a time, or several, applied from the last to the first. C1
 /// and C2 make the box of C9 their own. With all of them the programs are the print, but that edges are
 /// of the initial shape (C6).
 pub const FAULTS: &[Fault] = &[

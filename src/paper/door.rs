@@ -21,6 +21,7 @@ use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use problem::element;
 use problem::model::{EdgeId, Element, Model, NodeId, Restraint, Row, TriangleId};
+use problem::scene::length_in_metres;
 
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;
@@ -54,11 +55,10 @@ pub fn under(
 /// Returns how many units of length are a metre, by the unit's name; without one it is mm, as in the paper's
 /// example.
 fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
-    let known = [("", 1000.0), ("m", 1.0), ("cm", 100.0), ("mm", 1000.0), ("um", 1e6), ("µm", 1e6)];
-    let found = known.iter().find_map(|(name, units)| (*name == unit).then_some(*units));
-    found.ok_or_else(|| {
+    let metres = length_in_metres(if unit.is_empty() { "mm" } else { unit });
+    metres.map(f64::recip).ok_or_else(|| {
         let what = format!("what a metre is in the unit of length, {unit:?}, is not known");
-        InputError::new("reading R8", what, "give units.length of the scene as m, cm, mm or um")
+        InputError::new("reading R8", what, "give units.length of the scene as m, cm, mm, um or in")
     })
 }
 

@@ -26,9 +26,6 @@ pub fn line(plan: &Plan) -> String {
         (Some(_), true) => "; symmetric, half the model suffices",
         (Some(_), false) => "; symmetric, but c_cnt as printed is not",
     };
-    if plan.equations.idle > 0 {
-        text += &format!("; {} free equations stay at zero", plan.equations.idle);
-    }
     text
 }
 

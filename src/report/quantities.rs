@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::model::{Cell, Table};
-use super::numbers::{Digits, quantity as with_its_unit};
+use super::numbers::{Digits, decimals_of_places, quantity as with_its_unit};
 use engine::quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
     Unit, Value,
@@ -53,7 +53,7 @@ impl MeasuredValue {
 
 /// Returns a table of `rows` with a column for each component of each of `quantities` that has a
 /// title and is known in some row; a column has the digits that the part `error` of its largest number leaves,
-/// and places in the undeformed shape have all.
+/// and places in the undeformed shape four digits of the farthest.
 pub fn table<'r, 'q, T: 'static>(
     rows: &'r [T],
     quantities: impl IntoIterator<Item = &'q Quantity<T>>,
@@ -73,7 +73,7 @@ pub fn table<'r, 'q, T: 'static>(
             let largest = numbers.map(|numbers| numbers[k].abs()).fold(0.0, f64::max);
             let digits = Digits::of(largest, error);
             let number = |x: f64| match quantity.is_place() {
-                true => x.into(),
+                true => Cell::decimals(x, decimals_of_places(largest)),
                 false => Cell::of_digits(x, digits),
             };
             let heading = with_its_unit(&title, quantity.unit.in_scene(units));

@@ -14,9 +14,9 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
-use plane_contact::studies::audit::conclusion::words::WIDER;
 use plane_contact::studies::audit::evidence::BY_ROUNDING;
 use plane_contact::studies::audit::range::{Parameter, Range, range};
+use plane_contact::studies::audit::words::WIDER;
 
 fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
@@ -80,7 +80,7 @@ fn the_change_by_c_tol_is_that_of_trade() {
 #[test]
 fn in_wider_ducts_neither_p10_nor_p11_is_false() {
     assert!(WIDER.starts_with(
-        " From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both"
+        "From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both"
     ));
     for judged in JUDGED.iter().filter(|judged| ["P10", "P11"].contains(&judged.claim.id)) {
         let clearances = judged.elsewhere.iter();

@@ -128,7 +128,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         "Bodies",
         "In contact at the end: nodes 5, 6, 7, 9",
         "Contact surface",
-        "Error estimates",
+        "Rounding\n",
         "Distance from the reference solution (unilateral, mortar, friction 0, initial",
         "Distance from the equilibrium under the scene's own friction",
     ] {
@@ -183,7 +183,7 @@ fn solve_leaves_out_pictures_and_estimates() {
     assert_eq!(pictures.0.replace("no-pictures", "all"), all);
     assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
     assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));
-    assert!(all.contains("Error estimates") && !estimates.0.contains("Error estimates"));
+    assert!(all.contains("Rounding\n") && !estimates.0.contains("Rounding\n"));
     assert!(estimates.0.contains("Distance from the reference solution"));
     assert_eq!(estimates.2.get("error_estimates"), None);
     assert_eq!(estimates.2["u"], pictures.2["u"]);
@@ -403,7 +403,7 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
         2,
         &["nowhere.json", "strand, fig1, two-blocks"],
     );
-    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["no such reading"]);
+    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["which no run takes"]);
     fails(
         folder.path(),
         &["solve", "fig1", "--reading", "R2=odd-ish"],

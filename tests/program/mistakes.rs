@@ -1,4 +1,4 @@
-//! Sixty mistakes, each with the message that it gets: `golden/mistakes.md`, for users.
+//! Mistakes, each with the message that it gets: `golden/mistakes.md`, for users.
 
 use std::path::Path;
 
@@ -145,7 +145,7 @@ fn row(folder: &Path, mistake: &str, command: &str, file: &str) -> String {
 }
 
 #[test]
-fn sixty_mistakes_have_their_messages() {
+fn mistakes_have_their_messages() {
     let folder = TempDir::new().expect("a folder");
     let mut table = String::from(
         "# Mistakes and their messages\n\nEach ends with exit status 2 and writes no file; under \

@@ -43,10 +43,15 @@ static VARIANTS: LazyLock<[Solution; 6]> = LazyLock::new(|| {
     runs.map(|request| solve(&request, &mut |_| ()).expect("strand has a solution"))
 });
 
-/// Asserts that `golden/tables/<name>.md` has a title, the command that prints its numbers, and a table.
+/// Asserts that `golden/tables/<name>.md` has a title, where its numbers come from (a command that prints them, or this
+/// test), and a table.
 #[track_caller]
-fn assert_table(name: &str, title: &str, command: &str, table: &str) {
-    let text = format!("**{title}** Printed by `plane-contact {command}`.\n\n{table}");
+fn assert_table(name: &str, title: &str, source: &str, table: &str) {
+    let source = match source {
+        "" => format!("Made by the test `{name}`"),
+        command => format!("Printed by `plane-contact {command}`"),
+    };
+    let text = format!("**{title}** {source}.\n\n{table}");
     let file = format!("golden/tables/{name}.md");
     assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &text);
 }
@@ -114,14 +119,14 @@ fn prices() {
         }
         Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | - | -".into(),
         Outcome::Rounding {} => "decided by rounding | - | - | - | - | -".into(),
-        Outcome::NoFault {} => "no fault here | - | - | - | - | -".into(),
+        Outcome::NoFault {} => "no effect, as nothing slides | - | - | - | - | -".into(),
     };
     let named =
         |price: &Price| format!("{} | {}", price.name.as_deref().unwrap_or("-"), price.fault);
     let columns = "iterations | contact nodes | load that reaches the block | error in the energy norm | \
                    error of the largest von Mises stress | from the equilibrium under friction";
     let alone = markdown(
-        &format!("finding | fault put back | {columns}"),
+        &format!("finding | fault reintroduced | {columns}"),
         alone.iter().map(|price| format!("{} | {}", named(price), cells(price))),
     );
     let row = |(k, price)| format!("{k} | {} | {}", named(price), cells(price));
@@ -129,11 +134,11 @@ fn prices() {
         &format!("repairs | finding repaired | its fault | {columns}"),
         repairs.iter().enumerate().map(row),
     );
-    let title = "What each printed fault costs on the paper's example, put back alone into the corrected \
+    let title = "What each printed fault costs on the paper's example, reintroduced alone into the corrected \
                  algorithm: errors against the solution without friction, which that has, and the \
                  distance from the equilibrium under friction, on the same mesh.";
     let way = "**From the print to the solution on figure 1. The order is found from the end: into the \
-               corrected algorithm the faults are put back one at a time, each time the one that leaves \
+               corrected algorithm the faults are reintroduced one at a time, each time the one that leaves \
                the least error; the last one is repaired first.** Printed by \
                `plane-contact audit fig1 --prices --repairs`.";
     assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
@@ -276,7 +281,7 @@ fn claims() {
     assert_table(
         "claims",
         &title,
-        "audit",
+        "audit --range",
         &studies::audit::claims::table::verdicts(&JUDGED).markdown(),
     );
     assert_table(
@@ -362,7 +367,7 @@ fn calculix() {
 
 /// What the scenes of `scene mesh` are made of.
 #[test]
-fn generated_scenes() {
+fn scenes() {
     let rows = Kind::all().into_iter().flat_map(|kind| {
         let builder = kind.generate().expect("the defaults are sound");
         let scene = builder.build().expect("the defaults are sound");
@@ -373,7 +378,12 @@ fn generated_scenes() {
         scene.model.bodies.iter().map(row).collect::<Vec<_>>()
     });
     let head = "scene | body | E | nu | width x height | distances from the origin | thickness | load, x and y";
-    assert_table("scenes", "Generated scenes.", "scene mesh KIND", &markdown(head, rows));
+    assert_table(
+        "scenes",
+        "What the scenes of `scene mesh` are made of.",
+        "",
+        &markdown(head, rows),
+    );
 }
 
 /// Material, size and distances from the origin of a body, and its thickness.
@@ -500,7 +510,7 @@ fn limit() {
                  differences from mesh to mesh fall by one factor; where they do not, the own mesh is compared \
                  with the finest. Peak and half width are those of Hertz's parabola for p² through the \
                  pressures of nodes.";
-    assert_table("limit", title, "scene mesh strand --size S", &table);
+    assert_table("limit", title, "", &table);
 }
 
 /// Where values on meshes of halved edges lead to; nothing where their differences change their sign or do not

@@ -154,9 +154,7 @@ impl fmt::Display for Status {
         f.write_str(match self {
             Status::Open => "open",
             Status::Stick => "stick",
-            Status::Slip(Sense::Forward) => "slip +",
-            Status::Slip(Sense::Backward) => "slip -",
-            Status::Slip(Sense::Free) => "slip",
+            Status::Slip(Sense::Forward | Sense::Backward | Sense::Free) => "slip",
         })
     }
 }

@@ -38,7 +38,7 @@ choices! {
         /// One node is loaded or held by a force.
         Force = "a force on a single node",
         /// Nodes that stick end where nodes are open.
-        Sticking = "the end of sticking contact",
+        Sticking = "the end of the sticking zone",
         /// A body ends in contact, and the other goes on, as at the edge of a punch.
         Edge = "contact at the edge of a body",
         /// A contact group ends in contact, and both bodies go on.

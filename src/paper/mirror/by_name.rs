@@ -64,11 +64,18 @@ impl Reading {
     }
 
     fn set(&mut self, id: &str, value: &str) -> Result<(), String> {
-        let field = READINGS.iter().find(|row| row.id == id).and_then(|row| row.field.as_ref());
-        let field = field.ok_or_else(|| {
+        let offered = || {
             let offered = READINGS.iter().filter(|row| row.is_option()).map(|row| row.id);
-            let offered: Vec<&str> = offered.collect();
-            format!("no such reading; there are {}", offered.join(", "))
+            offered.collect::<Vec<_>>().join(", ")
+        };
+        let row = READINGS.iter().find(|row| row.id == id);
+        let row = row.ok_or_else(|| format!("no such reading; there are {}", offered()))?;
+        let field = row.field.as_ref().ok_or_else(|| {
+            format!(
+                "a reading of {}, which no run takes: audit tries its values; runs take {}",
+                row.what,
+                offered()
+            )
         })?;
         (field.set)(self, value)
     }

@@ -6,6 +6,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::Scene;
 use super::check;
 use super::description::{Description, Material, Materials};
 use super::file::{self, text_of};
@@ -13,13 +14,26 @@ use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::surface::Surface;
 use crate::element::Plane;
-use crate::model::{Bounds, NodeId, Sides};
+use crate::model::{Bounds, Model, NodeId, Sides};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 use numbers::joined::joined;
 
 /// The most entities for which lines of Gmsh are written.
 const MOST_LINES: usize = 20;
+
+/// What the contact surface and the target are called elsewhere.
+const CONTACT: [&str; 2] = ["slave", "secondary"];
+const TARGET: [&str; 2] = ["master", "primary"];
+
+/// How many times as long as the target's contact edges are at least that let the pressure be smooth.
+const MUCH_FINER: f64 = 0.5;
+
+/// The part of their length by which edges of equal length may differ.
+const EQUAL: f64 = 0.1;
+
+/// The most edges, about, that are compared with those that they face.
+const SAMPLE: usize = 200;
 
 /// The part of the shortest target edge that the tolerance of the contact search becomes.
 const TOLERANCE: f64 = 0.01;
@@ -32,13 +46,18 @@ pub struct FirstScene {
     pub notes: Vec<String>,
 }
 
+/// The two ends of an edge, with the body on the left, length.
+type Ends = [[f64; 2]; 2];
+
 /// A physical group of edges.
 struct Curve {
     group: GroupRef,
     /// The bodies that it bounds, each by its lowest node.
     bodies: BTreeSet<usize>,
     /// The ends of its outer edges, with the body on the left, length.
-    edges: Vec<[[f64; 2]; 2]>,
+    edges: Vec<Ends>,
+    /// Whether each of its edges bounds one triangle.
+    is_outline: bool,
     /// The middle of its nodes along y, length.
     height: f64,
 }
@@ -56,9 +75,10 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let mut notes = Vec::new();
     let materials = materials(name, &mesh, &groups, &mut notes)?;
     let body = bodies(&mesh);
-    let mut curves = curves(&mesh, &groups, &body)?;
+    let (mut curves, inner): (Vec<Curve>, Vec<Curve>) =
+        curves(&mesh, &groups, &body)?.into_iter().partition(|curve| curve.is_outline);
     let contact = match pair(&curves) {
-        Some((gap, [cnt, trg])) => {
+        Some((gap, [cnt, trg], why)) => {
             let [of_cnt, of_trg] = [cnt, trg].map(|place| &curves[place].group);
             let reach = curves[cnt].longest().max(curves[trg].longest());
             let apart = match gap > reach {
@@ -66,7 +86,8 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
                 false => String::new(),
             };
             notes.push(format!(
-                "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}"
+                "contact: {of_cnt} on {of_trg}, which face each other closest of those of different bodies{apart}; \
+                 {of_cnt} is cnt, as {why}"
             ));
             let tolerance: Value =
                 six_digits(TOLERANCE * curves[trg].shortest()).parse().unwrap_or(Value::Null);
@@ -107,15 +128,22 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         notes.push(guess("restraint", lowest, "lowest"));
         notes.push(guess("load", highest, "highest"));
     }
-    let rest: Vec<String> = rest.map(|curve| curve.group.to_string()).collect();
+    let names = |rest: &mut dyn Iterator<Item = &Curve>| {
+        rest.map(|curve| curve.group.to_string()).collect::<Vec<_>>().join(", ")
+    };
+    let (rest, inner) = (names(&mut rest), names(&mut inner.iter()));
     if !rest.is_empty() {
-        notes.push(format!("left for more restraints and loads: {}", rest.join(", ")));
+        notes.push(format!("left for more restraints and loads: {rest}"));
+    }
+    if !inner.is_empty() {
+        notes.push(format!(
+            "left over: {inner}, with edges that bound no triangle or two: for restraints alone"
+        ));
     }
     let of = |curves: &[Curve]| curves.iter().flat_map(|curve| curve.bodies.clone()).collect();
     let touching = contact.as_ref().map_or(BTreeSet::new(), |(_, pair)| of(pair));
     let restrained = lowest.map_or(BTreeSet::new(), |curve| curve.bodies.clone());
     notes.extend(loose(&mesh, &groups, &materials, &body, [&restrained, &touching])?);
-    notes.extend(groups.without_triangles());
     let unknown = |group: &GroupRef| (group.text(), json!({ "E": null, "nu": null }));
     let restraints = lowest.map(|curve| json!({ "on": curve.group, "fix": ["x", "y"] }));
     let loads = highest.map(|curve| json!({ "on": curve.group, "pressure": null }));
@@ -136,7 +164,28 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
         let named = mesh.named(&mesh.orphans());
         notes.push(format!("drop_orphans: nodes in no triangle are left out: {named}"));
     }
+    notes.extend(in_solve(&scene, file));
     Ok(FirstScene { text: text_of(&scene), notes })
+}
+
+/// Returns what `solve` would say of a first scene, whatever is chosen for what is null.
+fn in_solve(scene: &Value, file: &[u8]) -> Vec<String> {
+    let mut chosen = scene.clone();
+    choose(&mut chosen, "");
+    match Scene::build("first", text_of(&chosen).as_bytes(), |_| Ok(file.to_vec())) {
+        Ok(scene) => scene.adapted().to_vec(),
+        Err(why) => vec![format!("solve refuses it so far: {}; {}", why.what, why.fix)],
+    }
+}
+
+/// Gives some value to each field that is null.
+fn choose(value: &mut Value, field: &str) {
+    match value {
+        Value::Null => *value = if field == "nu" { 0.0 } else { 1.0 }.into(),
+        Value::Object(fields) => fields.iter_mut().for_each(|(name, value)| choose(value, name)),
+        Value::Array(items) => items.iter_mut().for_each(|value| choose(value, field)),
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
+    }
 }
 
 /// Returns the groups of triangles that get a material: the smaller first, without those of which others have a
@@ -218,8 +267,7 @@ fn loose(
         let name = names.join(", ");
         match touching.contains(first) {
             true => format!(
-                "contact alone holds the body {name}, which slides where no friction holds it, and may lift off: \
-                 restrain it too if it can"
+                "contact alone holds the body {name}: it may slide or lift off: restrain it, or give friction"
             ),
             false => format!("nothing holds the body {name}: restrain it, or give it a contact surface"),
         }
@@ -247,18 +295,19 @@ fn curves(mesh: &Mesh, groups: &Groups, body: &[usize]) -> Result<Vec<Curve>> {
             let side = sides.boundary([0, 1].map(|k| NodeId::from_number(edge.nodes[k])))?;
             Some(side.nodes.map(|node| mesh.xy(node.number())))
         });
-        let edges = outer.collect();
+        let edges: Vec<Ends> = outer.collect();
+        let is_outline = edges.len() == groups.members(1, &group, "")?.count();
         let heights = nodes.iter().map(|n| mesh.xy(*n)[1]);
         let height = heights.sum::<f64>() / nodes.len() as f64;
         let bodies = nodes.iter().map(|n| body[n - 1]).collect();
-        Ok(Curve { group, bodies, edges, height })
+        Ok(Curve { group, bodies, edges, is_outline, height })
     };
     groups.all(1).into_iter().map(curve).collect()
 }
 
 impl Curve {
     fn lengths(&self) -> impl Iterator<Item = f64> {
-        self.edges.iter().map(|[[ax, ay], [bx, by]]| (bx - ax).hypot(by - ay))
+        self.edges.iter().map(length)
     }
 
     fn longest(&self) -> f64 {
@@ -269,21 +318,65 @@ impl Curve {
         self.lengths().fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns for each edge that faces one of `other` the distance from its middle to the nearest of those along its
-    /// normal, length: < 0 where they overlap.
-    fn gaps(&self, other: &Curve) -> Vec<f64> {
-        let reach = self.longest().max(other.longest());
-        let nearest = |edge: &[[f64; 2]; 2]| {
-            let gaps = other.edges.iter().filter_map(|target| gap(edge, target));
-            gaps.filter(|gap| *gap >= -reach).min_by(|a, b| a.abs().total_cmp(&b.abs()))
-        };
-        self.edges.iter().filter_map(nearest).collect()
+    /// Returns whether the group is called as the contact surface is elsewhere, or as the target is.
+    fn is_called(&self, names: &[&str]) -> bool {
+        let name = self.group.text().to_lowercase();
+        names.iter().any(|word| name.contains(word))
     }
+}
+
+fn length([[ax, ay], [bx, by]]: &Ends) -> f64 {
+    (bx - ax).hypot(by - ay)
+}
+
+/// Returns for each edge that faces one of `others` the distance from its middle to the nearest of those along its
+/// normal, length, < 0 where they overlap, and how many times as long as that one it is.
+fn facing(edges: &[Ends], others: &[Ends]) -> Vec<[f64; 2]> {
+    let reach = edges.iter().chain(others).map(length).fold(0.0, f64::max);
+    let nearest = |edge: &Ends| {
+        let gaps = others
+            .iter()
+            .filter_map(|other| Some([gap(edge, other)?, length(edge) / length(other)]));
+        gaps.filter(|[gap, _]| *gap >= -reach).min_by(|a, b| a[0].abs().total_cmp(&b[0].abs()))
+    };
+    edges.iter().filter_map(nearest).collect()
+}
+
+/// Returns how many times as long as the edges that they face edges are, by the middle one of a sample; None where
+/// none faces another.
+fn relative_length(edges: &[Ends], others: &[Ends]) -> Option<f64> {
+    let sample: Vec<Ends> = edges.iter().step_by(1 + edges.len() / SAMPLE).copied().collect();
+    let mut ratios: Vec<f64> = facing(&sample, others).iter().map(|[_, ratio]| *ratio).collect();
+    ratios.sort_unstable_by(f64::total_cmp);
+    ratios.get(ratios.len() / 2).copied()
+}
+
+/// Writes a ratio with two decimals at most.
+fn times(ratio: f64) -> String {
+    six_digits((100.0 * ratio).round() / 100.0)
+}
+
+/// Says that the edges of the contact surface are under half as long as the target's.
+pub fn fine_contact(model: &Model) -> Option<String> {
+    let outer = |nodes: [NodeId; 2]| {
+        let side = model.sides.boundary(nodes)?;
+        Some(side.nodes.map(|node| model.nodes[node.index()]))
+    };
+    let nodes = &model.contact.nodes;
+    let next = nodes.iter().cycle().skip(1);
+    let contact: Vec<Ends> = nodes.iter().zip(next).filter_map(|(a, b)| outer([*a, *b])).collect();
+    let target: Vec<Ends> = model.target_edges().filter_map(|edge| outer(edge.nodes)).collect();
+    let ratio = relative_length(&contact, &target).filter(|ratio| *ratio < MUCH_FINER)?;
+    Some(format!(
+        "The target's edges are {} times as long as those of the contact surface that face them, so that the contact \
+         pressure alternates from node to node: the surface with the longer edges is the better cnt",
+        times(ratio.recip())
+    ))
 }
 
 /// Returns the distance from the middle of an edge to another along the outward normal, length; None where the
 /// normal does not meet it, or its outer side looks away.
-fn gap([a, b]: &[[f64; 2]; 2], [c, d]: &[[f64; 2]; 2]) -> Option<f64> {
+fn gap([a, b]: &Ends, [c, d]: &Ends) -> Option<f64> {
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]]];
     let across = u[0] * v[0] + u[1] * v[1];
     let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
@@ -310,32 +403,52 @@ pub fn not_facing(mesh: &Mesh, groups: &Groups, file: &Description) -> Option<St
         return None;
     }
     let right =
-        pair(&curves).map(|(_, places)| places.map(|place| curves[place].group.to_string()));
+        pair(&curves).map(|(_, places, _)| places.map(|place| curves[place].group.to_string()));
     right.map(|[a, b]| {
         format!("The contact surfaces {cnt} and {trg} face each other nowhere; {a} and {b} do")
     })
 }
 
-/// Returns the smallest distance of the two curves of different bodies that look like a contact, and their places:
-/// most of their edges face the other one within an edge; the shorter comes first.
-fn pair(curves: &[Curve]) -> Option<(f64, [usize; 2])> {
+/// Returns the smallest distance of the two curves of different bodies that look like a contact, their places, and why
+/// the first is the contact surface: most of their edges face the other one within an edge.
+fn pair(curves: &[Curve]) -> Option<(f64, [usize; 2], String)> {
     let pairs = (0..curves.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
     let facing = pairs.filter_map(|[a, b]| {
         let [of_a, of_b] = [&curves[a], &curves[b]];
-        let is_one = |curve: &Curve| curve.bodies.len() == 1;
-        if !is_one(of_a) || !is_one(of_b) || of_a.bodies == of_b.bodies {
+        if !of_a.bodies.is_disjoint(&of_b.bodies) {
             return None;
         }
-        let gaps = [of_a.gaps(of_b), of_b.gaps(of_a)].concat();
-        let least = gaps.iter().map(|gap| gap.abs()).reduce(f64::min)?;
+        let gaps = [facing(&of_a.edges, &of_b.edges), facing(&of_b.edges, &of_a.edges)].concat();
+        let least = gaps.iter().map(|[gap, _]| gap.abs()).reduce(f64::min)?;
         let reach = of_a.longest().max(of_b.longest());
-        let within = gaps.iter().filter(|gap| gap.abs() <= reach).count();
-        let length = |curve: &Curve| curve.lengths().sum::<f64>();
-        let places = if length(of_b) < length(of_a) { [b, a] } else { [a, b] };
-        Some(((within, -least), places))
+        let within = gaps.iter().filter(|[gap, _]| gap.abs() <= reach).count();
+        Some(((within, -least), [a, b]))
     });
     let best = facing.reduce(|best, other| if other.0 > best.0 { other } else { best });
-    best.map(|((_, least), places)| (-least, places))
+    best.map(|((_, least), [a, b])| {
+        let (is_first, why) = contact_surface(&curves[a], &curves[b]);
+        (-least, if is_first { [a, b] } else { [b, a] }, why)
+    })
+}
+
+/// Returns whether `a` rather than `b` is the contact surface, and why: the one that its name says, unless its edges are
+/// much the shorter ones; else the one with the longer edges, of equal ones the shorter.
+fn contact_surface(a: &Curve, b: &Curve) -> (bool, String) {
+    let ratio = relative_length(&a.edges, &b.edges).unwrap_or(1.0);
+    let is_named = |own: &Curve, other: &Curve| own.is_called(&CONTACT) || other.is_called(&TARGET);
+    let [first, second] = [is_named(a, b), is_named(b, a)];
+    if first != second && (if first { ratio } else { ratio.recip() }) >= MUCH_FINER {
+        return (first, "the names say".into());
+    }
+    if (ratio.ln()).abs() > EQUAL {
+        let more = times(ratio.max(ratio.recip()));
+        return (
+            ratio > 1.0,
+            format!("its edges are longer, {more} times, so that its pressure is smoother"),
+        );
+    }
+    let is_shorter = a.lengths().sum::<f64>() <= b.lengths().sum();
+    (is_shorter, "it is the shorter surface, and their edges are about as long".into())
 }
 
 /// Returns whether the mesh has numbers of Gmsh's surfaces, which other programs leave out.

@@ -46,6 +46,7 @@ pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags
 pub use refine::Refined;
 pub use scene_file::SceneFile;
 pub use surface::Surface;
+pub use units::length_in_metres;
 
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
@@ -87,6 +88,8 @@ struct Source {
     mesh: Mesh,
     /// What the mesh file has in another form, and where the mesh has slits, in sentences.
     notes: Vec<String>,
+    /// Where the mesh has slits, which are among the notes.
+    slits: Option<String>,
     /// The SHA-256 of both.
     hashes: [String; 2],
 }
@@ -163,6 +166,11 @@ impl Scene {
         self.source.as_deref().map_or(&[], |source| &source.notes)
     }
 
+    /// Says where the mesh has slits, across which nothing is passed on; None where it has none.
+    pub fn slits(&self) -> Option<&str> {
+        self.source.as_deref()?.slits.as_deref()
+    }
+
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
     /// without blanks; None for half a scene.
     pub fn hashes(&self) -> Option<&[String; 2]> {
@@ -214,11 +222,13 @@ impl Scene {
             dropped,
         };
         check::supports(&mesh, &model)?;
-        check::restrained_bodies(&model)?;
+        let slits = slit::slits(&mesh, &model);
+        check::restrained_bodies(&model).map_err(|why| why.hinting(slits.as_deref()))?;
         fold::check(&mesh, &model)?;
         let load_of_part = load::apply(&mesh, &physical, &mut model, &description.loads)?;
         let in_vain = load::in_vain(&model, &load_of_part);
-        let notes = slit::notes(&mesh, &model).into_iter().chain(wide_tolerance(&model));
+        let notes = slits.iter().cloned().chain(slit::loose_edges(&mesh, &model));
+        let notes = notes.chain(wide_tolerance(&model)).chain(first::fine_contact(&model));
         let notes = notes.chain(units::misfit(&description.units));
         let notes = notes.chain(support::narrow(&mesh, &model.supports)).chain(in_vain);
         let notes = notes.chain(first::not_facing(&mesh, &physical, &description));
@@ -243,6 +253,7 @@ impl Scene {
             source: Some(Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,
+                slits,
                 description,
                 mesh,
             })),

@@ -21,12 +21,8 @@ const SLOPE: f64 = 0.618_033_988_749_895;
 /// The most places that are named.
 const MOST: usize = 5;
 
-/// Says where the mesh has slits, and edges that are a side of no triangle.
-pub fn notes(mesh: &Mesh, model: &Model) -> Vec<String> {
-    slits(mesh, model).into_iter().chain(loose_edges(mesh, model)).collect()
-}
-
-fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
+/// Says which edges are a side of no triangle.
+pub fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
     let nodes = |edge: &&Element| [0, 1].map(|k| NodeId::from_number(edge.nodes[k]));
     let mut loose = mesh.of_dimension(1).filter(|edge| model.sides.beside(nodes(edge)).is_empty());
     let first = loose.next()?;
@@ -42,7 +38,8 @@ fn loose_edges(mesh: &Mesh, model: &Model) -> Option<String> {
     ))
 }
 
-fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
+/// Says where the mesh has slits.
+pub fn slits(mesh: &Mesh, model: &Model) -> Option<String> {
     let faces = Faces::new(model);
     let on_contact: HashSet<NodeId> = model.contact.nodes.iter().copied().collect();
     let on_target: HashSet<NodeId> = model.target_edges().flat_map(|edge| edge.nodes).collect();

@@ -84,10 +84,20 @@ pub fn misfit(units: &Units) -> Option<String> {
     })
 }
 
-/// Returns the size of a unit by its name, which may have capitals elsewhere where that leaves one: mN and MN are two.
+/// Returns the length of a unit in metres, by its name; None where it is not known.
+pub fn length_in_metres(name: &str) -> Option<f64> {
+    in_si(&LENGTHS, name)
+}
+
+/// Returns the size of a unit by its name, which may have capitals elsewhere where that leaves one: mN and MN are two,
+/// MM and mpa are mm and MPa, but mPa and Mm, with m for milli and M for mega, are neither.
 fn in_si(units: &[(&str, f64)], name: &str) -> Option<f64> {
     let exact = units.iter().find(|(known, _)| *known == name);
-    let mut alike = units.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
+    let is_mixed = name != name.to_uppercase() && name != name.to_lowercase();
+    let other_prefix = |known: &str| known.starts_with('m') != name.starts_with('m');
+    let is_alike =
+        |known: &str| known.eq_ignore_ascii_case(name) && !(is_mixed && other_prefix(known));
+    let mut alike = units.iter().filter(|(known, _)| is_alike(known));
     let only = alike.next().filter(|_| alike.next().is_none());
     exact.or(only).map(|(_, size)| *size)
 }

@@ -111,6 +111,75 @@ fn bodies_that_share_nodes_and_bodies_that_are_missing_are_named() {
     assert!(!said.contains("share nodes") && !said.contains("have none"), "{said}");
 }
 
+/// A punch with edges of another length than the block's, by name too.
+#[test]
+fn the_surface_with_the_longer_edges_is_the_contact_surface() {
+    let of = |cells: u32, [lower, upper]: [&str; 2]| {
+        let mut mesh = blocks(&[PUNCH[0], ("punch", [3.0, 7.0], [5.01, 8.0], cells)]);
+        for name in &mut mesh.names {
+            name.name = name.name.replace("block_top", lower).replace("punch_bottom", upper);
+        }
+        let file = gmsh::write(&mesh);
+        let scene = first("m.msh", file.as_bytes()).unwrap();
+        let finer = scene.notes.iter().any(|note| note.contains("alternates from node to node"));
+        let (_, rest) = scene.text.split_once("\"cnt\":\"").unwrap();
+        (rest.split('"').next().unwrap().to_string(), scene.notes.join("\n"), finer)
+    };
+    let plain = ["block_top", "punch_bottom"];
+    for (cells, names, cnt, why) in [
+        (2, plain, "punch_bottom", "its edges are longer, 2 times"),
+        (4, plain, "punch_bottom", "it is the shorter surface"),
+        (12, plain, "block_top", "its edges are longer, 3 times"),
+        (4, ["the slave", "the master"], "the slave", "the names say"),
+        (6, ["block_top", "Secondary"], "Secondary", "the names say"),
+        (12, ["primary", "secondary"], "primary", "its edges are longer, 3 times"),
+    ] {
+        let (found, said, finer) = of(cells, names);
+        assert!(found == cnt && said.contains(why) && !finer, "{cells} {names:?}: {found}: {said}");
+    }
+    let file = gmsh::write(&blocks(&[PUNCH[0], ("punch", [3.0, 7.0], [5.01, 8.0], 12)]));
+    let scene = |[cnt, trg]: [&str; 2]| {
+        let text = first("m.msh", file.as_bytes()).unwrap().text;
+        let text = text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
+        let text =
+            text.replace("\"cnt\":\"block_top\",\"trg\":\"punch_bottom\"", &format!("{cnt},{trg}"));
+        build(&text, &file).unwrap().adapted().join(" ")
+    };
+    let fine = scene(["\"cnt\":\"punch_bottom\"", "\"trg\":\"block_top\""]);
+    assert!(fine.contains("The target's edges are 3 times as long"), "{fine}");
+    let coarse = scene(["\"cnt\":\"block_top\"", "\"trg\":\"punch_bottom\""]);
+    assert!(!coarse.contains("as long"), "{coarse}");
+}
+
+/// A line inside a body, and a body of two parts that lie beside each other with nodes of their own.
+#[test]
+fn inner_edges_are_left_over_and_slits_are_named() {
+    let mut mesh = MeshBuilder::default();
+    let rows = [0.0, 1.0, 2.0].map(|y| mesh.row([0.0, 1.0, 2.0].map(|x| [x, y])));
+    mesh.join("body", &rows[0], &rows[1]);
+    mesh.join("body", &rows[1], &rows[2]);
+    mesh.edges("bottom", &rows[0]);
+    mesh.edges("joint", &rows[1]);
+    let file = gmsh::write(&mesh.finish());
+    let scene = first("m.msh", file.as_bytes()).unwrap();
+    let said = scene.notes.join("\n");
+    assert!(said.contains("left over: \"joint\"") && said.contains("load: no group"), "{said}");
+    assert!(!scene.text.contains("joint"), "{}", scene.text);
+
+    let halves = [("left", [0.0, 1.0], [0.0, 1.0], 2), ("right", [1.0, 2.0], [0.0, 1.0], 2)];
+    let mesh = blocks(&halves);
+    let said = notes(&mesh);
+    assert!(
+        said.contains("The mesh has a slit") && said.contains("nothing holds the body"),
+        "{said}"
+    );
+    let file = gmsh::write(&mesh);
+    let text = first("m.msh", file.as_bytes()).unwrap().text;
+    let text = text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
+    let why = build(&text, &file).unwrap_err();
+    assert!(why.contains("can still") && why.contains("The mesh has a slit"), "{why}");
+}
+
 /// Groups that face each other nowhere, and one group of both sides.
 #[test]
 fn the_right_groups_of_contact_are_named() {
@@ -200,6 +269,8 @@ fn units_that_do_not_fit_each_other_are_named() {
         (["cm", "mpa", "N"], "mpa times cm² is 100 N", "units that fit"),
         (["furlong", "MPa", "N"], "the length \"furlong\"", "not checked"),
         (["mm", "MPa", "mn"], "the force \"mn\"", "not checked"),
+        (["mm", "mPa", "N"], "the stress \"mPa\"", "not checked"),
+        (["Mm", "MPa", "N"], "the length \"Mm\"", "not checked"),
     ];
     for (units, size, fix) in misfits {
         let note = note(units).unwrap();

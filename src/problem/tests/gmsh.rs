@@ -419,18 +419,18 @@ fn faults_of_2_2_are_named_with_their_line() {
     let faults = [
         ("$MeshFormat\n", "MeshFormat\n",
          "line 1: found \"MeshFormat\", expected $MeshFormat, the first section of a Gmsh mesh (MSH \
-          2.2 or 4.1)"),
+          2.0 to 2.2, or 4.1)"),
         ("$MeshFormat", "$NOD",
-         "line 1: the file has MSH version 1; versions 2.2 and 4.1 can be read: in Gmsh set \
+         "line 1: the file has MSH version 1; versions 2.0 to 2.2 and 4.1 can be read: in Gmsh set \
           Mesh.MshFileVersion = 4.1 and save the mesh again"),
         ("$MeshFormat", "$Nodes\n$EndNodes\n$MeshFormat",
-         "line 1: found $Nodes, expected $MeshFormat, the first section of a Gmsh mesh (MSH 2.2 or \
-          4.1)"),
+         "line 1: found $Nodes, expected $MeshFormat, the first section of a Gmsh mesh (MSH 2.0 to \
+          2.2, or 4.1)"),
         ("30 0 1 0", "3000000000 0 1 0",
          "line 11: found \"3000000000\", beyond the largest number 2147483647, expected a node's \
           number, 1 or more"),
         ("2.2 0 8", "3 0 8",
-         "line 2: the file has MSH version 3; versions 2.2 and 4.1 can be read: in Gmsh set \
+         "line 2: the file has MSH version 3; versions 2.0 to 2.2 and 4.1 can be read: in Gmsh set \
           Mesh.MshFileVersion = 4.1 and save the mesh again"),
         ("2.2 0 8", "2.2 2 8", "line 2: found 2, expected 0 (text) or 1 (binary)"),
         ("2.2 0 8", "2.2 0 4",
@@ -462,8 +462,13 @@ fn faults_of_2_2_are_named_with_their_line() {
         ("9 2 2 1 4 10", "9 3 2 1 4 10",
          "line 17: element 9 is a four-node quadrangle (surface 4, \"the body\"); only points, two-node \
           edges and three-node triangles can be read: in Gmsh take out Recombine Surface {4}, set \
-          Mesh.RecombineAll = 0, Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh \
-          again in two dimensions (-2)"),
+          Mesh.RecombineAll = 0 and Mesh.SubdivisionAlgorithm = 0, and mesh again in two dimensions (-2)"),
+        ("9 2 2 1 4 10", "9 9 2 1 4 10",
+         "line 17: element 9 is a six-node triangle (surface 4, \"the body\"); only points, two-node edges and \
+          three-node triangles can be read: in Gmsh set Mesh.ElementOrder = 1, and mesh again in two dimensions (-2)"),
+        ("9 2 2 1 4 10", "9 4 2 1 4 10",
+         "line 17: element 9 is a four-node tetrahedron (volume 4); only points, two-node edges and three-node \
+          triangles can be read: in Gmsh mesh surfaces, not volumes, and mesh again in two dimensions (-2)"),
         ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
         ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
         ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
@@ -584,17 +589,40 @@ fn node_numbers_with_gaps_are_closed_in_every_encoding() {
 }
 
 #[test]
-fn surfaces_that_run_clockwise_are_turned_as_a_whole() {
+fn triangles_that_run_clockwise_are_turned() {
     let turned = SMALL_2.replace("4 10 20 30", "4 10 30 20");
     let scene = scene_on(turned.as_bytes(), 30).expect("it is read");
     assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);
-    assert!(scene.mesh.adapted[1].contains("surface 4, \"the body\" run clockwise"));
-    // One of two: the surface folds over itself.
-    let folded = turned.replace("$Elements\n3\n", "$Elements\n4\n7 2 2 1 4 10 20 40\n");
-    let folded = folded.replace("$Nodes\n3\n", "$Nodes\n4\n40 1 1 0\n");
-    let scene = scene_on(folded.as_bytes(), 30).expect("it is read");
-    let why = scene.build().expect_err("it folds").what;
-    assert!(why.ends_with("its area is -0.5 (surface 4, \"the body\")"), "{why}");
+    assert!(
+        scene.mesh.adapted[1].contains("1 of 1 triangles run clockwise, the first 9 (surface 4")
+    );
+    // One of two that share the side 20-30, and of two that lie over the same side 10-20.
+    let both = |other: &str| {
+        let more = turned.replace("$Elements\n3\n", &format!("$Elements\n4\n7 2 2 1 4 {other}\n"));
+        let more = more.replace("$Nodes\n3\n", "$Nodes\n4\n40 1 1 0\n");
+        scene_on(more.as_bytes(), 30).expect("it is read").build()
+    };
+    assert!(both("20 40 30").is_ok() && both("20 30 40").is_ok());
+    for folded in ["10 20 40", "20 10 40"] {
+        let why = both(folded).expect_err("it folds").what;
+        assert_eq!(why, "triangles 7 and 9 lie over each other");
+    }
+}
+
+#[test]
+fn versions_2_0_and_2_1_are_read_as_2_2_is() {
+    let own = read(SMALL_2.as_bytes()).unwrap();
+    for version in ["2", "2.0", "2.1"] {
+        let other = SMALL_2.replace("2.2 0 8", &format!("{version} 0 8"));
+        assert_eq!(read(other.as_bytes()).unwrap(), own, "{version}");
+    }
+    // Names without a dimension are those of the groups with that tag.
+    let plain = SMALL_2.replace("2 1 \"the", "1 \"the").replace("1 7 \"base\"", "7 \"base\"");
+    let names = |mesh: &Mesh| -> Vec<_> {
+        mesh.names.iter().map(|n| (n.dim, n.tag, n.name.clone())).collect()
+    };
+    let read = read(plain.replace("2.2 0 8", "2 0 8").as_bytes()).unwrap();
+    assert_eq!(names(&read), [(1, 7, "base".into()), (2, 1, "the body".into())]);
 }
 
 #[test]

@@ -55,6 +55,11 @@ impl Digits {
     }
 }
 
+/// Returns the decimals of places in bodies of a size: four digits of it.
+pub fn decimals_of_places(size: f64) -> usize {
+    (4.0 - size.log10()).ceil().clamp(0.0, 12.0) as usize
+}
+
 /// Writes a number with so many decimals; what is rounded to nothing has no sign.
 pub fn fixed(x: f64, decimals: usize) -> String {
     let shown = format!("{x:.decimals$}");

@@ -7,7 +7,7 @@ mod typeset;
 mod undefined;
 
 pub use decimal::Decimal;
-pub use digits::{Digits, figure, percent};
+pub use digits::{Digits, decimals_of_places, figure, percent};
 pub use typeset::{common_exponent, power_of_ten, shifted, significant, ticks};
 pub use undefined::reason;
 

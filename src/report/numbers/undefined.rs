@@ -34,7 +34,10 @@ const REASONS: &[(&str, &str)] = &[
     ("pressure shear force", "restraints leave the force undetermined"),
     ("friction_needed", "the node is not pressed beyond rounding, or its force is not determined"),
     ("status", "the variant knows no statuses, or the node is not in contact"),
-    ("mesh_energy_relative", "a body has too few triangles for an estimate"),
+    (
+        "mesh_energy_relative",
+        "a Poisson's ratio near 0.5 locks the triangles, or a body has too few of them",
+    ),
     (
         "arithmetic displacement_arithmetic",
         "no bound is known; of unilateral solve --check-rounding measures it",

@@ -57,18 +57,20 @@ pub fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
 /// Puts a panel of the search on a page, with what its signs are; `edges` are those of the target, as
 /// indices of `points`.
 pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search: &Search) {
-    let own = search.statuses.iter().map(|status| &points[status.node.index()]);
-    let bounds = Bounds::around(search.boxes.iter().flatten().chain(own));
+    let arrows = search.statuses.iter().flat_map(|status| {
+        let [x, y] = points[status.node.index()];
+        [[x, y], [x, y + status.distance]]
+    });
+    let ends = edges.iter().flatten().map(|k| points[*k]);
+    let drawn: Vec<[f64; 2]> =
+        search.boxes.iter().flatten().copied().chain(ends).chain(arrows).collect();
+    let bounds = Bounds::around(&drawn);
     let [width, height] = bounds.size();
     if !(width > 0.0 && height > 0.0) {
         return;
     }
     let scale = (page.inner() / width).min(HEIGHT / height);
     let times = Decimal::round_at_most(HEIGHT / height / scale).value().max(1.0);
-    let bottom = page.y + 44.0 + height * scale * times;
-    let at = |[x, y]: [f64; 2]| {
-        [MARGIN + (x - bounds.low[0]) * scale, bottom - (y - bounds.low[1]) * scale * times]
-    };
     let heights = match times {
         1.0 => String::new(),
         times => format!(", heights drawn {times} times as large as lengths"),
@@ -77,6 +79,10 @@ pub fn panel(page: &mut Page, points: &[[f64; 2]], edges: &[[usize; 2]], search:
         "c_cnt in the initial shape{heights}: the boxes of lines 5 to 7, the arrow Y of line 10 \
          from each node to the line of its target edge; filled nodes are in contact."
     ));
+    let bottom = page.y + 24.0 + height * scale * times;
+    let at = |[x, y]: [f64; 2]| {
+        [MARGIN + (x - bounds.low[0]) * scale, bottom - (y - bounds.low[1]) * scale * times]
+    };
     let boxes = search.boxes.iter().map(|[a, b]| {
         let [a, b] = [at(*a), at(*b)];
         let size = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];

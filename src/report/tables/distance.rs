@@ -3,7 +3,7 @@
 use crate::model::{Cell, Report, Table};
 use crate::numbers::{Digits, figure, percent, quantity, reason};
 use crate::pressure;
-use engine::{Assessment, Solution, SolutionDistance};
+use engine::{Assessment, BodyDistance, Solution, SolutionDistance};
 
 /// Reports the distance of a run from the reference solution and from the equilibrium under the
 /// scene's own friction, or why there is none.
@@ -17,6 +17,8 @@ pub fn distance(solution: &Solution, assessment: &Assessment) -> Report {
     for (what, other) in others {
         report = match other {
             None => report,
+            // The run itself.
+            Some(Ok(measured)) if measured.reference.u == solution.u => report,
             Some(Err(why)) => report.heading(format!("No {what} to compare with: {why}")),
             Some(Ok(measured)) => report.then(distance_from(solution, what, measured, error)),
         };
@@ -38,14 +40,13 @@ fn distance_from(
         reference.request.contact.geometry,
         reference.in_contact().count()
     );
-    let of_both = distance.bodies.iter().flat_map(|b| [b.von_mises_stress, b.reference]);
-    let digits = Digits::of(of_both.fold(0.0, f64::max), error);
+    let digits = |body: &BodyDistance| Digits::of(body.von_mises_stress.max(body.reference), error);
     let table = Table::from_rows(&distance.bodies)
         .column("body", |body| body.name.clone())
         .column(quantity("largest von Mises stress", &units.stress), |body| {
-            Cell::of_digits(body.von_mises_stress, digits)
+            Cell::of_digits(body.von_mises_stress, digits(body))
         })
-        .column("there", |body| Cell::of_digits(body.reference, digits))
+        .column("reference", |body| Cell::of_digits(body.reference, digits(body)))
         .column("difference", |body| Cell::percent(body.relative).because(reason("relative")));
     let relative = match distance.displacement_relative {
         relative if relative.is_finite() => format!(" = {}", percent(relative)),

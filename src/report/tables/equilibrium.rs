@@ -1,16 +1,16 @@
-//! What is known of an equilibrium: whether there are others, and how exact its geometry is.
+//! What is known of an equilibrium: whether there are others, and what the couplings overlook.
 
 use super::result::place;
 use crate::layout::{counted, listed};
 use crate::model::Report;
 use crate::numbers::{percent, short, six_digits, with_unit};
 use engine::contact::{InitialGaps, Surfaces};
-use engine::{Equilibrium, Margin, NearestDecision, Overlap, Solution, Uniqueness, beyond_range};
+use engine::{Equilibrium, Overlap, Solution, Uniqueness, beyond_range};
 use problem::model::{Model, NodeId};
 use problem::modelling::{Coupling, Geometry};
 use problem::scene::Units;
 
-/// Says whether the equilibrium is the only one, and what is left of the change of the geometry.
+/// Says whether the equilibrium is the only one, and where bodies lie in each other.
 pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
     let length = |x: f64| with_unit(&short(x), &solution.request.scene.units.length);
     let springs = found.springs.map(|carried| {
@@ -61,24 +61,8 @@ pub fn lines(solution: &Solution, found: &Equilibrium) -> Report {
             length(least)
         )
     });
-    let geometry = (found.shape_change > 0.0).then(|| {
-        let change = length(found.shape_change);
-        format!("Geometry: its last update changed no displacement component by more than {change}")
-    });
-    let nearest = found.nearest.as_ref().map(nearest_decision);
-    let lines = [nearest, springs, unseen, inside, facets, geometry].into_iter().flatten();
+    let lines = [springs, unseen, inside, facets].into_iter().flatten();
     lines.fold(uniqueness(solution, &found.uniqueness), Report::note)
-}
-
-/// Says how near the contact state is to another one.
-pub fn nearest_decision(NearestDecision { node, of, relative }: &NearestDecision) -> String {
-    let scale = match of {
-        Margin::Gap | Margin::Slip => "displacement component",
-        Margin::Force | Margin::Friction => "normal force",
-    };
-    format!(
-        "Nearest to another contact state: node {node}, {of} {relative:.1e} of the largest {scale}"
-    )
 }
 
 fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
@@ -107,24 +91,18 @@ fn uniqueness(solution: &Solution, found: &Uniqueness) -> Report {
         Uniqueness::Tried { states, steps, all, last_only, others } => {
             found_others = &others[..];
             let steps = match last_only {
-                true => "the last step".into(),
+                true => "last step".into(),
                 false => counted(*steps, "step of the load", "steps of the load"),
             };
-            let states = match all {
-                true => format!("all {states} contact states of {steps}"),
+            let tried = match all {
+                true => format!("trying all other contact states ({states}, {steps})"),
                 false => {
-                    let states = counted(*states, "contact state", "contact states");
-                    format!("{states} of {steps} that differ at one node")
+                    format!("changing the contact state of any one node ({states} tried, {steps})")
                 }
             };
-            let shapes = match solution.request.contact.geometry {
-                Geometry::Initial => "",
-                Geometry::Current => ", each in the shape reached",
-            };
-            let earlier = if *last_only { "; earlier steps were not examined" } else { "" };
             match others.len() {
-                0 => format!("no other equilibrium found among {states}{shapes}{earlier}"),
-                n => format!("NOT THE ONLY ONE: {n} more among {states}{shapes}{earlier}"),
+                0 => format!("{tried} gives no other equilibrium"),
+                n => format!("NOT THE ONLY ONE: {tried} gives {n} more"),
             }
         }
     };

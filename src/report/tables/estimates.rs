@@ -1,19 +1,15 @@
-//! How far the numbers of a run may be from the truth.
+//! What rounding does to the numbers of a run.
 
 use crate::layout::{counted, first_line};
 use crate::model::Report;
-use crate::numbers::{or_dash, percent, six_digits, with_unit};
-use engine::estimates::{BodyEstimates, Certainty, ContactChange, NoLimit, Perturbed};
-use engine::{Assessment, Decision, Solution, locking_of};
+use crate::numbers::{or_dash, six_digits, with_unit};
+use engine::estimates::{BodyEstimates, Certainty, ContactChange, Perturbed};
+use engine::{Assessment, Decision, Solution};
 use problem::modelling::Variant;
-use problem::scene::Units;
 
 /// What is said of a run of `unilateral` for which rounding was not measured.
 const UNCHECKED: &str = "rounding: not checked; solve --check-rounding repeats the run with inputs changed in \
                          the last digit";
-
-/// What is said of the estimate of the error of the mesh.
-pub const UNDERESTIMATE: &str = "an underestimate as a rule, most where the stress diverges";
 
 /// Says in which numbers a run is done where rounding in f64 may decide who is in contact.
 pub fn certainty(certainty: Certainty) -> Option<String> {
@@ -26,68 +22,37 @@ pub fn certainty(certainty: Certainty) -> Option<String> {
     Some(format!("rounding in f64 may decide who is in contact; {numbers}"))
 }
 
-/// Reports the estimated errors; nothing where they were left out.
+/// Reports what rounding does to the result; nothing where that was left out.
 pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
     let Some(estimates) = &assessment.estimates else {
         // It was asked for even so.
         return Report::default().notes(assessment.rounding.iter().flat_map(perturbed));
     };
-    let errors = &estimates.errors;
-    let units = &solution.request.scene.units;
-    let is_bounded = solution.request.variant != Variant::Unilateral;
-    let mesh = match errors.mesh_energy_relative {
-        Some(relative) => format!(
-            "{} in the energy norm, {UNDERESTIMATE}; trade --only mesh measures that of one displacement or stress",
-            percent(relative)
-        ),
-        None => {
-            let why = locking_of(&solution.model);
-            format!("unknown: {}", why.unwrap_or("a body is too small for an estimate".into()))
-        }
+    let (errors, units) = (&estimates.errors, &solution.request.scene.units);
+    let report = Report::default().heading("Rounding");
+    if solution.request.variant == Variant::Unilateral {
+        return report
+            .notes(assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed));
+    }
+    let displacement = moved_by_rounding(errors.displacement_arithmetic, &units.length);
+    let stress = |body: &BodyEstimates| {
+        let moved = moved_by_rounding(body.arithmetic, &units.stress);
+        format!("largest von Mises stress, {}: {moved}", body.name)
     };
-    let displacement = match errors.displacement_no_limit {
-        Some((node, cause)) => {
-            Some(format!("in the plane it diverges under refinement: at node {node}, {cause}"))
-        }
-        None => moved_by_rounding(errors.displacement_arithmetic, &units.length, is_bounded),
-    };
-    let rounding = match is_bounded {
-        true => by_rounding(solution, errors.decided_by_rounding.as_deref()).into_iter().collect(),
-        false => assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed),
-    };
-    Report::default()
-        .heading("Error estimates")
-        .note(format!("error of the mesh: {mesh}"))
-        .notes(displacement.map(|value| format!("largest |u|: {value}")))
-        .notes(errors.bodies.iter().filter_map(|body| stress(body, units, is_bounded)))
-        .notes(rounding)
+    report
+        .note(format!("largest |u|: {displacement}"))
+        .notes(errors.bodies.iter().map(stress))
+        .notes(by_rounding(solution, errors.decided_by_rounding.as_deref()))
 }
 
-/// Says what there is to say of a body's largest stress: that it diverges, or what rounding does to it.
-fn stress(body: &BodyEstimates, units: &Units, is_bounded: bool) -> Option<String> {
-    let rounding = moved_by_rounding(body.arithmetic, &units.stress, is_bounded);
-    let value = match &body.no_limit {
-        Some(NoLimit { node, cause, is_largest: true }) => {
-            format!("it diverges under refinement: at node {node}, {cause}")
-        }
-        Some(NoLimit { node, cause, is_largest: false }) => {
-            let away =
-                format!("away from node {node}, {cause}, where it diverges under refinement");
-            away + &rounding.map_or(String::new(), |rounding| format!("; {rounding}"))
-        }
-        None => rounding?,
-    };
-    Some(format!("largest von Mises stress, {}: {value}", body.name))
-}
-
-/// Says what rounding may do to a number, where bounds are kept.
-fn moved_by_rounding(by: Option<f64>, unit: &str, is_bounded: bool) -> Option<String> {
-    is_bounded.then(|| match by {
+/// Says what rounding may do to a number, by the bound that is kept.
+fn moved_by_rounding(by: Option<f64>, unit: &str) -> String {
+    match by {
         Some(by) => {
             format!("rounding moves it by at most {}", with_unit(&format!("{by:.1e}"), unit))
         }
         None => "what rounding does to it is not known".into(),
-    })
+    }
 }
 
 /// Says what rounding may have decided: the first decision, and how many there are.

@@ -11,7 +11,7 @@ use engine::{
 
 /// The change of displacements, over the largest, below which a path of half as many steps gives
 /// the same: where nodes change their status within steps, both may miss when.
-const UNCHANGED: f64 = 1e-6;
+const UNCHANGED: f64 = 5e-5;
 
 /// The most rows of a table of iterations, unless all are asked for.
 const LISTED: usize = 25;
@@ -109,16 +109,16 @@ pub fn load_steps(solution: &Solution, path: &Path, assessment: &Assessment, all
     let change = match &assessment.path_change {
         Some(Ok(change)) => step_error(solution, path, *change),
         Some(Err(why)) => {
-            format!("The error of the size of the steps is unknown: in half as many, {why}")
+            Some(format!("The error of the size of the steps is unknown: in half as many, {why}"))
         }
-        None => format!("The error of the size of the steps is {}", why_unknown(path)),
+        None => Some(format!("The error of the size of the steps is {}", why_unknown(path))),
     };
     Report::default()
         .table("Path of the load", table)
         .notes(left_out)
         .note(format!("{} steps a stage{halved}", path.steps))
         .notes(released(path.start))
-        .note(change)
+        .notes(change)
 }
 
 /// Says where bodies that overlapped start from, where contact alone holds them.
@@ -141,20 +141,23 @@ fn released(start: Start) -> Option<String> {
     Some(format!("The start is not determined by the overlap: {found}; friction counts from there"))
 }
 
-/// Says what half as many steps of the load change.
-fn step_error(solution: &Solution, path: &Path, change: f64) -> String {
+/// Says what half as many steps of the load change; nothing where that is nothing.
+fn step_error(solution: &Solution, path: &Path, change: f64) -> Option<String> {
     let largest = max_displacement(&solution.u);
-    let part = if largest > 0.0 { change / largest } else { 0.0 };
-    let words = format!(
-        "Half as many steps change a displacement component by at most {} = {} of the largest |u|",
-        with_unit(&short(change), &solution.request.scene.units.length),
-        percent(part)
-    );
-    if path.changes == 0 || change > UNCHANGED * largest {
-        return words;
+    if change > UNCHANGED * largest {
+        return Some(format!(
+            "Half as many steps change a displacement component by at most {} = {} of the largest |u|",
+            with_unit(&short(change), &solution.request.scene.units.length),
+            percent(change / largest)
+        ));
     }
     let steps = counted(path.changes, "step", "steps");
-    format!("{words}; not conclusive, as nodes come to stick, to slide or to open in {steps}")
+    (path.changes > 0).then(|| {
+        format!(
+            "Half as many steps change nothing, which is not conclusive, as nodes come to stick, to slide or to open \
+             in {steps}"
+        )
+    })
 }
 
 /// Says why it is not known what the size of the steps changes.

@@ -9,9 +9,9 @@ mod result;
 
 pub use call::{figure_numbers, pairs};
 pub use distance::distance;
-pub use equilibrium::{nearest_decision, overlap};
-pub use estimates::{UNDERESTIMATE, certainty, error_estimates, perturbed};
-pub use result::decimals;
+pub use equilibrium::overlap;
+pub use estimates::{certainty, error_estimates, perturbed};
+pub use result::{PROBABLY_MORE, decimals};
 
 use crate::layout::{counted, listed};
 use crate::model::Report;

@@ -2,15 +2,20 @@
 
 use std::collections::BTreeSet;
 
-use super::{direction, equilibrium, error_of_mesh, estimates::UNDERESTIMATE};
+use super::{direction, equilibrium, error_of_mesh};
 use crate::layout::{counted, listed};
 use crate::model::Report;
-use crate::numbers::{Digits, coordinates, figure, percent, six_digits, with_unit};
+use crate::numbers::{
+    Digits, coordinates, decimals_of_places, figure, percent, six_digits, with_unit,
+};
 use engine::estimates::{Cause, NoLimit, contact_ends};
 use engine::{Assessment, Cycle, Resultant, Solution, Stretch, locking_of, share_of_load};
 use numbers::largest::largest;
 use problem::model::NodeId;
 use problem::modelling::Variant;
+
+/// What is said of the estimate of the error of the mesh.
+pub const PROBABLY_MORE: &str = "probably more";
 
 /// The cosine of the angle from the load up to which a contact force carries it, rather than acts across it: 45 degrees.
 const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -34,11 +39,9 @@ pub fn result(solution: &Solution, assessment: &Assessment) -> Report {
         .notes(resultant(solution))
         .notes(peak(solution, &ends, error))
         .notes(width(solution))
-        .notes(displacement(solution, error))
+        .notes(displacement(assessment, solution, error))
         .notes(stresses(assessment, solution, error))
-        .notes(error.map(|error| {
-            format!("Error of the mesh {} in the energy norm, {UNDERESTIMATE}", percent(error))
-        }));
+        .notes(mesh_error(assessment, solution, error));
     match &solution.equilibrium {
         Some(found) => report.then(equilibrium::lines(solution, found)),
         None => report.notes(end(solution)).notes(from_equilibrium(assessment)),
@@ -74,8 +77,11 @@ fn passes_on(solution: &Solution) -> Option<String> {
     let share = share_of_load(&solution.model, along).filter(|_| is_along);
     Some(match (share, resultant) {
         (Some(share), _) => {
-            let share = percent(share);
-            format!("Contact passes on {share} of the load: force on the target {}", force(along))
+            let share = match percent(share).as_str() {
+                "100 %" => "the whole load".into(),
+                part => format!("{part} of the load"),
+            };
+            format!("Contact transmits {share}: force on the target {}", force(along))
         }
         (None, None) => {
             let all = solution.in_contact().filter_map(|node| node.force).sum();
@@ -155,7 +161,10 @@ fn peak(solution: &Solution, ends: &[(Cause, [NodeId; 2])], error: Option<f64>) 
     let units = &solution.request.scene.units;
     let gap = with_unit(&figure(at.gap, error), &units.length);
     let is_apart = solution.is_apart(at);
-    let across = if is_apart { format!(", across an open gap of {gap}") } else { String::new() };
+    let across = match is_apart {
+        true => format!(", although the gap is open ({gap})"),
+        false => String::new(),
+    };
     let caution = of_the_mesh(solution, ends, at.node);
     Some(format!(
         "Peak contact pressure {} at {}{}{across}{caution}",
@@ -193,7 +202,7 @@ fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId)
         .iter()
         .find(|(cause, [end, _])| *end == node || *cause == Cause::Group && is_beside(*end));
     cause.map_or(String::new(), |(cause, _)| {
-        format!("; {}: a finer mesh has more, without limit", cause.name())
+        format!("; unbounded under refinement ({})", cause.name())
     })
 }
 
@@ -231,14 +240,39 @@ fn width(solution: &Solution) -> Vec<String> {
     }
 }
 
-/// Names the node that moves farthest.
-fn displacement(solution: &Solution, error: Option<f64>) -> Option<String> {
+/// Names the node that moves farthest, and whether that has a limit.
+fn displacement(
+    assessment: &Assessment,
+    solution: &Solution,
+    error: Option<f64>,
+) -> Option<String> {
     let sizes: Vec<f64> = solution.displacements().iter().map(|[x, y]| x.hypot(*y)).collect();
     let found = largest(sizes.iter().copied())?;
     let node = solution.model.node_ids().nth(found.first).expect("it has a displacement");
     let size = figure(sizes[found.first], error);
     let size = with_unit(&size, &solution.request.scene.units.length);
-    Some(format!("Largest |u| {size} at {}{}", place(solution, node), others(found.others)))
+    if sizes[found.first] == 0.0 {
+        return Some(format!("Largest |u| {size}"));
+    }
+    let no_limit = assessment.estimates.as_ref().and_then(|of| of.errors.displacement_no_limit);
+    let diverges =
+        no_limit.map_or(String::new(), |(node, cause)| format!("; {}", unbounded(node, cause)));
+    let (place, others) = (place(solution, node), others(found.others));
+    Some(format!("Largest |u| {size} at {place}{others}{diverges}"))
+}
+
+fn unbounded(node: NodeId, cause: Cause) -> String {
+    format!("unbounded under refinement (node {node}, {cause})")
+}
+
+/// Says how large the error of the mesh is, or why that is not known.
+fn mesh_error(assessment: &Assessment, solution: &Solution, error: Option<f64>) -> Option<String> {
+    assessment.estimates.as_ref()?;
+    Some(match (error, locking_of(&solution.model)) {
+        (Some(error), _) => format!("Mesh error {}, {PROBABLY_MORE}", percent(error)),
+        (None, Some(_)) => "Mesh error unknown: the triangles lock".into(),
+        (None, None) => "Mesh error unknown: a body is too small for an estimate".into(),
+    })
 }
 
 /// Says where each body has its largest von Mises stress, and whether that has a limit.
@@ -247,12 +281,20 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
     let limits = assessment.estimates.as_ref().map(|estimates| &estimates.errors.bodies);
     let mut lines = Vec::new();
     for (k, body) in assessment.bodies.iter().enumerate() {
+        if body.max_von_mises_stress == 0.0 {
+            let none = with_unit("0", &units.stress);
+            lines.push(format!("Largest von Mises stress, {}: {none}", body.name));
+            continue;
+        }
         let limit = limits.and_then(|bodies| bodies.get(k)?.no_limit.as_ref());
         let diverges = match limit {
             Some(NoLimit { node, cause, is_largest: true }) => {
-                format!("; a finer mesh has more, without limit, at node {node}: {cause}")
+                format!("; {}", unbounded(*node, *cause))
             }
-            Some(NoLimit { is_largest: false, .. }) | None => String::new(),
+            Some(NoLimit { node, cause, is_largest: false }) => {
+                format!("; elsewhere {}", unbounded(*node, *cause))
+            }
+            None => String::new(),
         };
         lines.push(format!(
             "Largest von Mises stress, {}: {} at {}{}{diverges}",
@@ -265,20 +307,23 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
     lines
 }
 
-/// Says that no equilibrium is sought, and whether the contact state came to rest.
+/// Says that the run does not iterate to equilibrium, and whether the contact state came to rest.
 fn end(solution: &Solution) -> Option<String> {
     solution.model.target()?;
-    let last = solution.last();
+    let (variant, last) = (solution.request.variant, solution.last());
+    let from = if variant == Variant::Stepped { "step" } else { "iteration" };
     let state = match &last.cycle {
-        None => "the contact state is new in the last iteration".into(),
-        Some(Cycle { length: 1, .. }) => "the contact state is that of the iteration before".into(),
+        None => ", and is new in the last".into(),
+        Some(Cycle { length: 1, .. }) => String::new(),
         Some(cycle) => format!(
-            "UNSETTLED: the contact state alternates with a period of {}, and all figures are those of \
+            "; DOES NOT SETTLE: the contact state alternates with a period of {}, and all figures are those of \
              iteration {}",
             cycle.length, last.k
         ),
     };
-    Some(format!("No equilibrium is sought under {}; {state}", solution.request.variant))
+    Some(format!(
+        "{variant} does not iterate to equilibrium: contact is decided from the previous {from}{state}"
+    ))
 }
 
 /// Says how far the run is from the equilibrium under the scene's own friction, or the reference solution where
@@ -301,7 +346,7 @@ pub(super) fn place(solution: &Solution, node: NodeId) -> String {
 
 /// Returns the decimals of places: four digits of the size of the bodies.
 pub fn decimals(solution: &Solution) -> usize {
-    (4.0 - solution.model.bounds().larger_side().log10()).ceil().clamp(0.0, 12.0) as usize
+    decimals_of_places(solution.model.bounds().larger_side())
 }
 
 /// Says how many other places have the same value to 1e-9 of it, as mirror images have.

@@ -4,14 +4,12 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use crate::audit::claims::{CLAIMS, Claim, by_reading};
-use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Compared};
 use crate::audit::range::{Range, range};
-use crate::audit::{Audit, Case, audit, screen, steps};
-use crate::audit::{claims::table as claims, prices::table as price_report, tables as report};
-use ::report::folder::FolderOptions;
-use ::report::{folder, json, pressure};
+use crate::audit::words::{self, Depth};
+use crate::audit::{Audit, Case, audit, steps, tables};
+use crate::audit::{claims::table as claims, prices::table as price_report};
 use base::error::InputError;
 use base::files;
 use base::suggestion::did_you_mean;
@@ -20,6 +18,8 @@ use engine::{Assessment, Hertz, Solution};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
+use report::folder::FolderOptions;
+use report::{folder, json, pressure};
 
 use commands::{
     ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
@@ -28,16 +28,15 @@ use commands::{
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its statements,
-what each fault costs, what was assumed. --full prints the whole: five answers, each with its number and
-the command that prints it; the claims of the paper in full; the readings (what each other value
-changes), the findings (present, not triggered here, contradicted; with a number), and the variants side
-by side. --finding explains one on its smallest
-scene, or on SCENE where that is given; --claim judges one: the paper's sentence, what is judged,
-threshold, value, and the verdict under each other reading. --reading audits under another reading
-than the default, to see whether it rescues a claim. All figures are repeated on inputs that
-mean the same; one that moves by more than a millionth is 'decided by rounding', and left out. The whole
-takes 150 to 300 times as long as solve.
+One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its
+claims, what each fault costs, what was assumed. --full prints the whole: what the verdict
+leaves out, the claims of the paper in full, the readings (what each other value changes), the
+findings (present, not triggered here, contradicted; with a number), and the variants side by side.
+--finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one:
+the paper's sentence, what is judged, threshold, value, and the verdict under each other reading.
+--reading audits under another reading than the default, to see whether it rescues a claim. All
+figures are repeated on inputs that mean the same; one that moves by more than a millionth is
+'decided by rounding', and left out. The whole takes 150 to 300 times as long as solve.
 
 A variant that runs to its end and passes no load on, as printed does, is an audit result, no
 failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
@@ -72,16 +71,16 @@ pub struct Args {
     /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
     range: bool,
-    /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault put
-    /// back, and show what each costs. It takes half a minute on strand. Of --reading only what
+    /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault
+    /// reintroduced, and show what each costs. It takes half a minute on strand. Of --reading only what
     /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
     #[arg(long, conflicts_with_all = ["finding", "claim"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
-    /// put back, each time the one that leaves the least error. It takes a few minutes on strand.
+    /// reintroduced, each time the one that leaves the least error. It takes a few minutes on strand.
     #[arg(long, requires = "prices", conflicts_with = "range")]
     repairs: bool,
-    /// Print everything: conclusion, claims, prices, readings, findings and variants.
+    /// Print everything: verdict, claims, prices, readings, findings and variants.
     #[arg(long, conflicts_with_all = ["finding", "claim", "prices"])]
     full: bool,
     #[command(flatten)]
@@ -202,13 +201,13 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
     let json =
-        || json::line(Some(&case.scene), &report::FindingRow { finding, measured: &measured });
+        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured });
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
         files::write_all(out, &[(svg, picture), (document, json())])?;
     }
     print_either(args.tables.json, json, || {
-        report::explanation(finding, &measured, &case.scene, &reading)
+        tables::explanation(finding, &measured, &case.scene, &reading)
     })
 }
 
@@ -225,10 +224,9 @@ fn whole(args: &Args) -> Result<()> {
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
     let found = audit(&case, &places, is_whole, &watch);
     bar.finish();
-    let conclusion = waiting("concluding", || Conclusion::new(&case, &found));
     if is_whole {
-        let json = report::json(&found, &conclusion, &case.scene);
-        let report = report::report(&found, &conclusion, &case.scene);
+        let json = tables::json(&found);
+        let report = words::report(&found, Depth::Full);
         if let Some(out) = &args.out {
             write(out, &case, &found, &report.text(usize::MAX), &json)?;
         }
@@ -238,15 +236,14 @@ fn whole(args: &Args) -> Result<()> {
         if args.full {
             return args.tables.print(report);
         }
-        print_screen(&found, &conclusion, &case)?;
+        print_screen(&found)?;
         return args.tables.write(&report);
     }
-    print_screen(&found, &conclusion, &case)
+    print_screen(&found)
 }
 
-fn print_screen(found: &Audit, conclusion: &Conclusion, case: &Case) -> Result<()> {
-    let screen = screen::report(found, conclusion, &case.scene);
-    print(&screen.text(width().min(screen::WIDTH)))
+fn print_screen(found: &Audit) -> Result<()> {
+    print(&words::report(found, Depth::Screen).text(width().min(words::WIDTH)))
 }
 
 /// Checks that files of these names can be written where a folder is named for them.

@@ -1,18 +1,18 @@
-//! The conclusion of an audit: five questions about the printed algorithm on a scene, and the facts
-//! that answer them. The sentences are made of these in the report.
-
-pub mod words;
+//! What follows from the results of an audit: whether the print couples the bodies, which run comes nearest, how far
+//! its fields are off, and how far what the paper leaves open moves that.
 
 use std::collections::BTreeSet;
+use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
+use super::Case;
 use super::claims::{JudgedClaim, Verdict as ClaimVerdict, nearest as least};
 use super::evidence::{NoFigures, beyond_noise};
 use super::findings::{Evidence, Finding, Verdict};
 use super::range::{Parameter, distinct};
+use super::readings::Effect;
 use super::variants::{End, VariantRow};
-use super::{Assumption, Audit, Case};
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, over, summaries};
 use paper::corrected::FAULTS;
@@ -34,8 +34,6 @@ pub struct Conclusion {
     /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
     /// they have no price: listings/corrected/README.md says what repairs each.
     pub unpriced: Vec<&'static str>,
-    /// What the paper leaves open.
-    pub open: Vec<&'static str>,
     /// How far that moves the verdicts; nothing where it was not tried.
     pub range: Option<Spread>,
 }
@@ -73,29 +71,35 @@ pub struct NearRun {
     pub variant: Variant,
     /// The value of a reading that is not the default; nothing where all are.
     pub reading: Option<String>,
-    /// Where the distance stands in the audit's JSON.
-    pub at: String,
     /// The distance from the equilibrium in the energy norm, relative.
     pub energy: f64,
     /// Whether its contact state alternates, so that the distance is that of one of several states.
     pub unsettled: bool,
 }
 
-/// The largest von Mises stress and strain of each body, under the nearest variant and in equilibrium.
+/// Names a run and says what it is, with its reading where that is not the default.
+impl Display for NearRun {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        let NearRun { variant, reading, unsettled, .. } = self;
+        let what = match variant {
+            Variant::Stepped => "eq. (1) in load steps",
+            Variant::Tied => "eq. (1) under the whole load",
+            Variant::Printed => "Km as printed",
+            Variant::Unilateral => "the contact solution",
+        };
+        let reading = reading.as_ref().map_or(String::new(), |reading| format!(", {reading}"));
+        let unsettled = if *unsettled { ", does not settle" } else { "" };
+        write!(out, "\"{variant}\" ({what}{reading}{unsettled})")
+    }
+}
+
+/// How far the fields of the nearest variant are from those of the equilibrium.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fields {
     /// The nearest of the paper's variants, and those that are equally near; none where none ran.
     pub variants: Vec<Variant>,
-    /// Whether the contact state of one of them alternates.
-    pub unsettled: bool,
-    /// Whether rounding decides on another variant, which is left out.
-    pub by_rounding: bool,
     /// The largest relative difference of a body's largest von Mises stress or strain between the two.
     pub difference: Option<f64>,
-    /// The bodies under that variant.
-    pub theirs: Vec<BodySummary>,
-    /// The bodies in equilibrium.
-    pub own: Vec<BodySummary>,
     /// How far the numbers of the equilibrium may be from the truth.
     pub errors: ErrorEstimates,
 }
@@ -115,23 +119,28 @@ pub struct Spread {
 
 impl Conclusion {
     /// Draws the conclusion of what was found on a case.
-    pub fn new(case: &Case, audit: &Audit) -> Self {
+    pub fn new(
+        case: &Case,
+        claims: &[JudgedClaim],
+        readings: &[Effect],
+        findings: &[(&'static Finding, Evidence)],
+        variants: &[VariantRow],
+    ) -> Self {
         Conclusion {
             reading: *case.reading(),
-            coupled: case.model().target().map(|_| coupled(audit)),
-            nearest: nearest(audit, case.reading()),
-            fields: fields(case, &audit.variants),
-            unpriced: unpriced(&audit.findings),
-            open: audit.assumptions.iter().map(|Assumption { what, .. }| *what).collect(),
-            range: spread(&audit.claims),
+            coupled: case.model().target().map(|_| coupled(findings, variants)),
+            nearest: nearest(variants, readings, case.reading()),
+            fields: fields(case, variants),
+            unpriced: unpriced(findings),
+            range: spread(claims),
         }
     }
 }
 
-fn coupled(audit: &Audit) -> Coupled {
-    let k1 = audit.findings.iter().find(|(finding, _)| finding.id == "K1");
+fn coupled(findings: &[(&'static Finding, Evidence)], variants: &[VariantRow]) -> Coupled {
+    let k1 = findings.iter().find(|(finding, _)| finding.id == "K1");
     let joins = k1.filter(|(_, measured)| measured.verdict != Verdict::NotTriggered);
-    let printed = audit.variants.iter().find(|row| row.variant == Variant::Printed);
+    let printed = variants.iter().find(|row| row.variant == Variant::Printed);
     let (share, failure) = match printed.map(|row| &row.end) {
         Some(End::Result { target_share, .. }) => (*target_share, None),
         Some(End::Failure { failure }) => (None, Some(failure.clone())),
@@ -141,31 +150,28 @@ fn coupled(audit: &Audit) -> Coupled {
     Coupled { joins: joins.map(|joins| joins as usize), share, failure }
 }
 
-/// Returns the rows of the paper's variants, with their places.
-pub(super) fn of_the_paper(
-    rows: &[VariantRow],
-) -> impl Iterator<Item = (usize, &VariantRow)> + Clone {
-    rows.iter().enumerate().filter(|(_, row)| Variant::OF_THE_PAPER.contains(&row.variant))
+/// Returns the rows of the paper's variants.
+pub(super) fn of_the_paper(rows: &[VariantRow]) -> impl Iterator<Item = &VariantRow> {
+    rows.iter().filter(|row| Variant::OF_THE_PAPER.contains(&row.variant))
 }
 
 /// Finds the nearest of all variants and readings; runs that end alike count once.
-fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
+fn nearest(variants: &[VariantRow], readings: &[Effect], base: &Reading) -> Option<Nearest> {
     let mut failures: Vec<&NoFigures> = Vec::new();
     let mut found: Vec<NearRun> = Vec::new();
-    for (k, VariantRow { variant, end }) in of_the_paper(&audit.variants) {
+    for VariantRow { variant, end } in of_the_paper(variants) {
         match end {
             End::Failure { failure } => failures.push(failure),
             End::Result { distance, .. } => found.push(NearRun {
                 variant: *variant,
                 reading: None,
-                at: format!("/variants/{k}/distance/energy_relative"),
                 energy: distance.as_ref()?.energy_relative,
                 unsettled: end.is_unsettled(),
             }),
         }
     }
     let mut apart = Vec::new();
-    for (k, effect) in audit.readings.iter().enumerate() {
+    for effect in readings {
         let Some(variant) = effect.variant else { continue };
         // The other load in each iteration makes `tied` of `stepped`, and the reverse.
         if effect.id == "R7" && base.r7.is_none() && variant != Variant::Printed {
@@ -176,7 +182,6 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
         let run = NearRun {
             variant,
             reading: Some(effect.reading.clone()),
-            at: format!("/readings/{k}/equilibrium_error"),
             energy,
             unsettled: effect.unsettled,
         };
@@ -189,7 +194,13 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
     let distances: Vec<(f64, &NearRun)> = found.iter().map(|run| (run.energy, run)).collect();
     let least = least(&distances)?;
     let by_rounding = failures.iter().filter(|why| ***why == NoFigures::Rounding).count();
-    let stopped: BTreeSet<&str> = failures.iter().filter_map(|why| why.failure()).collect();
+    let stopped: BTreeSet<&str> = failures
+        .iter()
+        .filter_map(|why| match why {
+            NoFigures::Fails(why) => Some(why.as_str()),
+            NoFigures::Refused(_) | NoFigures::Rounding => None,
+        })
+        .collect();
     let ended: BTreeSet<u64> = found.iter().map(|run| run.energy.to_bits()).collect();
     Some(Nearest {
         tried: ended.len() + apart.len() + stopped.len() + by_rounding,
@@ -204,7 +215,7 @@ fn nearest(audit: &Audit, base: &Reading) -> Option<Nearest> {
 fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     let equilibrium = case.equilibrium()?;
     let own = summaries(equilibrium);
-    let ended = of_the_paper(rows).filter_map(|(_, VariantRow { variant, end })| match end {
+    let ended = of_the_paper(rows).filter_map(|VariantRow { variant, end }| match end {
         End::Result { distance, bodies, .. } => {
             Some((distance.as_ref()?.energy_relative, (*variant, bodies)))
         }
@@ -212,22 +223,15 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     });
     let ended: Vec<(f64, (Variant, &Vec<BodySummary>))> = ended.collect();
     let nearest = least(&ended).unwrap_or_default();
-    let theirs = nearest.first().map_or(Vec::new(), |k| ended[*k].1.1.clone());
-    let variants: Vec<Variant> = nearest.iter().map(|k| ended[*k].1.0).collect();
-    let is_unsettled = |row: &VariantRow| variants.contains(&row.variant) && row.end.is_unsettled();
+    let theirs = nearest.first().map_or(&[][..], |k| ended[*k].1.1);
     let largest = |body: &BodySummary| [body.max_von_mises_stress, body.max_von_mises_strain];
     let pairs = theirs.iter().zip(&own);
     let pairs = pairs.flat_map(|(theirs, own)| largest(theirs).into_iter().zip(largest(own)));
     let differences = pairs.map(|(theirs, own)| beyond_noise(over(theirs - own, own).abs()));
     Some(Fields {
-        unsettled: rows.iter().any(is_unsettled),
-        variants,
+        variants: nearest.iter().map(|k| ended[*k].1.0).collect(),
         difference: differences.filter(|x| x.is_finite()).reduce(f64::max),
-        by_rounding: of_the_paper(rows)
-            .any(|(_, row)| row.end.failure() == Some(&NoFigures::Rounding)),
         errors: Estimates::new(equilibrium).errors,
-        theirs,
-        own,
     })
 }
 

@@ -6,12 +6,14 @@ use serde::{Serialize, Serializer};
 
 use super::Case;
 use engine::Solution;
+use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use numbers::finite;
 use problem::modelling::Variant;
 use report::layout::first_line;
 use report::model::Cell;
+use report::numbers::{Digits, short};
 
 /// What is said in place of a figure that inputs of the same meaning change.
 pub const BY_ROUNDING: &str = "decided by rounding";
@@ -52,6 +54,9 @@ pub struct Evidence<V> {
     pub number: Option<f64>,
     /// Whether inputs that mean the same lead to another verdict or number.
     pub by_rounding: bool,
+    /// The least and the largest number on the inputs that mean the same, where rounding decides on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
     /// The variant that was measured, where it is one of the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub variant: Option<Variant>,
@@ -78,6 +83,7 @@ impl<V> Evidence<V> {
             verdict,
             number: number.into(),
             by_rounding: false,
+            range: None,
             variant: None,
             detail: detail.into(),
             mesh_errors: Vec::new(),
@@ -99,16 +105,23 @@ impl<V> Evidence<V> {
 
     /// Writes the number; where there is none, a dash, or that rounding decides on it.
     pub fn figure(&self, write: fn(f64) -> String) -> String {
-        match self.number {
-            Some(number) => write(number),
-            None if self.by_rounding => BY_ROUNDING.into(),
-            None => "-".into(),
+        match (self.number, self.range) {
+            (Some(number), _) => write(number),
+            (None, Some([least, most])) => {
+                format!("{BY_ROUNDING}, {} to {}", write(least), write(most))
+            }
+            (None, None) if self.by_rounding => BY_ROUNDING.into(),
+            (None, None) => "-".into(),
         }
     }
 
     /// Returns the number as a cell of a table; where rounding decides on it, that.
     pub fn cell(&self) -> Cell {
-        if self.by_rounding { BY_ROUNDING.into() } else { self.number.into() }
+        match self.number {
+            Some(number) => Cell::of_digits(number, Digits::of(number, None)),
+            None if self.by_rounding => self.figure(short).into(),
+            None => Cell::Missing(None),
+        }
     }
 
     /// Returns whether another input leads to another verdict or number.
@@ -125,20 +138,17 @@ impl<V> Evidence<V> {
 pub enum NoFigures {
     /// It fails, or its listing does: says why.
     Fails(String),
+    /// The scene or its input is none that it takes: says why.
+    Refused(String),
     /// Inputs that mean the same lead to other figures.
     Rounding,
 }
 
 impl NoFigures {
-    /// Describes a failure.
-    pub fn fails(why: impl fmt::Display) -> Self {
-        NoFigures::Fails(why.to_string())
-    }
-
-    /// Returns why a run fails; nothing where rounding decides.
+    /// Returns why a run fails, or is refused; nothing where rounding decides.
     pub fn failure(&self) -> Option<&str> {
         match self {
-            NoFigures::Fails(why) => Some(why),
+            NoFigures::Fails(why) | NoFigures::Refused(why) => Some(why),
             NoFigures::Rounding => None,
         }
     }
@@ -147,6 +157,31 @@ impl NoFigures {
     pub fn in_short(&self) -> &str {
         let why = self.failure().unwrap_or(BY_ROUNDING);
         first_line(why).trim_start_matches("the published algorithm fails as printed: ")
+    }
+}
+
+impl From<&Error> for NoFigures {
+    fn from(why: &Error) -> Self {
+        let words = why.to_string();
+        match why {
+            Error::Input(_) => NoFigures::Refused(words),
+            Error::Listing(_)
+            | Error::Execution(_)
+            | Error::Singular(_)
+            | Error::Equilibrium(_) => NoFigures::Fails(words),
+        }
+    }
+}
+
+impl From<Error> for NoFigures {
+    fn from(why: Error) -> Self {
+        (&why).into()
+    }
+}
+
+impl From<String> for NoFigures {
+    fn from(why: String) -> Self {
+        NoFigures::Fails(why)
     }
 }
 

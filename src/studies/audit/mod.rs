@@ -10,9 +10,9 @@ pub mod findings;
 pub mod prices;
 pub mod range;
 pub mod readings;
-pub mod screen;
 pub mod tables;
 pub mod variants;
+pub mod words;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -21,6 +21,7 @@ pub use assumptions::{Assumption, assumptions, relative_radius};
 pub use case::Case;
 
 use claims::{CLAIMS, JudgedClaim, UnderReading};
+use conclusion::Conclusion;
 use engine::contact::ContactNode;
 use engine::estimates::{Perturbed, perturbed};
 use engine::{BodySummary, NearestDecision, Solution, solve, summaries};
@@ -28,13 +29,19 @@ use evidence::NoFigures;
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
 use problem::modelling::{ContactModel, Friction, Variant};
+use problem::scene::Scene;
 use range::Range;
 use readings::Effect;
 use variants::VariantRow;
 
-/// The results of an audit.
+/// The results of an audit: what `--json` prints, and what every sentence of [`words`] is made of.
 #[derive(Serialize)]
 pub struct Audit {
+    /// The scene; of which the JSON has the name.
+    #[serde(serialize_with = "tables::name")]
+    pub scene: Scene,
+    /// What follows from the rest.
+    pub conclusion: Conclusion,
     /// What the paper says, each with its verdict, in the order of its text.
     pub claims: Vec<JudgedClaim>,
     /// The claims where the paper is read otherwise.
@@ -46,7 +53,7 @@ pub struct Audit {
     /// What the scene shows of each finding, in the order of the register.
     #[serde(serialize_with = "tables::rows")]
     pub findings: Vec<(&'static Finding, Evidence)>,
-    /// What each printed fault costs, put back alone into the corrected algorithm; or why that is not known.
+    /// What each printed fault costs, reintroduced alone into the corrected algorithm; or why that is not known.
     pub prices: Result<Vec<Price>, String>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
@@ -114,7 +121,7 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
         watch();
         (finding, measured)
     };
-    let findings = || FINDINGS.par_iter().map(measured).collect();
+    let findings = || FINDINGS.par_iter().map(measured).collect::<Vec<_>>();
     let readings = || watched(readings::effects(case), watch);
     let variants = || watched(variants::side_by_side(case), watch);
     let claims = || watched(claims::judge(CLAIMS, case, places), watch);
@@ -136,6 +143,8 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
         || case.reference().map(|solution| compared(solution, is_whole)),
     );
     Audit {
+        conclusion: Conclusion::new(case, &claims, &readings, &findings, &variants),
+        scene: case.scene.clone(),
         claims,
         by_reading,
         assumptions: assumptions(&case.scene),
@@ -176,7 +185,7 @@ fn friction(case: &Case) -> Vec<FrictionContact> {
         let request = case.request(Variant::Unilateral).equilibrium();
         let contact = ContactModel { friction, ..request.contact };
         let nodes = match solve(&request.contact(contact), &mut |_| ()) {
-            Err(why) => Err(NoFigures::fails(why)),
+            Err(why) => Err(why.into()),
             Ok(run) if perturbed(&run).is_some_and(|found| found.decides()) => {
                 Err(NoFigures::Rounding)
             }

@@ -1,10 +1,9 @@
 //! What the printed faults cost, against the solution of the same conditions: the corrected algorithm of
-//! `listings/corrected/` with one fault put back at a time, and with all of them, repaired one at a time.
+//! `listings/corrected/` with one fault reintroduced at a time, and with all of them, repaired one at a time.
 
 pub mod table;
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -52,7 +51,7 @@ choices! {
 /// A run of the corrected algorithm, with faults.
 #[derive(Clone, Debug, Serialize)]
 pub struct Price {
-    /// The finding whose fault was put back, or repaired; nothing for the run before the first.
+    /// The finding whose fault was reintroduced, or repaired; nothing for the run before the first.
     pub finding: Option<&'static str>,
     /// Its name: all findings that describe the fault, and which of one finding's faults it is.
     pub name: Option<String>,
@@ -63,12 +62,6 @@ pub struct Price {
     /// What came of the run.
     #[serde(flatten)]
     pub outcome: Outcome,
-}
-
-impl Display for Price {
-    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: {}", self.name.as_deref().unwrap_or("-"), self.fault)
-    }
 }
 
 /// What came of a run of the corrected algorithm.
@@ -227,14 +220,14 @@ impl Compared {
         Ok(Compared { exact, equilibrium: case.equilibrium().cloned(), equivalents, stiffness })
     }
 
-    /// Runs the corrected algorithm along the normal, then, where it is at the solution, with each fault put
-    /// back, in the order of [`FAULTS`]. `watch` is called after each of the [`runs`]: fewer
+    /// Runs the corrected algorithm along the normal, then, where it is at the solution, with each fault
+    /// reintroduced, in the order of [`FAULTS`]. `watch` is called after each of the [`runs`]: fewer
     /// where the corrected algorithm is not at the solution.
     pub fn prices(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         self.prices_of(&FAULTS.iter().collect::<Vec<_>>(), watch)
     }
 
-    /// The same with each of some faults put back. The runs of one input share a worksheet, so that what all
+    /// The same with each of some faults reintroduced. The runs of one input share a worksheet, so that what all
     /// programs begin with is executed once.
     pub fn prices_of(&self, faults: &[&'static Fault], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let slides = self.slides();
@@ -269,8 +262,8 @@ impl Compared {
         prices
     }
 
-    /// Runs the corrected algorithm with all faults put back, then repairs one at a time. The order is
-    /// found from the end: into the corrected algorithm the faults are put back one at a time, of those
+    /// Runs the corrected algorithm with all faults reintroduced, then repairs one at a time. The order is
+    /// found from the end: into the corrected algorithm the faults are reintroduced one at a time, of those
     /// that are left the one that leaves the least error, and the first in [`FAULTS`] of those that
     /// leave the same; the last one is repaired first. `watch` is called after each of the
     /// [`runs_of_repairs`].
@@ -310,11 +303,11 @@ impl Compared {
         };
         let others: Vec<_> = self.equivalents.par_iter().map(on).collect();
         let outcomes = repeated(own, &others);
-        // What is left when a fault is repaired is what was there before it was put back.
+        // What is left when a fault is repaired is what was there before it was reintroduced.
         let faults = put_back.iter().map(|k| Some(&FAULTS[*k])).chain([None]);
         let prices = faults.zip(outcomes).map(|(fault, outcome)| self.price(fault, outcome));
         let mut repaired: Vec<Price> = prices.collect();
-        repaired.last_mut().expect("all are put back").fault = "all are put back".into();
+        repaired.last_mut().expect("all are reintroduced").fault = "all are reintroduced".into();
         repaired.reverse();
         repaired
     }
@@ -347,7 +340,7 @@ impl Compared {
         self.exact.model.bounds().larger_side().max(1e3 * self.exact.u.amax())
     }
 
-    /// Runs the corrected algorithm with faults put back.
+    /// Runs the corrected algorithm with faults reintroduced.
     fn run(&self, worksheet: &Worksheet, edits: &[&str]) -> Outcome {
         match worksheet.iterate(edits, STEPS) {
             Ok(ending) if ending.u.iter().all(|x| x.abs() <= self.farthest()) => {

@@ -1,5 +1,6 @@
 //! The range of what the paper leaves open: its example with one thing at a time set otherwise.
 
+use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
 use serde::Serialize;
@@ -13,6 +14,7 @@ use base::error::Result;
 use engine::Request;
 use paper::mirror::{Reading, ToleranceUnit};
 use problem::scene::Scene;
+use report::numbers::percent;
 
 choices! {
     /// What the paper leaves open of its example.
@@ -140,6 +142,23 @@ pub struct Recorded {
     pub error: [f64; 2],
     /// The places on which rounding decides.
     pub by_rounding: usize,
+}
+
+/// Says how far the nearest run is from the equilibrium on other geometries of the paper's example.
+impl Display for Recorded {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        let Recorded { places, error, by_rounding } = self;
+        let [least, most] = error.map(percent);
+        write!(
+            out,
+            "At {places} other choices of what the paper leaves open (clearance, radius, mesh, stamp, c_tol) the \
+             nearest run is {least} to {most} from it"
+        )?;
+        match by_rounding {
+            0 => out.write_str("."),
+            n => write!(out, "; at {n} more rounding decides."),
+        }
+    }
 }
 
 /// Reads `range.tsv`, which a test makes of [`table`].

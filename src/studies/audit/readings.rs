@@ -54,7 +54,7 @@ pub struct Effect {
 }
 
 /// Nothing where a trial runs through, else what stopped it.
-type Outcome<'a> = Result<(), Box<dyn std::error::Error + 'a>>;
+type Outcome = Result<(), NoFigures>;
 
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
@@ -152,18 +152,18 @@ impl Effect {
             failure: None,
         };
         let outcome = effect.measure(row.trial, value.change, reading, case, as_read);
-        effect.failure = outcome.err().map(NoFigures::fails);
+        effect.failure = outcome.err();
         effect
     }
 
-    fn measure<'a>(
+    fn measure(
         &mut self,
         trial: Trial,
         change: Change,
         reading: Reading,
-        case: &'a Case,
-        as_read: &'a AsRead,
-    ) -> Outcome<'a> {
+        case: &Case,
+        as_read: &AsRead,
+    ) -> Outcome {
         let own = case.run(self.variant.unwrap_or(case.published_variant()));
         match trial {
             // The mirror under the reading, beside the mirror under the default one.
@@ -204,7 +204,7 @@ impl Effect {
             Trial::Worksheet => {
                 let mut settings = Settings::default();
                 change.set(&mut settings);
-                let changed = executed(case, &settings)?;
+                let changed = executed(case, &settings).map_err(|why| why.to_string())?;
                 let blank = as_read.blank.as_ref();
                 let blank = blank
                     .map_err(|why| format!("runs; under a blank worksheet it fails: {why}"))?;

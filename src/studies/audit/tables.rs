@@ -1,20 +1,17 @@
-//! The audit for people and for machines.
+//! The tables that an audit rests on, its JSON, and what explains a finding.
 
 use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
 use crate::audit::claims::table as claims;
-use crate::audit::conclusion::Conclusion;
-use crate::audit::conclusion::words::{self as conclusion, Answer};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::findings::{Evidence, Finding, Repair};
 use crate::audit::prices::table as prices;
-use crate::audit::range::is_example;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Audit, Compared, FrictionContact};
-use engine::{BodySummary, Cycle};
+use crate::audit::{Audit, Compared, FrictionContact, words};
+use engine::Cycle;
 use paper::listings::Which;
 use paper::mirror::Reading;
 use problem::model::NodeId;
@@ -23,34 +20,10 @@ use problem::scene::Scene;
 use report::json;
 use report::layout::listed;
 use report::model::{Cell, Report, Table};
-use report::numbers::{figure, or_dash, short};
-use report::tables::{nearest_decision, perturbed};
+use report::numbers::{or_dash, short};
+use report::tables::perturbed;
 
-/// Reports the conclusion, the claims, what the printed faults cost, the readings, the findings, the variants
-/// side by side, and who sticks and slides under each coefficient of friction.
-pub fn report(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
-    opening(audit, conclusion, scene)
-        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(prices::section(conclusion.reading, &audit.prices, &[], scene))
-        .then(evidence(audit))
-}
-
-/// Reports the conclusion under the title of the audit.
-pub fn opening(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> Report {
-    let under = claims::under(&conclusion.reading);
-    Report::titled(format!("Audit of scene {} ({}){under}", scene.name, scene.title))
-        .line(format!(
-            "Judged are the two listings as printed, and this project's runs of them{}. Misprints are possible, and \
-             the authors may have run another listing. They were not asked.",
-            match is_example(scene) {
-                true => "; figure 5 itself is not",
-                false => " on a scene that is not the paper's example",
-            }
-        ))
-        .then(conclusion::report(&conclusion::answers(audit, conclusion, scene)))
-}
-
-/// Reports what the conclusion and the claims rest on: readings, findings, variants, friction.
+/// Reports what the verdict and the claims rest on: readings, findings, variants, friction.
 pub fn evidence(audit: &Audit) -> Report {
     Report::default()
         .heading("Readings, findings and variants")
@@ -109,30 +82,16 @@ fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Find
         .column("what the listing does that the text does not say", |(finding, _)| finding.title)
 }
 
-/// Reports the variants side by side, why some failed, and the two solutions without the print's
+/// Reports the variants side by side, and the two solutions without the print's
 /// mistakes, of which the first is what the errors of the variants are against.
 fn variants(audit: &Audit) -> Report {
+    let columns = words::columns(&audit.scene).into_iter();
+    let more = ["contact state", "eq. (1) left", "error in u", "friction needed", "nodes pulling"];
     let table = Table::new(
-        [
-            "variant",
-            "in contact",
-            "contact state",
-            "force on target over load",
-            "eq. (1) left",
-            "largest von Mises stress",
-            "error in u",
-            "error in energy norm",
-            "largest friction needed",
-            "nodes pulling",
-        ],
-        audit.variants.iter().map(variant),
+        columns.chain(more.map(String::from)),
+        audit.variants.iter().map(|row| [words::variant(row), beside(row)].concat()),
     );
-    let notes = audit
-        .variants
-        .iter()
-        .filter_map(|row| Some(format!("{}: {}", row.variant, row.end.failure()?.in_short())));
-    let notes = notes.chain(audit.unsolved.iter().cloned());
-    let report = Report::default().table("3. Variants side by side", table).notes(notes);
+    let report = Report::default().table("3. Variants side by side", table).notes(&audit.unsolved);
     if audit.friction.is_empty() {
         return report;
     }
@@ -148,50 +107,34 @@ fn variants(audit: &Audit) -> Report {
         .then(solution_without_mistakes("the reference solution", audit.reference.as_ref()))
 }
 
-/// Returns the cells of a variant; of one that failed its name alone.
-fn variant(row: &VariantRow) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = vec![row.variant.to_string().into()];
-    if let End::Result {
-        in_contact,
-        target_share,
+/// Returns the cells of a variant behind those of every table of runs; none of one that failed.
+fn beside(row: &VariantRow) -> Vec<Cell> {
+    let End::Result {
         transmits_nothing,
         eq1_residual,
         cycle,
-        bodies,
         distance,
         friction_needed,
         pulling,
-        mesh_error,
         ..
     } = &row.end
-    {
-        let state = match (row.variant, cycle) {
-            (Variant::Unilateral, _) => "in equilibrium".to_string(),
-            (_, None) => "new in the last iteration".into(),
-            (_, Some(Cycle { length: 1, .. })) => "settled".into(),
-            (_, Some(cycle)) => format!("unsettled, cycle of {}", cycle.length),
-        };
-        let nothing = if *transmits_nothing { ", nothing transmitted" } else { "" };
-        let distance = distance.as_ref();
-        cells.extend([
-            in_contact.last().copied().into(),
-            (state + nothing).into(),
-            target_share.map(Cell::percent).into(),
-            (*eq1_residual).into(),
-            stresses(bodies, *mesh_error).into(),
-            distance.map(|from| Cell::percent(from.displacement_relative)).into(),
-            distance.map(|from| Cell::percent(from.energy_relative)).into(),
-            (*friction_needed).into(),
-            pulling.len().into(),
-        ]);
-    }
-    cells
-}
-
-/// Writes the largest von Mises stress of each body behind its name.
-fn stresses(bodies: &[BodySummary], error: Option<f64>) -> String {
-    let stress = |body: &BodySummary| figure(body.max_von_mises_stress, error);
-    listed(bodies.iter().map(|body| format!("{} {}", body.name, stress(body))))
+    else {
+        return Vec::new();
+    };
+    let state = match (row.variant, cycle) {
+        (Variant::Unilateral, _) => "in equilibrium".to_string(),
+        (_, None) => "new in the last iteration".into(),
+        (_, Some(Cycle { length: 1, .. })) => "settled".into(),
+        (_, Some(cycle)) => format!("does not settle, cycle of {}", cycle.length),
+    };
+    let nothing = if *transmits_nothing { ", nothing transmitted" } else { "" };
+    vec![
+        (state + nothing).into(),
+        (*eq1_residual).into(),
+        distance.as_ref().map(|from| Cell::percent(from.displacement_relative)).into(),
+        (*friction_needed).into(),
+        pulling.len().into(),
+    ]
 }
 
 /// Reports a solution that others are compared with, and what rounding does to it.
@@ -203,7 +146,7 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
         bodies,
         overlap,
         mesh_error,
-        nearest,
+        nearest: _,
         rounding,
     }) = other
     else {
@@ -216,11 +159,10 @@ fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
             model.coupling,
             model.friction,
             model.geometry,
-            stresses(bodies, *mesh_error)
+            words::stresses(bodies, *mesh_error)
         ))
         .details(overlap)
         .details(rounding.iter().flat_map(perturbed))
-        .details(nearest.as_ref().map(nearest_decision))
 }
 
 /// Reports which nodes stick and slide under each coefficient of friction, with their pressure and
@@ -259,18 +201,6 @@ fn tenth(x: f64) -> String {
     format!("{:.1}", (10.0 * x).round() / 10.0 + 0.0)
 }
 
-/// The audit of a scene as JSON.
-#[derive(Serialize)]
-pub struct Document<'a> {
-    scene: &'a str,
-    /// The conclusion in words.
-    answers: [Answer; 5],
-    /// What the answers are made of.
-    conclusion: &'a Conclusion,
-    #[serde(flatten)]
-    audit: &'a Audit,
-}
-
 /// A finding on a scene.
 #[derive(Serialize)]
 pub struct FindingRow<'a> {
@@ -291,10 +221,14 @@ pub(super) fn rows<S: Serializer>(
         .collect_seq(findings.iter().map(|(finding, measured)| FindingRow { finding, measured }))
 }
 
+/// Writes the name of a scene.
+pub(super) fn name<S: Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&scene.name)
+}
+
 /// Returns the audit of a scene as JSON.
-pub fn json(audit: &Audit, conclusion: &Conclusion, scene: &Scene) -> String {
-    let answers = conclusion::answers(audit, conclusion, scene);
-    json::line(Some(scene), &Document { scene: &scene.name, answers, conclusion, audit })
+pub fn json(audit: &Audit) -> String {
+    json::line(Some(&audit.scene), audit)
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

@@ -144,7 +144,7 @@ pub struct Penetration {
     pub node: NodeId,
     /// Whether it is in contact.
     pub in_contact: bool,
-    /// Length; 0 where none is inside by more than rounding.
+    /// Length; 0 where none is inside by more than rounding, or a hundredth of c_tll.
     pub depth: f64,
     /// The depth over the largest displacement of the target.
     pub relative: f64,
@@ -154,13 +154,17 @@ impl Penetration {
     /// Depths over the largest displacement that are rounding.
     const ROUNDING: f64 = 1e-9;
 
+    /// Depths over c_tll that are no penetration.
+    const NONE: f64 = 0.01;
+
     /// Finds the deepest contact node; nothing where none faces the target.
     pub fn of(solution: &Solution) -> Option<Self> {
         let deepest = solution.contact.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
         let target = &solution.model.target()?.name;
         let target = summaries(solution).into_iter().find(|body| body.name == *target)?;
-        let is_rounding = -deepest.gap <= Self::ROUNDING * max_displacement(&solution.u);
-        let depth = if is_rounding { 0.0 } else { -deepest.gap };
+        let rounding = Self::ROUNDING * max_displacement(&solution.u);
+        let none = rounding.max(Self::NONE * solution.model.contact.tolerance);
+        let depth = if -deepest.gap <= none { 0.0 } else { -deepest.gap };
         let relative = over(depth, target.max_displacement);
         let (node, in_contact) = (deepest.node, deepest.in_contact);
         Some(Penetration { node, in_contact, depth, relative })
@@ -231,7 +235,7 @@ pub(super) fn mesh_error(solution: &Solution) -> Option<f64> {
 fn end(case: &Case, variant: Variant) -> End {
     let solution = match case.run(variant) {
         Ok(solution) => solution,
-        Err(why) => return End::Failure { failure: NoFigures::fails(why) },
+        Err(why) => return End::Failure { failure: why.into() },
     };
     let (model, last) = (&*solution.model, solution.last());
     let needed = solution.contact.iter().filter_map(|c| c.friction_needed);

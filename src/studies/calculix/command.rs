@@ -20,7 +20,7 @@ use commands::{TablesArgs, folder, folder_name, print, waiting};
 #[derive(clap::Args)]
 #[command(after_help = "\
 --with FIELD: displacements on the scene's mesh, as CSV (columns node or x, y, then ux, uy; nodes.csv of
-solve --csv) or VTU (fields.vtu of solve, meshio, ParaView: the vectors named displacement or u), in the scene's unit, beside the reference solution: unilateral
+solve --csv) or VTU (fields.vtu of solve, meshio, ParaView: the vectors named displacement or u), in the scene's unit, beside the equilibrium: unilateral
 with mortar and the scene's friction, or the run of --variant. Penetration, traction and forces are those
 that the displacements imply. The exit status tells a difference beyond --rtol. Nothing is written but --csv.
 

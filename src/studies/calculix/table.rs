@@ -9,7 +9,7 @@ use problem::model::{Model, NodeId};
 use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::model::{Cell, Report, Table};
-use report::numbers::{coordinates, quantity, short, with_unit};
+use report::numbers::{coordinates, decimals_of_places, quantity, short, with_unit};
 use report::tables::certainty;
 
 pub use super::files::{Document, FILES, json, write};
@@ -92,6 +92,7 @@ fn contact(compared: &Compared) -> String {
 fn differences(compared: &Compared) -> Table {
     let Compared { scene, model, comparison, .. } = compared;
     let (u, s) = (&comparison.displacement, &comparison.stress);
+    let decimals = decimals_of_places(model.bounds().larger_side());
     let corners = model.corners(s.largest.at);
     let centre = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
     Table::new(
@@ -109,9 +110,9 @@ fn differences(compared: &Compared) -> Table {
                 quantity("displacement", &scene.units.length),
                 u,
                 "node",
-                model.coordinates(u.largest.at),
+                (model.coordinates(u.largest.at), decimals),
             ),
-            row(quantity("stress", &scene.units.stress), s, "triangle", centre),
+            row(quantity("stress", &scene.units.stress), s, "triangle", (centre, decimals)),
         ],
     )
 }
@@ -121,7 +122,7 @@ fn row<Place: Display>(
     of: String,
     difference: &Difference<Place>,
     kind: &str,
-    at: [f64; 2],
+    (at, decimals): ([f64; 2], usize),
 ) -> Vec<Cell> {
     let largest = &difference.largest;
     vec![
@@ -130,7 +131,7 @@ fn row<Place: Display>(
         largest.relative.map(|relative| Cell::scientific(relative, 1)).into(),
         largest.scale.into(),
         format!("{kind} {}", largest.at).into(),
-        coordinates(at, 3).into(),
+        coordinates(at, decimals).into(),
         Cell::scientific(difference.rms, 3),
     ]
 }
@@ -145,6 +146,7 @@ fn bodies(comparison: &Comparison) -> Table<Vec<&BodyStress>> {
 
 fn worst(compared: &Compared) -> Table<Vec<NodeId>> {
     let Compared { model, comparison, .. } = compared;
+    let decimals = decimals_of_places(model.bounds().larger_side());
     let Comparison { ours, theirs, displacement, .. } = comparison;
     // + 0: no component is −0.
     let component = |u: &[[f64; 2]], node: NodeId, axis: usize| {
@@ -152,7 +154,7 @@ fn worst(compared: &Compared) -> Table<Vec<NodeId>> {
     };
     Table::from_rows(displacement.worst(WORST))
         .column("node", |n| *n)
-        .column("x, y", |n| coordinates(model.coordinates(*n), 3))
+        .column("x, y", |n| coordinates(model.coordinates(*n), decimals))
         .column("u_x here", |n| component(&ours.u, *n, 0))
         .column("u_y here", |n| component(&ours.u, *n, 1))
         .column("u_x CalculiX", |n| component(&theirs.u, *n, 0))

@@ -4,7 +4,6 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::audit::conclusion::Conclusion;
 use crate::audit::prices::{Compared, Price};
 use crate::audit::{Audit, Case, audit};
 use crate::calculix::table as comparison;
@@ -46,8 +45,8 @@ base::choices! {
 #[command(after_help = "\
 The first screen, and page 1 in print: a verdict to quote, the runs beside the equilibrium, pressure
 and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts
-unfold: five answers, each claim and finding in full, readings and variants, figures, differences
-from CalculiX, what could not be checked, a glossary, and the command that makes it again, versions
+unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures,
+differences from CalculiX, what could not be checked, a glossary, and the command that makes it again, versions
 and hashes. --format html and markdown say the same. The page has the fields of every run at their
 end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It takes a minute on strand, more with --repairs, and 3 times as
 long as solve with --no-audit.
@@ -114,18 +113,18 @@ pub fn run(args: &Args) -> Result<()> {
 
 /// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
 fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) -> Result<()> {
-    let (audit, repairs) = match args.no_audit {
+    let (found, repairs) = match args.no_audit {
         true => (None, Vec::new()),
-        false => (Some(audited(case)), repairs(args, case)),
+        false => (Some(audit(case, &Vec::new(), true, &|| ())), repairs(args, case)),
     };
     let beside = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
         scene: &case.scene,
         command: command(args),
         asked: asked(args, &case.scene),
-        audit: audit.as_ref().map(|(audit, conclusion)| (audit, conclusion)),
+        audit: found.as_ref(),
         repairs,
-        runs: runs(args, case, audit.as_ref().map(|(audit, _)| audit)),
+        runs: runs(args, case, found.as_ref()),
         calculix: beside.as_ref().map(|beside| beside.compared(case)),
         charts,
     };
@@ -162,12 +161,6 @@ fn place_of(out: &Path) -> Result<(&Path, &str, &str), InputError> {
         return Err(InputError::new("--out", what, "name another file"));
     };
     Ok((out.parent().unwrap_or(Path::new("")), name, stem))
-}
-
-fn audited(case: &Case) -> (Audit, Conclusion) {
-    let found = audit(case, &Vec::new(), true, &|| ());
-    let conclusion = Conclusion::new(case, &found);
-    (found, conclusion)
 }
 
 /// Returns the print repaired one finding at a time; nothing where that takes long and was not asked for, or

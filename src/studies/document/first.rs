@@ -1,30 +1,30 @@
-//! The first screen of a report as HTML: the parts of the audit's screen beside two pictures. An id links to its
+//! The first page of a report as HTML: the parts of the audit's first page beside two pictures. An id links to its
 //! place below and names its meaning; printed, a key names it.
 
 use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
 use crate::audit::claims::{CLAIMS, Claim, table as claims};
-use crate::audit::conclusion::Conclusion;
 use crate::audit::findings::FINDINGS;
-use crate::audit::screen::{FAULTS, Faults, JUDGED, OURS, OfContact, RUNS, Screen, assumed_in};
+use crate::audit::prices::table::by_cost;
+use crate::audit::words::{Depth, JUDGED, Section, sections};
 use crate::audit::{Assumption, Audit};
 use base::xml::escape;
 use paper::mirror::READINGS;
 use report::html::{anchor, prose};
 use report::layout::counted;
-use report::model::{Cell, Report, Table};
+use report::model::Report;
 
 /// Returns the head of the page and its first screen.
 pub fn html(contents: &Contents, menu: &str) -> String {
     let scene = contents.scene;
     let on = format!(" On scene {} ({})", scene.name, scene.title);
     let (title, parts) = match contents.audit {
-        Some((audit, conclusion)) => {
-            let on = on + &claims::under(&conclusion.reading) + ".";
+        Some(audit) => {
+            let on = on + &claims::under(&audit.conclusion.reading) + ".";
             let judged = [JUDGED[0].to_string() + &on, JUDGED[1].to_string()];
             let judged = judged.map(|words| format!("<p>{}</p>", escape(&words))).concat();
-            (PAPER.to_string() + &judged, audited(audit, conclusion, contents))
+            (PAPER.to_string() + &judged, audited(audit))
         }
         None => (format!("<h1>{}</h1>", escape(&runs_title(contents))), String::new()),
     };
@@ -47,54 +47,38 @@ const PAPER: &str = "<h1>Audit of A. M. Filipov, M. V. Khomenko, <cite lang=\"ru
     конечных элементов»</cite> (plane contact by the finite element method), <span lang=\"ru\">Инженерный вестник \
     Дона</span></h1>\n";
 
-/// Returns the verdict and the tables.
-fn audited(audit: &Audit, conclusion: &Conclusion, contents: &Contents) -> String {
-    let Screen { verdict, contact } = Screen::new(audit, conclusion, contents.scene);
-    let verdict = linked(&prose(&verdict.join(" ")));
-    let verdict = format!("<div class=\"verdict\"><h2>Verdict</h2><p>{verdict}</p></div>\n");
-    let Some(OfContact { runs, mesh_error, others: _, statements, faults, assumed }) = contact
-    else {
-        return verdict;
-    };
-    let statements = Report::default()
-        .table(format!("The paper's {}", claims::counts()), statements)
-        .line(OURS)
-        .html();
-    let others =
-        faults.as_ref().map_or(String::new(), |faults| faults.others.as_flattened().join(" "));
-    let faults = faults_table(faults).html();
-    let assumed = assumed.iter().map(|Assumption { what, set_to }| {
-        format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
-    });
-    let assumed: String = assumed.collect();
-    let runs = Report::default().table(RUNS, runs).notes(mesh_error).html();
-    format!(
-        "{verdict}<div class=\"runs\">{}</div>\n<div class=\"statements\">{}</div>\n<div class=\"faults\">{}</div>\n{}\
-         <div class=\"assumed\"><h2>{}</h2><dl>{assumed}</dl></div>\n",
-        linked(&runs),
-        linked(&statements),
-        linked(&faults),
-        key(&(statements.clone() + &others)),
-        assumed_in(contents.scene),
-    )
+/// Returns the parts of the audit's first page, each in a box, and the meanings of the ids that none of them explains.
+fn audited(audit: &Audit) -> String {
+    let mut unexplained = String::new();
+    let boxes =
+        sections(audit, Depth::Page).into_iter().map(|Section { name, heading, content }| {
+            let heading = heading.map(|words| format!("<h2>{}</h2>", escape(words)));
+            let content = match name {
+                "assumed" => definitions(&audit.assumptions),
+                _ => content.html(),
+            };
+            if name == "claims" {
+                unexplained += &content;
+            }
+            format!(
+                "<div class=\"{name}\">{}{}</div>\n",
+                heading.unwrap_or_default(),
+                linked(&content)
+            )
+        });
+    let boxes: String = boxes.collect();
+    let alike = by_cost(&audit.prices).unwrap_or_default().into_iter();
+    let alike = alike.filter(|cost| cost.words.is_none()).map(|cost| cost.names);
+    let unexplained = alike.fold(unexplained, |words, names| words + " " + &names);
+    boxes + &key(&unexplained)
 }
 
-fn faults_table(faults: Result<Faults<'_>, String>) -> Report {
-    match faults {
-        Ok(Faults { dear, others }) => {
-            let rows = dear.into_iter().map(|(cost, price)| {
-                vec![
-                    Cell::from(cost),
-                    Cell::from(price.name.as_deref().unwrap_or("-")),
-                    Cell::from(price.fault.clone()),
-                ]
-            });
-            let others = others.into_iter().map(|row| row.map(Cell::from).to_vec());
-            Report::default()
-                .table(FAULTS, Table::new(["cost", "finding", "fault"], rows.chain(others)))
-        }
-        Err(why) => Report::default().table(FAULTS, Table::new(["cost"], [])).line(why),
-    }
+/// Lists what the paper leaves open in as little room as there is.
+fn definitions(assumptions: &[Assumption]) -> String {
+    let entry = |Assumption { what, set_to }: &Assumption| {
+        format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
+    };
+    format!("<dl>{}</dl>", assumptions.iter().map(entry).collect::<String>())
 }
 
 /// Returns what an id means, and the place of the page that says more; nothing of a word that is none.

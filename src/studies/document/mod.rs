@@ -6,17 +6,14 @@ mod glossary;
 pub mod page;
 
 use crate::audit::claims::Verdict as ClaimVerdict;
-use crate::audit::conclusion::Conclusion;
+use crate::audit::claims::table::in_full;
 use crate::audit::evidence::NoFigures;
 use crate::audit::findings::Verdict;
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
-use crate::audit::screen::Screen;
+use crate::audit::tables::explanation;
+use crate::audit::words::{Depth, evidence, report as audit_report};
 use crate::audit::{Audit, relative_radius};
-use crate::audit::{
-    claims::table as claims, conclusion::words as conclusion, prices::table as prices, screen,
-    tables as audit,
-};
 use crate::calculix::table::{self as comparison, Compared};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use paper::listings::Which;
@@ -38,8 +35,8 @@ pub struct Contents<'a> {
     pub command: String,
     /// What was asked, in words: what, and what it was set to.
     pub asked: Vec<(&'static str, String)>,
-    /// The audit and its conclusion, where it was asked for.
-    pub audit: Option<(&'a Audit, &'a Conclusion)>,
+    /// The audit, where it was asked for.
+    pub audit: Option<&'a Audit>,
     /// The print, repaired one finding at a time; empty where that was not asked for.
     pub repairs: Vec<Price>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
@@ -73,7 +70,7 @@ impl Picture {
 /// Returns the audit report as one document: the first screen, and what it rests on.
 pub fn document(contents: &Contents) -> Report {
     let first = match contents.audit {
-        Some((audit, conclusion)) => screen::report(audit, conclusion, contents.scene),
+        Some(found) => audit_report(found, Depth::Page),
         None => Report::titled(first::runs_title(contents)),
     };
     let first = pictures(contents)
@@ -84,43 +81,30 @@ pub fn document(contents: &Contents) -> Report {
 
 /// Returns what the first screen rests on, and what makes it again.
 fn parts(contents: &Contents) -> Report {
-    let Contents { scene, charts, .. } = contents;
-    let report = match contents.audit {
-        Some((audit, conclusion)) => audited(audit, conclusion, &contents.repairs, scene),
-        None => Report::default(),
-    };
+    let Contents { audit, charts, .. } = contents;
+    let report = audit.map_or(Report::default(), |found| audited(found, &contents.repairs));
     let charts =
         charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
     what_was_audited()
         .then(report)
         .then(figures(contents))
         .then(other_codes(contents))
-        .then(contents.audit.map_or(Report::default(), |(audit, _)| unchecked(audit)))
+        .then(audit.map_or(Report::default(), unchecked))
         .then(charts)
         .then(glossary::report())
         .then(origin(contents))
 }
 
-fn audited(audit: &Audit, conclusion: &Conclusion, repairs: &[Price], scene: &Scene) -> Report {
+fn audited(found: &Audit, repairs: &[Price]) -> Report {
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
-    let findings = audit.findings.iter().fold(findings, |report, (finding, measured)| {
+    let findings = found.findings.iter().fold(findings, |report, (finding, measured)| {
         let picture = folder::finding_picture(finding.id, &finding.scene());
         report
-            .then(audit::explanation(finding, measured, scene, &conclusion.reading).deeper(2))
+            .then(explanation(finding, measured, &found.scene, &found.conclusion.reading).deeper(2))
             .figure(format!("The smallest scene that shows {}", finding.id), picture)
     });
-    let others = Screen::new(audit, conclusion, scene).contact.map_or(Vec::new(), |it| it.others);
-    let others = match others.is_empty() {
-        true => Report::default(),
-        false => Report::default().heading("What is wrong with the other runs").notes(others),
-    };
-    conclusion::report(&conclusion::answers(audit, conclusion, scene))
-        .then(others)
-        .then(claims::report(&audit.claims, &audit.by_reading, &audit.assumptions))
-        .then(prices::section(conclusion.reading, &audit.prices, repairs, scene))
-        .then(audit::evidence(audit))
-        .then(findings)
+    evidence(found, repairs).then(in_full(&found.claims)).then(findings)
 }
 
 /// Says what the paper does, and what stands beside it.
@@ -146,7 +130,7 @@ fn what_was_audited() -> Report {
 
 /// Returns the runs of the pictures under short names: the paper's, then the equilibrium; without an audit all.
 fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
-    let known = contents.audit.is_some_and(|(audit, _)| audit.equilibrium.is_some());
+    let known = contents.audit.is_some_and(|found| found.equilibrium.is_some());
     let equilibrium = known.then(|| contents.runs.len() - 1);
     let name = |(k, run): (usize, &Run)| {
         let variant = run.solution.request.variant;
@@ -162,7 +146,7 @@ fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
 
 /// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not known.
 fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
-    let fields = contents.audit.and_then(|(_, conclusion)| conclusion.fields.as_ref());
+    let fields = contents.audit.and_then(|found| found.conclusion.fields.as_ref());
     let nearest = fields.and_then(|fields| fields.variants.first());
     let mut runs = named(contents);
     let first = runs.iter().position(|(_, run)| Some(&run.request.variant) == nearest);
@@ -245,11 +229,17 @@ fn other_codes(contents: &Contents) -> Report {
     let report = Report::default().heading("Differences from another code");
     match &contents.calculix {
         Some(compared) => report.then(comparison::report(compared).deeper(2)),
-        None => report.line(format!(
-            "No other code was run here. `plane-contact report {} --ccx` runs CalculiX by its own contact \
-             beside the variant unilateral.",
-            contents.scene.word
-        )),
+        None => {
+            let recorded = is_example(contents.scene).then(|| {
+                "What was recorded of CalculiX is in `plane-contact guide calculix`.".into()
+            });
+            let again = format!(
+                "This report ran no other code. `plane-contact report {} --ccx` runs CalculiX by its own contact \
+                 beside the variant unilateral.",
+                contents.scene.word
+            );
+            recorded.into_iter().chain([again]).fold(report, Report::line)
+        }
     }
 }
 
@@ -263,6 +253,9 @@ fn unchecked(audit: &Audit) -> Report {
     });
     let why = |none: &NoFigures| match none {
         NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
+        NoFigures::Refused(_) => {
+            format!("which cannot be asked for this scene: {}", none.in_short())
+        }
         NoFigures::Rounding => "on which rounding decides".into(),
     };
     let variants = audit

@@ -62,7 +62,7 @@ pub fn run(
 fn without_reference(why: Error, request: &Request) -> Error {
     match why {
         Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => {
-            let what = format!("the run of {} has no end to compare with: {why}", request.variant);
+            let what = format!("the run of {} does not finish: {why}", request.variant);
             let fix = "leave it out, which compares with the equilibrium, or name another variant";
             InputError::new("--variant", what, fix).into()
         }

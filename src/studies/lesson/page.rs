@@ -48,7 +48,7 @@ pub struct Measured {
     pub finding: &'static Finding,
     /// What was measured on its scene.
     pub evidence: Evidence,
-    /// What its faults cost, each with the scene on which it was put back.
+    /// What its faults cost, each with the scene on which it was reintroduced.
     pub prices: Vec<(String, Price)>,
 }
 
@@ -207,7 +207,7 @@ impl Shared {
         self.listings.index(json!(lines))
     }
 
-    /// Returns the places of the corrected programs with some faults put back.
+    /// Returns the places of the corrected programs with some faults reintroduced.
     fn programs(&mut self, edits: &[&str]) -> BTreeMap<&'static str, usize> {
         let programs = Program::ALL.iter();
         programs.map(|own| (own.name(), self.listing(&program(*own, edits)))).collect()

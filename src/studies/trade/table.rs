@@ -10,9 +10,14 @@ use report::picture::{Axis, Series, Style, chart};
 /// Reports a table for each parameter.
 pub fn report(trade: &Trade) -> Report {
     let report = Report::titled(format!(
-        "Speed against accuracy: scene {}, {} nodes, {} triangles; \
-         median of up to {} runs, in turn",
-        trade.scene, trade.nodes, trade.triangles, trade.runs
+        "Speed against accuracy: scene {}, {} nodes, {} triangles; {}",
+        trade.scene,
+        trade.nodes,
+        trade.triangles,
+        match trade.runs {
+            1 => "each timed once".into(),
+            runs => format!("median of up to {runs} runs, in turn"),
+        }
     ))
     .line(
         "displacement: largest difference of a node's displacement over the largest displacement; energy: \

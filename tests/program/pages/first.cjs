@@ -5,7 +5,7 @@ const assert = require("node:assert");
 const { open, inAllViews, runAll } = require("./browser.cjs");
 
 const [file, folder] = process.argv.slice(2);
-const PARTS = [".verdict", ".runs", ".statements", ".faults", ".pictures", ".assumed", ".again"];
+const PARTS = [".verdict", ".runs", ".claims", ".faults", ".pictures", ".assumed", ".again"];
 const bottoms = (page) => page.evaluate((parts) => parts.map((part) => [part, document.querySelector(part).getBoundingClientRect().bottom]), PARTS);
 
 async function screen(browser) {
@@ -28,7 +28,7 @@ async function paper(browser) {
   await page.emulateMedia({ media: "print" });
   for (const [part, bottom] of await bottoms(page)) assert.ok(bottom <= height, `${part} ends at ${bottom}`);
   const meanings = await page.innerText(".key");
-  const ids = await page.locator(".statements a").evaluateAll((all) => all.map(({ textContent }) => textContent));
+  const ids = await page.locator(".claims a").evaluateAll((all) => all.map(({ textContent }) => textContent));
   for (const id of ids) assert.match(meanings, new RegExp(`\\b${id} \\w`));
 }
 

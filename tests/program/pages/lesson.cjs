@@ -151,7 +151,13 @@ async function changed(browser) {
   const box = await page.locator("#nodes button").nth(2).boundingBox();
   await page.mouse.move(box.x + 12, box.y + 12);
   await page.mouse.down();
-  for (let k = 1; k <= 5; k += 1) await page.mouse.move(box.x + 12 + 5 * k, box.y + 12 + k);
+  const still = page.locator("#nodes button").nth(2);
+  for (let k = 1; k <= 5; k += 1) {
+    await page.mouse.move(box.x + 12 + 5 * k, box.y + 12 + k);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    const at = await still.boundingBox();
+    assert.ok(Math.hypot(at.x - box.x - 5 * k, at.y - box.y - k) < 1, "the node stays under the pointer");
+  }
   await page.mouse.up();
   const moved = await cellsOf(page);
   assert.notDeepEqual(moved, printed);

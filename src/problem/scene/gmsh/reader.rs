@@ -5,23 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use super::tokens::{Encoding, Tokens};
 use super::{GmshError, Result};
 use crate::scene::mesh::{
-    ENTITIES, Element, KINDS, Kind, Mesh, Node, NodeNumbers, PhysicalName, Tags,
+    ENTITIES, Element, KINDS, Kind, Mesh, Node, NodeNumbers, OtherKind, PhysicalName, Tags,
 };
-
-/// The names of the kinds of element that are not read, by Gmsh's element type; empty where there
-/// is none or the kind is read.
-#[rustfmt::skip]
-const OTHER_KINDS: [&str; 32] = [
-    "", "", "", "a four-node quadrangle", "a four-node tetrahedron", "an eight-node hexahedron",
-    "a six-node prism", "a five-node pyramid", "a three-node edge", "a six-node triangle",
-    "a nine-node quadrangle", "a ten-node tetrahedron", "a 27-node hexahedron",
-    "an 18-node prism", "a 14-node pyramid", "", "an eight-node quadrangle",
-    "a 20-node hexahedron", "a 15-node prism", "a 13-node pyramid", "a nine-node triangle",
-    "a ten-node triangle", "a twelve-node triangle", "a 15-node triangle of fourth order",
-    "a 15-node triangle of fifth order", "a 21-node triangle", "a four-node edge",
-    "a five-node edge", "a six-node edge", "a 20-node tetrahedron", "a 35-node tetrahedron",
-    "a 56-node tetrahedron",
-];
 
 /// Reads a mesh from the bytes of a `.msh` file.
 ///
@@ -38,6 +23,7 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         tokens,
         sections: BTreeSet::new(),
         names: BTreeMap::new(),
+        names_have_dimensions: true,
         entities: BTreeMap::new(),
         nodes: Vec::new(),
         elements: Vec::new(),
@@ -72,7 +58,9 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
         let end = format!("$End{section}");
         reader.tokens.keyword(&end, &end)?;
     }
-    let Reader { tokens, sections, names, mut nodes, mut elements, .. } = reader;
+    let Reader {
+        tokens, sections, mut names, names_have_dimensions, mut nodes, mut elements, ..
+    } = reader;
     for section in ["Nodes", "Elements"] {
         if !sections.contains(section) {
             return Err(tokens.refused(format!("the file has no section ${section}")));
@@ -80,6 +68,11 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
     }
     nodes.sort_unstable_by_key(|node| node.number);
     elements.sort_unstable_by_key(|element| element.number);
+    if !names_have_dimensions {
+        let groups = |e: &Element| e.physical.iter().map(|tag| (e.dim(), *tag)).collect::<Vec<_>>();
+        let used: HashSet<(usize, usize)> = elements.iter().flat_map(groups).collect();
+        names.retain(|group, _| used.contains(group));
+    }
     let named = |((dim, tag), name)| PhysicalName { dim, tag, name };
     let names = names.into_iter().map(named).collect();
     let mut mesh = Mesh { nodes, elements, names, ..Mesh::default() };
@@ -89,7 +82,7 @@ pub fn read<'a>(file: &'a [u8]) -> Result<Mesh, GmshError> {
 
 /// Reads `$MeshFormat`, and skips the sections before it that other programs write.
 fn version(tokens: &mut Tokens) -> Result<Version> {
-    let expected = "$MeshFormat, the first section of a Gmsh mesh (MSH 2.2 or 4.1)";
+    let expected = "$MeshFormat, the first section of a Gmsh mesh (MSH 2.0 to 2.2, or 4.1)";
     while let Some(section) = tokens.section(expected)? {
         match &*section {
             "MeshFormat" => {
@@ -111,7 +104,7 @@ fn version(tokens: &mut Tokens) -> Result<Version> {
 fn format(tokens: &mut Tokens) -> Result<Version> {
     let found: String = tokens.parse("a version of the format")?;
     let version = match found.as_str() {
-        "2.2" => Version::V2,
+        "2" | "2.0" | "2.1" | "2.2" => Version::V2,
         "4.1" => Version::V4,
         other => return Err(other_version(tokens, other)),
     };
@@ -136,7 +129,7 @@ fn format(tokens: &mut Tokens) -> Result<Version> {
 
 fn other_version(tokens: &Tokens, found: &str) -> GmshError {
     tokens.refused(format!(
-        "the file has MSH version {found}; versions 2.2 and 4.1 can be read: in Gmsh set \
+        "the file has MSH version {found}; versions 2.0 to 2.2 and 4.1 can be read: in Gmsh set \
          Mesh.MshFileVersion = 4.1 and save the mesh again"
     ))
 }
@@ -153,6 +146,7 @@ struct Reader<'a> {
     /// The names of the sections read so far, without those that are skipped.
     sections: BTreeSet<String>,
     names: BTreeMap<(usize, usize), String>,
+    names_have_dimensions: bool,
     entities: BTreeMap<(usize, i32), Vec<usize>>,
     nodes: Vec<Node>,
     elements: Vec<Element>,
@@ -161,18 +155,31 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads `$PhysicalNames`: a count, then lines `dimension tag "name"`, always text.
+    /// Reads `$PhysicalNames`: a count, then lines `dimension tag "name"`, always text. MSH 2.0 has no
+    /// dimension: the name is that of the tag in each.
     fn physical_names(&mut self) -> Result<()> {
         let count: usize = self.tokens.parse("the number of physical names")?;
         for _ in 0..count {
-            let dim: usize = self.tokens.parse("a dimension from 0 to 3")?;
-            if dim > 3 {
-                return Err(self.tokens.unexpected(dim, "a dimension from 0 to 3"));
-            }
-            let tag: i32 = self.tokens.parse("a physical tag")?;
+            let first: i32 = self.tokens.parse("a dimension from 0 to 3")?;
+            let (dims, tag) = match (self.tokens.is_quote_next(), first) {
+                (true, tag) => {
+                    self.names_have_dimensions = false;
+                    (0..=3, tag)
+                }
+                (false, dim @ 0..=3) => {
+                    let dim = magnitude(dim);
+                    (dim..=dim, self.tokens.parse("a physical tag")?)
+                }
+                (false, other) => {
+                    return Err(self.tokens.unexpected(other, "a dimension from 0 to 3"));
+                }
+            };
             let name = self.tokens.quoted("a name in quotation marks")?;
-            if self.names.insert((dim, magnitude(tag)), name).is_some() {
-                return self.repeated(format!("the name of the physical {} {tag}", ENTITIES[dim]));
+            for dim in dims {
+                if self.names.insert((dim, magnitude(tag)), name.clone()).is_some() {
+                    return self
+                        .repeated(format!("the name of the physical {} {tag}", ENTITIES[dim]));
+                }
             }
         }
         Ok(())
@@ -208,22 +215,15 @@ impl<'a> Reader<'a> {
         (physical, geometric): (&[usize], usize),
     ) -> Result<&'static Kind> {
         KINDS.iter().find(|kind| i32::try_from(kind.number) == Ok(number)).ok_or_else(|| {
-            let other = usize::try_from(number).ok().and_then(|n| OTHER_KINDS.get(n).copied());
-            let kind = match other {
-                None | Some("") => format!("of Gmsh's type {number}"),
-                Some(name) => name.to_owned(),
-            };
-            let dim = ["point", "edge", "angle"].iter().position(|word| kind.contains(word));
-            let dim = dim.unwrap_or(3);
-            let names = physical.iter().filter_map(|tag| self.names.get(&(dim, *tag)));
+            let other = OtherKind::new(number);
+            let names = physical.iter().filter_map(|tag| self.names.get(&(other.dim, *tag)));
             let names: String = names.map(|name| format!(", {name:?}")).collect();
-            let recombined = if dim == 2 { format!(" {{{geometric}}}") } else { String::new() };
-            let entity = format!("{} {geometric}{names}", ENTITIES[dim]);
+            let entity = format!("{} {geometric}{names}", ENTITIES[other.dim]);
             self.tokens.refused(format!(
-                "element {element} is {kind} ({entity}); only points, two-node edges and three-node \
-                 triangles can be read: in Gmsh take out Recombine Surface{recombined}, set Mesh.RecombineAll = 0, \
-                 Mesh.SubdivisionAlgorithm = 0 and Mesh.ElementOrder = 1, and mesh again in two \
-                 dimensions (-2)"
+                "element {element} is {} ({entity}); only points, two-node edges and three-node \
+                 triangles can be read: in Gmsh {}, and mesh again in two dimensions (-2)",
+                other.name,
+                other.remedy(geometric)
             ))
         })
     }
@@ -265,7 +265,7 @@ impl<'a> Reader<'a> {
         Err(self.tokens.refused(format!("{what} comes a second time")))
     }
 
-    /// Reads `$Nodes` of MSH 2.2: a count, then `number x y z`.
+    /// Reads `$Nodes` of MSH 2: a count, then `number x y z`.
     fn nodes_2(&mut self) -> Result<()> {
         for _ in 0..self.tokens.count_line("the number of nodes")? {
             let number = self.tokens.int_from(1, "a node's number, 1 or more")?;
@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads `$Elements` of MSH 2.2: a count, then `number kind tags nodes` each, or binary blocks, of which each has
+    /// Reads `$Elements` of MSH 2: a count, then `number kind tags nodes` each, or binary blocks, of which each has
     /// the kind and the counts of elements and of tags first.
     fn elements_2(&mut self) -> Result<()> {
         let declared = self.tokens.count_line("the number of elements")?;

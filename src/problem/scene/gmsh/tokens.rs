@@ -155,6 +155,11 @@ impl<'a> Tokens<'a> {
         name.ok_or_else(|| self.unexpected(format!("{:?}", line.trim()), expected))
     }
 
+    /// Returns whether a quotation mark comes next on the line.
+    pub fn is_quote_next(&self) -> bool {
+        self.rest().trim_ascii_start().starts_with(b"\"")
+    }
+
     /// Reads the end of the line, with only blanks before it; the end of the file is accepted.
     pub fn line_end(&mut self) -> Result<()> {
         self.line();

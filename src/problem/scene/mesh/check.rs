@@ -162,9 +162,7 @@ impl Mesh {
         let (what, fix) = if area < 0.0 {
             let surface = self.whereabouts(triangle);
             let what = format!("runs clockwise: its area is {} ({surface})", six_digits(area));
-            let fix = "list its nodes counter-clockwise; where triangles of one surface in Gmsh run \
-                       both ways, it folds over itself: mesh it again";
-            (what, fix)
+            (what, "list its nodes counter-clockwise")
         } else if area == 0.0 && is_flat(&self.corners(triangle)) {
             ("has the area 0".into(), "move or merge its nodes")
         } else {

@@ -1,7 +1,5 @@
-//! What a Gmsh file may have in another form than the paper's tables: numbers with gaps, and surfaces
+//! What a Gmsh file may have in another form than the paper's tables: numbers with gaps, and triangles
 //! that run clockwise.
-
-use std::collections::BTreeMap;
 
 use super::{Element, Mesh};
 use crate::element;
@@ -10,7 +8,7 @@ use base::error::{InputError, Result};
 
 impl Mesh {
     /// Numbers the nodes from 1 without gaps, in their order, and does so with elements whose numbers
-    /// are far above their count; turns the triangles of surfaces that run clockwise as a whole.
+    /// are far above their count; turns the triangles that run clockwise.
     /// `description` names nodes and edges by the file's numbers.
     ///
     /// # Errors
@@ -37,29 +35,25 @@ impl Mesh {
             self.elements.iter_mut().zip(1..).for_each(|(element, n)| element.number = n);
             self.adapted.push(renumbered("element", &numbers));
         }
-        self.turn_surfaces();
+        self.turn_triangles();
         Ok(())
     }
 
-    /// Turns the triangles of each surface that runs clockwise as a whole. One that does so in part
-    /// folds over itself, and is refused later.
-    fn turn_surfaces(&mut self) {
-        let key = |element: &Element| (element.geometric, element.physical.clone());
-        let mut clockwise = BTreeMap::new();
-        for triangle in self.of_dimension(2) {
-            let is_clockwise = element::area(&self.corners(triangle)) < 0.0;
-            let all = clockwise.entry(key(triangle)).or_insert((true, triangle.clone()));
-            all.0 &= is_clockwise;
-        }
-        clockwise.retain(|_, all| all.0);
-        for (_, one) in clockwise.values() {
-            let surface = self.whereabouts(one);
-            self.adapted.push(format!(
-                "In the mesh file the triangles of {surface} run clockwise; they were turned"
-            ));
-        }
-        let turned = |e: &&mut Element| e.dim() == 2 && clockwise.contains_key(&key(e));
-        self.elements.iter_mut().filter(turned).for_each(|triangle| triangle.nodes.swap(1, 2));
+    /// Turns each triangle that runs clockwise.
+    fn turn_triangles(&mut self) {
+        let is_clockwise =
+            |element: &Element| element.dim() == 2 && element::area(&self.corners(element)) < 0.0;
+        let places = (0..self.elements.len()).filter(|k| is_clockwise(&self.elements[*k]));
+        let clockwise: Vec<usize> = places.collect();
+        let Some(first) = clockwise.first().map(|k| &self.elements[*k]) else { return };
+        self.adapted.push(format!(
+            "In the mesh file {} of {} triangles run clockwise, the first {} ({}); they were turned",
+            clockwise.len(),
+            self.of_dimension(2).count(),
+            first.number,
+            self.whereabouts(first)
+        ));
+        clockwise.iter().for_each(|k| self.elements[*k].nodes.swap(1, 2));
     }
 
     /// Returns the largest number that one of `count` elements may have: `elem` has a row for each.

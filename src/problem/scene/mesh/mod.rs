@@ -9,9 +9,11 @@
 mod builder;
 mod check;
 mod gmsh;
+mod kinds;
 mod tables;
 
 pub use builder::MeshBuilder;
+pub use kinds::{KINDS, Kind, OtherKind};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -138,19 +140,6 @@ impl From<PhysicalName> for (usize, usize, String) {
 
 /// The geometric entities of Gmsh, by dimension.
 pub const ENTITIES: [&str; 4] = ["point", "curve", "surface", "volume"];
-
-pub struct Kind {
-    pub number: usize,
-    pub dim: usize,
-    pub nodes: usize,
-}
-
-/// The kinds of element that a mesh may have, by dimension: points, edges, triangles.
-pub const KINDS: [Kind; 3] = [
-    Kind { number: 15, dim: 0, nodes: 1 },
-    Kind { number: 1, dim: 1, nodes: 2 },
-    Kind { number: 2, dim: 2, nodes: 3 },
-];
 
 impl Mesh {
     /// Returns the elements of a dimension: 0 points, 1 edges, 2 triangles.

@@ -1,6 +1,6 @@
 //! Meshes from the paper's own tables, and triangles of several physical groups.
 
-use super::{Element, KINDS, Mesh, Node};
+use super::{Element, KINDS, Mesh, Node, OtherKind};
 use base::error::{InputError, Result};
 
 impl Mesh {
@@ -65,7 +65,12 @@ fn element(row: &[usize]) -> Result<Element> {
         return Err(bad(format!("{} entries are too few", row.len())));
     };
     let known = KINDS.iter().find(|known| known.number == kind);
-    let unknown = || bad(format!("type {kind} is none of 15 (point), 1 (edge), 2 (triangle)"));
+    let unknown = || {
+        let other = OtherKind::new(i32::try_from(kind).unwrap_or(i32::MAX));
+        let what = format!("type {kind} is none of 15 (point), 1 (edge), 2 (triangle)");
+        let fix = format!("for a mesh of Gmsh that has them, {}", other.remedy(geometric));
+        InputError::new("", what, fix)
+    };
     let expected = known.ok_or_else(unknown)?.nodes;
     if tags != 2 {
         return Err(bad(format!(

@@ -12,6 +12,7 @@ use engine::estimates::moves;
 use engine::{Solution, distance, max_displacement, over};
 use paper::door::Call;
 use problem::modelling::Variant;
+use report::numbers::percent;
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
@@ -82,8 +83,7 @@ pub(super) fn penetrates(case: &Case) -> Outcome<'_> {
 pub(super) fn friction_needed(case: &Case) -> Outcome<'_> {
     let sticking = case.sticking()?;
     let needed = case.friction_needed().ok_or("no node is in contact")?;
-    let detail = "the coefficient of friction is at least the value";
-    let measured = Evidence::new(Verdict::TrueOnlyIf, beyond_noise(needed), detail);
+    let measured = Evidence::new(Verdict::TrueOnlyIf, beyond_noise(needed), "friction");
     Ok(measured.on([("unilateral, sticking", sticking)]))
 }
 
@@ -145,8 +145,8 @@ pub(super) fn tolerance(case: &Case) -> Outcome<'_> {
     let change = distance(least, own).displacement_relative;
     let [own_largest, least_largest] = [own, least].map(|run| max_displacement(&run.u));
     let detail = format!(
-        "{variant}, from {tolerance:e} to {finer:e}; the largest displacement itself changes by {:.1} %",
-        100.0 * over(least_largest - own_largest, own_largest).abs()
+        "{variant}, from {tolerance:e} to {finer:e}; the largest displacement is then {} of what it was",
+        percent(over(least_largest, own_largest))
     );
     let measured = Evidence::new(true_if(change < NOTICEABLE), change, detail);
     Ok(measured.on([(variant.name(), own), ("with a thousandth of c_tol", least)]))

@@ -26,6 +26,7 @@ use base::choices;
 use base::error::InputError;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
+use report::numbers::short;
 
 /// Something that the paper says.
 #[derive(Clone, Debug, Serialize)]
@@ -44,7 +45,7 @@ pub struct Claim {
     pub condition: &'static str,
     /// The threshold of the condition, and where that comes from.
     pub threshold: &'static str,
-    /// Whether the threshold, or a part of the statement, is this audit's and not the paper's.
+    /// Whether the threshold, or a part of the wording, is this audit's and not the paper's.
     pub is_ours: bool,
     /// What the verdict rests on.
     pub basis: Basis,
@@ -127,7 +128,7 @@ choices! {
         /// It was measured on scenes drawn at random.
         Drawn = "random scenes",
         /// There is none.
-        Nowhere = "nowhere",
+        Nowhere = "cannot be checked",
     }
 }
 
@@ -153,12 +154,15 @@ impl Measured for Evidence {
     /// Without a common verdict there is none.
     fn repeated(self, others: impl Iterator<Item = Self>) -> Self {
         let others: Vec<Self> = others.collect();
+        if others.iter().all(|other| !self.moves(other)) {
+            return self;
+        }
         let is_common = others.iter().all(|other| other.verdict == self.verdict);
         let verdict = if is_common { self.verdict } else { Verdict::NotCheckable };
-        match others.iter().any(|other| self.moves(other)) {
-            true => Evidence { verdict, ..self }.by_rounding(),
-            false => self,
-        }
+        let numbers = || others.iter().chain([&self]).filter_map(|other| other.number);
+        let range = [numbers().reduce(f64::min), numbers().reduce(f64::max)];
+        let range = range[0].zip(range[1]).map(|(least, most)| [least, most]);
+        Evidence { verdict, range, ..self }.by_rounding()
     }
 }
 
@@ -166,7 +170,10 @@ impl Evidence {
     /// Returns the verdict in words, with its condition.
     pub fn words(&self) -> String {
         match self.verdict {
-            Verdict::TrueOnlyIf => format!("true only if {}", self.detail),
+            Verdict::TrueOnlyIf => {
+                let least = self.figure(short);
+                format!("true only for {} of {least} or more", self.detail)
+            }
             Verdict::True | Verdict::False | Verdict::NotCheckable => self.verdict.to_string(),
         }
     }

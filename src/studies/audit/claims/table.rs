@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::measures::how_good_is_the_estimate;
-use crate::audit::Assumption;
 use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, UnderReading};
 use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
@@ -14,34 +13,25 @@ use problem::scene::Scene;
 use report::layout::listed;
 use report::model::{Report, Table};
 use report::numbers::{or_dash, percent, short};
-use report::tables::UNDERESTIMATE;
+use report::tables::PROBABLY_MORE;
 
-/// Reports the verdicts, each claim in full, and the assumptions that the verdicts rest on.
-pub fn report(
-    claims: &[JudgedClaim],
-    by_reading: &[UnderReading],
-    assumptions: &[Assumption],
-) -> Report {
+/// Reports the verdicts.
+pub fn report(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
     let judged = Table::from_rows(claims)
         .column("id", |judged| judged.claim.id)
-        .column("where in the paper", |judged| judged.claim.place)
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
         .column("certainty", |judged| judged.claim.basis.to_string())
         .column("value", |judged| judged.measured.cell())
-        .column("the paper's words", |judged| judged.claim.translation)
         .column("what is judged", |judged| judged.claim.judged);
-    let assumptions = Table::from_rows(assumptions)
-        .column("what the paper leaves open", |assumption| assumption.what)
-        .column("set to", |assumption| assumption.set_to.clone());
     let report = Report::default()
-        .table(format!("Claims of the paper: {}, and what they assume", counts()), judged)
+        .table(format!("Claims of the paper: {}", counts()), judged)
         .note(
             "The paper's words are translated. What is judged is this audit's wording, and so are the \
              thresholds.",
         )
         .note(format!(
-            "An error of the mesh is {UNDERESTIMATE}. {}.",
+            "A mesh error is {PROBABLY_MORE}, an underestimate where the stress diverges. {}.",
             how_good_is_the_estimate()
         ));
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
@@ -57,15 +47,18 @@ pub fn report(
             )
             .then(over_the_range(claims))
     };
+    report.then(other_readings(claims, by_reading))
+}
+
+/// Reports each claim in full.
+pub fn in_full(claims: &[JudgedClaim]) -> Report {
     let entry = |report: Report, judged: &JudgedClaim| {
         let Claim { id, judged: what, .. } = judged.claim;
         let heading = format!("{id}: {what}: {}", judged.measured.verdict);
         report.then(Report::default().heading(heading).deeper(1)).then(entry(judged))
     };
-    let report = report
-        .then(other_readings(claims, by_reading))
-        .heading("Each claim in full (`audit --claim P12` explains one)");
-    claims.iter().fold(report, entry).table("Assumptions", assumptions)
+    let heading = "Each claim in full (`audit --claim P12` explains one)";
+    claims.iter().fold(Report::default().heading(heading), entry)
 }
 
 /// One claim on a scene.
@@ -144,8 +137,7 @@ fn entry(judged: &JudgedClaim) -> Report {
     });
     let errors = (!errors.is_empty()).then(|| {
         format!(
-            "error of the mesh in the energy norm, {UNDERESTIMATE}: {}. The verdict is on this mesh: it does not say \
-             how far the runs are from the exact solution",
+            "mesh error: {}. The verdict is on this mesh: it does not say how far the runs are from the exact solution",
             listed(each)
         )
     });
@@ -168,10 +160,10 @@ fn entry(judged: &JudgedClaim) -> Report {
         .notes(printed_by)
 }
 
-/// Counts the statements, and the sentences of the paper in which they stand.
+/// Counts the claims, and the sentences of the paper in which they stand.
 pub fn counts() -> String {
     let sentences: BTreeSet<&str> = CLAIMS.iter().map(|claim| claim.place).collect();
-    format!("{} statements in {} sentences", CLAIMS.len(), sentences.len())
+    format!("{} claims in {} sentences", CLAIMS.len(), sentences.len())
 }
 
 /// Returns the verdicts with their values.

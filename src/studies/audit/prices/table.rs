@@ -1,5 +1,7 @@
 //! What the printed faults cost, for people and for machines.
 
+use std::fmt::{self, Display, Formatter};
+
 use serde::Serialize;
 
 use crate::audit::claims::table::under;
@@ -16,8 +18,8 @@ use report::picture::{Axis, Series, Style, chart};
 
 /// How the order of repairs is found, in words.
 pub const ORDER: &str = "The order is found from the end: \
-    into the corrected algorithm the faults are put back one at a time, each time the one that \
-    leaves the least error. The last to be put back is the first to be repaired.";
+    into the corrected algorithm the faults are reintroduced one at a time, each time the one that \
+    leaves the least error. The last to be reintroduced is the first to be repaired.";
 
 /// Why a finding and its price may differ.
 pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the shapes that the print itself comes \
@@ -25,16 +27,16 @@ pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the s
     that is not triggered may cost something, and one that is present nothing.";
 
 /// What is said in place of a price of what is none.
-const NO_FAULT: &str = "no fault here";
+const NO_FAULT: &str = "no effect, as nothing slides";
 
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize)]
 pub struct Document<'a> {
     /// The reading, of which only what changes the model matters.
     pub reading: Reading,
-    /// The corrected algorithm, then a fault put back a row.
+    /// The corrected algorithm, then a fault reintroduced a row.
     pub prices: &'a [Price],
-    /// The corrected algorithm with all faults put back, then a repair a row, with those above it; empty
+    /// The corrected algorithm with all faults reintroduced, then a repair a row, with those above it; empty
     /// where that was not asked for.
     pub repairs: &'a [Price],
     /// The prices at the other places of the range of what the paper leaves open; empty where that was not
@@ -56,9 +58,9 @@ pub fn section(
 ) -> Report {
     let report = match prices {
         Ok(prices) => report(&Document { reading, prices, repairs, range: &[] }, scene).deeper(1),
-        Err(why) => Report::default()
-            .heading("What the printed faults cost")
-            .line(format!("Not measured here: {}", first_line(why))),
+        Err(why) => {
+            Report::default().heading("What the printed faults cost").line(not_measured(why))
+        }
     };
     match repairs {
         [] => report,
@@ -72,7 +74,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
     let Document { reading, prices, repairs, range } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.name.as_deref().unwrap_or("-"))
-        .column("fault put back", |price| price.fault.clone());
+        .column("fault reintroduced", |price| price.fault.clone());
     let repaired = || {
         Table::from_rows(repairs.iter().enumerate())
             .column("repairs", |(k, _)| Cell::from(*k))
@@ -91,7 +93,7 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         under(reading)
     ))
     .line(
-        "The corrected algorithm (plane-contact guide corrected), and the same with one printed fault put back. It has \
+        "The corrected algorithm (plane-contact guide corrected), and the same with one printed fault reintroduced. It has \
          no friction, and is compared with two solutions on the same mesh: the one that it has itself \
          (without friction, node to segment, in the initial geometry), and the equilibrium under the scene's \
          own friction.",
@@ -102,9 +104,11 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
          K9 (release).",
     )
     .note(AND_FINDINGS)
-    .notes(no_fault(prices))
     .notes(failures)
-    .line(summary(prices));
+    .notes(match unsound(prices) {
+        Some(why) => vec![format!("{why}: no fault is priced.")],
+        None => without_cost(prices).iter().map(Cost::to_string).collect(),
+    });
     if !range.is_empty() {
         return report.then(over_range(prices, range));
     }
@@ -140,7 +144,7 @@ fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
     let rows = rows.filter_map(|(k, price)| Some((k, price, extremes(&places, k)?)));
     let table = Table::from_rows(rows)
         .column("finding", |(_, price, _)| price.name.as_deref().unwrap_or("-"))
-        .column("fault put back", |(_, price, _)| price.fault.clone())
+        .column("fault reintroduced", |(_, price, _)| price.fault.clone())
         .column("least error in energy, %", |(k, _, [least, _])| error(least, *k))
         .column("where it is least", |(_, _, [least, _])| place(least.0))
         .column("greatest error in energy, %", |(k, _, [_, greatest])| error(greatest, *k))
@@ -200,17 +204,6 @@ fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) ->
         .column("from the equilibrium, %", move |row| share(row, 3))
 }
 
-/// Says which faults are none under the scene's own friction.
-fn no_fault(prices: &[Price]) -> Option<String> {
-    let named = of_weight(prices, Weight::NoFault);
-    (!named.is_empty()).then(|| {
-        format!(
-            "{} is no fault here: under the scene's own friction no node slides.",
-            listed(named)
-        )
-    })
-}
-
 /// Says how many repairs the way from the print takes, and which are not needed.
 fn way(repairs: &[Price]) -> String {
     let Some(needed) = needed(repairs) else {
@@ -248,14 +241,69 @@ pub fn picture(repairs: &[Price]) -> String {
     chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
 }
 
-/// Says whether the corrected algorithm holds on the scene, and which faults cost nothing.
-fn summary(prices: &[Price]) -> String {
-    let free = of_weight(prices, Weight::Free);
-    match unsound(prices) {
-        Some(why) => format!("{why}: no fault is priced."),
-        None if free.is_empty() => "Every fault costs something on this scene.".into(),
-        None => format!("Without effect on this scene: {}.", listed(free)),
+/// What a fault costs, or that some cost nothing.
+pub struct Cost {
+    /// The error in energy that it causes, or what stands in its place.
+    pub cost: String,
+    /// Its name; of several, theirs.
+    pub names: String,
+    /// The fault in words; of several, nothing.
+    pub words: Option<String>,
+}
+
+impl Display for Cost {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        write!(out, "{}: {}", self.cost, self.names)?;
+        self.words.as_ref().map_or(Ok(()), |words| write!(out, ": {words}"))
     }
+}
+
+/// Returns what each fault costs, the dearest first, then those that cost nothing.
+///
+/// # Errors
+/// That is not known: says why.
+pub fn by_cost(prices: &Result<Vec<Price>, String>) -> Result<Vec<Cost>, String> {
+    let prices = prices.as_ref().map_err(|why| not_measured(why))?;
+    if let Some(why) = unsound(prices) {
+        return Err(format!("{why}: no fault is priced."));
+    }
+    let of = |weight| prices.iter().filter(move |price| price.weight == weight);
+    let mut shifts: Vec<&Price> = of(Weight::Shifts).collect();
+    shifts.sort_by(|a, b| b.outcome.error().total_cmp(&a.outcome.error()));
+    let dear = of(Weight::Fatal).chain(shifts).chain(of(Weight::Rounding)).map(|price| {
+        let error = percent(price.outcome.error());
+        let cost = match price.weight {
+            Weight::Shifts if price.outcome.is_settled() => error,
+            Weight::Shifts => format!("{error}, does not settle"),
+            weight => weight.to_string(),
+        };
+        let names = price.name.clone().unwrap_or("-".into());
+        Cost { cost, names, words: Some(price.fault.clone()) }
+    });
+    Ok(dear.chain(without_cost(prices)).collect())
+}
+
+/// Returns the faults without effect, and those that are none here.
+fn without_cost(prices: &[Price]) -> Vec<Cost> {
+    let rows = [(Weight::Free, ""), (Weight::NoFault, ", as nothing slides")];
+    let rows = rows.map(|(weight, why)| (listed(of_weight(prices, weight)), why));
+    let rows = rows.into_iter().filter(|(names, _)| !names.is_empty());
+    let cost = |(names, why)| Cost { cost: "no effect".into(), names: names + why, words: None };
+    rows.map(cost).collect()
+}
+
+/// Says how far the corrected algorithm without any fault is from the equilibrium; nothing where that is not known.
+pub fn without_any(prices: &Result<Vec<Price>, String>) -> Option<String> {
+    let own = prices.as_ref().ok().filter(|prices| unsound(prices).is_none())?;
+    let far = own[0].outcome.from_equilibrium()?;
+    Some(format!(
+        "Without any fault the corrected algorithm, which has no friction, is {} from the equilibrium.",
+        percent(far)
+    ))
+}
+
+fn not_measured(why: &str) -> String {
+    format!("Not measured here: {}", first_line(why))
 }
 
 /// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the

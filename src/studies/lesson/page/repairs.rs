@@ -51,7 +51,7 @@ pub fn json(repairs: &Repairs) -> Value {
         let last = repairs.last(count);
         let words = match last {
             Some(fault) => json!(fault.words()),
-            None if count == 0 => fill("all are put back", &[]),
+            None if count == 0 => fill("all are reintroduced", &[]),
             None => not_needed(repairs),
         };
         let mut row = json!({
@@ -90,7 +90,7 @@ fn about(repairs: &Repairs, count: usize) -> Value {
             let values: [(&str, &dyn Display); 2] = [("finding", &finding), ("places", &places)];
             fill("the last is {finding}: {places}", &values)
         }
-        None if count == 0 => fill("all are put back", &[]),
+        None if count == 0 => fill("all are reintroduced", &[]),
         None => fill("all are repaired", &[]),
     }
 }

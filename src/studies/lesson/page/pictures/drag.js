@@ -49,16 +49,24 @@ function moveNode(n, pixel) {
 function watchDrag() {
   const place = byId("nodes");
   let frame;
-  place.addEventListener("pointerdown", ({ target, pointerId }) => {
-    if (!target.value) return;
-    page.dragged = Number(target.value);
-    target.setPointerCapture(pointerId);
-  });
-  place.addEventListener("pointermove", ({ clientX, clientY }) => {
-    if (!page.dragged) return;
+  // How far the node is from the pointer that took it, in pixels: it stays so.
+  let [besideX, besideY] = [0, 0];
+  const pointed = ({ clientX, clientY }) => {
     const { left, top } = place.getBoundingClientRect();
+    return [clientX - left, clientY - top];
+  };
+  place.addEventListener("pointerdown", (event) => {
+    if (!event.target.value) return;
+    page.dragged = Number(event.target.value);
+    event.target.setPointerCapture(event.pointerId);
+    const [[x, y], [ownX, ownY]] = [pointed(event), page.view.to(page.mesh.at(page.dragged))];
+    [besideX, besideY] = [ownX - x, ownY - y];
+  });
+  place.addEventListener("pointermove", (event) => {
+    if (!page.dragged) return;
+    const [x, y] = pointed(event);
     cancelAnimationFrame(frame);
-    frame = requestAnimationFrame(() => page.dragged && moveNode(page.dragged, [clientX - left, clientY - top]));
+    frame = requestAnimationFrame(() => page.dragged && moveNode(page.dragged, [x + besideX, y + besideY]));
   });
   for (const name of ["pointerup", "pointercancel"]) place.addEventListener(name, () => {
     if (!page.dragged) return;

@@ -140,7 +140,7 @@ function unfoldConclusion() {
   byId("conclusion").open = true;
 }
 
-/** What a fault costs, put back alone into the corrected algorithm on a scene. */
+/** What a fault costs, reintroduced alone into the corrected algorithm on a scene. */
 function priceInWords({ scene, name, weight, error }) {
   const effect = {
     fatal: () => t("the run stops, or contact presses no node"),

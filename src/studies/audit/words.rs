@@ -1,0 +1,481 @@
+//! What an audit says: a verdict to quote, the runs beside the equilibrium, the claims by how far their verdicts
+//! reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests on.
+
+use crate::audit::claims::table as claims;
+use crate::audit::claims::{JudgedClaim, Scope, Verdict};
+use crate::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread, of_the_paper};
+use crate::audit::evidence::{BY_ROUNDING, NoFigures};
+use crate::audit::prices::Price;
+use crate::audit::prices::table::{self as prices, Cost};
+use crate::audit::range::{is_example, recorded};
+use crate::audit::variants::{End, PressedAcross, VariantRow};
+use crate::audit::{Assumption, Audit, tables};
+use crate::calculix::RECORDED;
+use engine::BodySummary;
+use paper::mirror::Reading;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+use report::layout::{counted, listed};
+use report::model::{Cell, Report, Table};
+use report::numbers::{coordinates, figure, percent, with_unit};
+use report::tables::PROBABLY_MORE;
+
+/// The most columns of the first screen.
+pub const WIDTH: usize = 100;
+
+/// What is judged, and what is not.
+pub const JUDGED: [&str; 2] = [
+    "Judged: listings c_cnt and Km as printed, eq. (1) as the text has it.",
+    "Not judged: the authors' unpublished worksheet; whether a line is a misprint.",
+];
+
+/// What a mark at a claim says.
+const OURS: &str = "*: threshold or wording is this audit's; the paper gives none. audit --claim P12 explains one.";
+
+/// What the runs of the table are.
+const RUNS: &str =
+    "Runs of the paper's algorithm, and the equilibrium under the scene's own friction";
+
+/// Where the row of CalculiX is from.
+const OF_CALCULIX: &str =
+    "CalculiX is not run here; how it was, and how far the variants are from it: guide calculix.";
+
+/// What the faults are, and what stands beside each.
+const FAULTS: &str = "Faults, each reintroduced alone into the corrected algorithm, by the error in energy it causes";
+
+/// Where the clearance comes from.
+const CLEARANCE: &str = "The clearance of 0.1 mm is ours: with it contact spans several nodes, as in figure 1. Real ducts are wider.";
+
+/// What holds in wider ducts under the default reading, as golden/tables/range.md has it.
+pub const WIDER: &str = "From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both are true \
+     (plane-contact guide range).";
+
+/// How much of an audit is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// The first screen of `audit`.
+    Screen,
+    /// The first page of `report`.
+    Page,
+    /// All, as `audit --full` prints it.
+    Full,
+}
+
+/// A part of the first screen.
+pub struct Section {
+    /// Its name: on the page its class.
+    pub name: &'static str,
+    /// Its heading; nothing where its table has a title.
+    pub heading: Option<&'static str>,
+    /// What it says.
+    pub content: Report,
+}
+
+impl Section {
+    fn new(name: &'static str, heading: impl Into<Option<&'static str>>, content: Report) -> Self {
+        Section { name, heading: heading.into(), content }
+    }
+
+    fn report(self) -> Report {
+        self.heading.into_iter().fold(Report::default(), Report::heading).then(self.content)
+    }
+}
+
+/// Reports an audit.
+pub fn report(audit: &Audit, depth: Depth) -> Report {
+    let Audit { scene, conclusion, .. } = audit;
+    let (name, under) = (&scene.word, claims::under(&conclusion.reading));
+    let first = Report::titled(format!(
+        "Audit of Filipov & Khomenko, \"Plane contact by the finite element method\", on scene {}{under}",
+        scene.name
+    ))
+    .line(JUDGED.join(" "));
+    let sections = sections(audit, depth).into_iter().map(Section::report);
+    let first = sections.fold(first, Report::then);
+    match depth {
+        Depth::Page => first,
+        Depth::Full => first.then(evidence(audit, &[])),
+        Depth::Screen => first.line(format!(
+            "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
+        )),
+    }
+}
+
+/// Returns the parts of the first screen: of a scene without contact the verdict alone.
+pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
+    let verdict = verdict(audit);
+    let verdict = match depth {
+        Depth::Page => Report::default().line(verdict.join(" ")),
+        Depth::Screen | Depth::Full => Report::default().notes(verdict),
+    };
+    let mut sections = vec![Section::new("verdict", "Verdict", verdict)];
+    if audit.conclusion.coupled.is_none() {
+        return sections;
+    }
+    let recorded = is_example(&audit.scene).then(|| OF_CALCULIX.to_string());
+    let runs = Report::default().table(RUNS, runs(audit)).notes(recorded);
+    let runs = match depth {
+        Depth::Screen => runs.notes(mesh_error(audit)).notes(others(audit)),
+        Depth::Page => runs.notes(mesh_error(audit)),
+        Depth::Full => mesh_error(audit).into_iter().fold(runs, Report::line),
+    };
+    sections.push(Section::new("runs", None, runs));
+    // In full, the tables of claims and prices have these.
+    if depth != Depth::Full {
+        let judged = Report::default()
+            .table(format!("The paper's {}", claims::counts()), by_scope(&audit.claims))
+            .note(OURS);
+        sections.extend([Section::new("claims", None, judged), faults(audit, depth)]);
+    }
+    sections.push(assumed(audit, depth));
+    sections
+}
+
+/// Reports what the first screen rests on: what the verdict leaves out, the claims, what the printed faults cost and
+/// the way of `repairs` where that was asked for, readings, findings, variants, friction.
+pub fn evidence(audit: &Audit, repairs: &[Price]) -> Report {
+    let Audit { scene, conclusion, claims, by_reading, prices, .. } = audit;
+    let beside = beside(audit);
+    let heading = (!beside.is_empty()).then_some("Beside the verdict");
+    Section::new("beside", heading, Report::default().notes(beside))
+        .report()
+        .then(claims::report(claims, by_reading))
+        .then(prices::section(conclusion.reading, prices, repairs, scene))
+        .then(tables::evidence(audit))
+}
+
+/// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
+fn verdict(audit: &Audit) -> Vec<String> {
+    let Audit { scene, conclusion, .. } = audit;
+    let nearest = match &conclusion.nearest {
+        Some(Nearest { runs, tried, .. }) => {
+            let tried = counted(*tried, "run", "runs");
+            let nearest = match &runs[..] {
+                [run] => format!("The nearest of {tried}, {run}, is"),
+                runs => format!("The {} nearest of {tried} are", in_words(runs.len())),
+            };
+            let far = percent(runs[0].energy);
+            Some(format!("{nearest} {far} from the equilibrium (energy norm, same mesh)."))
+        }
+        None if conclusion.coupled.is_none() => None,
+        None if conclusion.fields.is_none() => Some(
+            "There is no equilibrium to compare with: no run, fault or claim is judged by its distance from one."
+                .into(),
+        ),
+        None => Some("No run of the paper's algorithm ends with a result.".into()),
+    };
+    let is_example = is_example(scene);
+    let range =
+        (is_example && conclusion.reading == Reading::default()).then(|| recorded().to_string());
+    let strongest = of_the_paper(&audit.variants).filter(|row| is_nearest(conclusion, row));
+    let strongest = strongest.filter_map(|row| Some((row.variant, wrong_with(row, scene)?)));
+    let strongest = strongest.enumerate().map(|(k, (variant, words))| match variant {
+        Variant::Tied | Variant::Stepped if k == 0 => {
+            format!("Eq. (1) gets contact wrong here. {words}")
+        }
+        Variant::Tied | Variant::Stepped | Variant::Printed | Variant::Unilateral => words,
+    });
+    let is_unknown = |judged: &JudgedClaim| {
+        judged.claim.id == "P13" && judged.measured.verdict == Verdict::NotCheckable
+    };
+    let other_code = (is_example && audit.claims.iter().any(is_unknown))
+        .then(|| "Agreement with the commercial code cannot be checked (P13).".into());
+    let overlap = audit.equilibrium.iter().filter_map(|found| found.overlap.as_ref());
+    overlap
+        .map(|what| format!("Of the equilibrium that runs are compared with: {what}"))
+        .chain([coupling(conclusion.coupled.as_ref())])
+        .chain(nearest)
+        .chain(range)
+        .chain(strongest)
+        .chain(other_code)
+        .collect()
+}
+
+/// Writes a small number as a word.
+fn in_words(n: usize) -> String {
+    let words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
+    words.get(n).map_or(n.to_string(), |word| word.to_string())
+}
+
+/// Says whether the print couples the bodies.
+fn coupling(coupled: Option<&Coupled>) -> String {
+    let Some(Coupled { joins, share, failure }) = coupled else {
+        return "The scene has no contact: there is nothing to couple.".into();
+    };
+    let joins = match joins {
+        None => "Not decided here: no node comes in contact".to_string(),
+        Some(0) => "As printed, Km adds no entry that joins the two bodies (K1)".into(),
+        Some(n) => format!("As printed, {n} entries of MJS join the two bodies"),
+    };
+    match (share, failure) {
+        (Some(share), _) => format!("{joins}: {} of the load reaches the target.", percent(*share)),
+        (None, Some(NoFigures::Rounding)) => format!("{joins}; printed is {BY_ROUNDING}."),
+        (None, Some(why @ NoFigures::Refused(_))) => format!(
+            "The paper's variants cannot be asked for this scene: {}.",
+            why.in_short().trim_end_matches('.')
+        ),
+        (None, Some(why @ NoFigures::Fails(_))) => {
+            format!("{joins}; printed stops: {}.", why.in_short().trim_end_matches('.'))
+        }
+        (None, None) => format!("{joins}."),
+    }
+}
+
+/// Says what the verdict leaves out: what is wrong with the other runs, those that have no result or solve another
+/// problem, the fields of the nearest, the findings without a price, and what the paper leaves open.
+fn beside(audit: &Audit) -> Vec<String> {
+    let Audit { scene, conclusion, .. } = audit;
+    let mut said = others(audit);
+    if let Some(Nearest { failed, by_rounding, apart, .. }) = &conclusion.nearest {
+        let stop = counted(*failed, "run stops", "runs stop");
+        said.extend((*failed > 0).then(|| format!("{stop} without a result.")));
+        let decided = counted(*by_rounding, "run is", "runs are");
+        said.extend((*by_rounding > 0).then(|| format!("{decided} {BY_ROUNDING}.")));
+        said.extend(apart.iter().map(|run| {
+            let far = percent(run.energy);
+            format!("Of another plane problem, {run}, is {far} from that problem's equilibrium.")
+        }));
+    }
+    said.extend(conclusion.fields.iter().flat_map(|found| fields(audit, found)));
+    let unpriced = listed(&conclusion.unpriced);
+    said.extend(
+        (!unpriced.is_empty()).then(|| format!("Present, but not reintroduced: {unpriced}.")),
+    );
+    if is_example(scene) {
+        said.push(CLEARANCE.into());
+        said.extend((conclusion.reading == Reading::default()).then(|| WIDER.into()));
+    }
+    if let Some(Spread { places, error: [least, most], changes, true_from }) = &conclusion.range {
+        let verdicts = match changes.len() {
+            0 => "no verdict changes".to_string(),
+            _ => format!("the verdicts that change are those on {}", listed(changes)),
+        };
+        said.push(format!(
+            "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} from \
+             the equilibrium; {verdicts}.",
+            percent(*least),
+            percent(*most)
+        ));
+        said.extend(true_from.iter().map(|(id, value)| {
+            format!("{id} is true at each clearance tried from {value} mm on.")
+        }));
+    }
+    said
+}
+
+/// Says how far the largest stress and strain of the nearest run are off, and where they stand in the equilibrium.
+fn fields(audit: &Audit, Fields { variants, difference, errors }: &Fields) -> Vec<String> {
+    let scene = &audit.scene;
+    let off = difference.map(|difference| {
+        format!(
+            "The largest von Mises stress and strain of a body under {} differ by up to {} from the equilibrium's.",
+            listed(variants),
+            percent(difference)
+        )
+    });
+    // Three digits of the size of the bodies.
+    let decimals = (3.0 - scene.model.bounds().larger_side().log10()).ceil().max(0.0) as usize;
+    let own = audit.equilibrium.iter().flat_map(|found| &found.bodies);
+    let places = own.zip(&errors.bodies).map(|(body, error)| {
+        let written = |x| figure(x, errors.mesh_energy_relative);
+        let stress = with_unit(&written(body.max_von_mises_stress), &scene.units.stress);
+        // 0 added to −0 is 0.
+        let scale = 10f64.powi(decimals as i32);
+        let centre = body.centre.map(|x| (x * scale).round() / scale + 0.0);
+        let at = with_unit(&coordinates(centre, decimals), &scene.units.length);
+        let diverges = match error.no_limit.as_ref().filter(|point| point.is_largest) {
+            Some(point) => format!(" (it diverges under refinement, at node {})", point.node),
+            None => String::new(),
+        };
+        let strain = written(body.max_von_mises_strain);
+        format!("body {}: {stress} at {at}{diverges}, strain {strain}", body.name)
+    });
+    let limit = match is_example(scene) {
+        true => " `plane-contact guide limit` says what finer meshes with true arcs lead to.",
+        false => "",
+    };
+    let own = format!(
+        "The largest von Mises stress and strain in the equilibrium (solve {} --variant unilateral --coupling mortar): \
+         {}.{limit}",
+        scene.word,
+        places.collect::<Vec<_>>().join("; ")
+    );
+    off.into_iter().chain([own]).collect()
+}
+
+/// Says what is wrong with the runs that are not the nearest, whose faults stand in the verdict.
+fn others(audit: &Audit) -> Vec<String> {
+    let others = of_the_paper(&audit.variants).filter(|row| !is_nearest(&audit.conclusion, row));
+    others.filter_map(|row| wrong_with(row, &audit.scene)).collect()
+}
+
+/// Whether a variant is one of the nearest, whose faults stand in the verdict.
+fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
+    let mut runs = conclusion.nearest.iter().flat_map(|nearest| &nearest.runs);
+    runs.any(|run| run.reading.is_none() && run.variant == row.variant)
+}
+
+/// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which ends inside
+/// the target, how many pull, and how far a symmetric scene answers unsymmetrically.
+fn wrong_with(row: &VariantRow, scene: &Scene) -> Option<String> {
+    let End::Result {
+        penetration,
+        pulling,
+        transmits_nothing: false,
+        across,
+        asymmetry,
+        mesh_error,
+        ..
+    } = &row.end
+    else {
+        return None;
+    };
+    let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
+    let across = across.map(|PressedAcross { node, pressure, gap }| {
+        let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
+        let (gap, c_tol) = (length(gap), scene.model.contact.tolerance);
+        format!(
+            "node {node} presses with {pressure} although the gap is open, {gap} (c_tol {c_tol})"
+        )
+    });
+    let inside = penetration.filter(|found| found.depth > 0.0).map(|found| {
+        let status = if found.in_contact { "though in contact" } else { "carries nothing" };
+        format!("node {}, {} inside the target, {status}", found.node, length(found.depth))
+    });
+    let pulls = (!pulling.is_empty())
+        .then(|| counted(pulling.len(), "node in contact pulls", "nodes in contact pull"));
+    let mirrored = asymmetry.filter(|part| *part > 0.0).map(percent).map(|part| {
+        format!("the symmetric scene answers unsymmetrically, by {part} of the largest |u|")
+    });
+    let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
+    let unsettled = if row.end.is_unsettled() { " (does not settle)" } else { "" };
+    (!faults.is_empty()).then(|| format!("Under {}{unsettled} {}.", row.variant, faults.join("; ")))
+}
+
+/// The paper's variants, and the equilibrium.
+fn runs(audit: &Audit) -> Table {
+    let equilibrium = audit.equilibrium.as_ref().map(|found| {
+        let nodes = found.in_contact.to_string();
+        run("equilibrium", found.target_share, nodes, &found.bodies, found.mesh_error)
+    });
+    let calculix = is_example(&audit.scene).then(|| {
+        let stresses = RECORDED.map(|(_, stress)| stress.to_string()).join(" / ");
+        vec!["CalculiX".into(), "recorded".into(), "own contact, stick".into(), stresses.into()]
+    });
+    let rows = of_the_paper(&audit.variants).map(variant).chain(equilibrium).chain(calculix);
+    Table::new(columns(&audit.scene), rows)
+}
+
+/// The columns of a table of runs.
+pub(super) fn columns(scene: &Scene) -> [String; 5] {
+    let bodies: Vec<&str> = scene.model.bodies.iter().map(|body| body.name.as_str()).collect();
+    let stress =
+        format!("{}: {}", with_unit("von Mises,", &scene.units.stress), bodies.join(" / "));
+    ["run", "load transmitted", "nodes in contact", &stress, "error, energy norm"].map(String::from)
+}
+
+/// Returns the cells of a variant; of one that failed its name and why.
+pub(super) fn variant(row: &VariantRow) -> Vec<Cell> {
+    let name = row.variant.name();
+    match &row.end {
+        End::Failure { failure: NoFigures::Refused(_) } => {
+            vec![name.into(), Cell::Empty, "not run".into()]
+        }
+        End::Failure { failure } => vec![name.into(), Cell::Empty, failure.in_short().into()],
+        End::Result { in_contact, target_share, cycle, bodies, distance, mesh_error, .. } => {
+            let nodes = match cycle {
+                Some(cycle) if cycle.length > 1 => {
+                    let mut counts: Vec<usize> =
+                        cycle.members.iter().map(|k| in_contact[k - 1]).collect();
+                    counts.sort_unstable();
+                    counts.dedup();
+                    format!("{}, does not settle", listed(counts))
+                }
+                _ => in_contact.last().map_or("-".into(), usize::to_string),
+            };
+            let error = distance.as_ref().map(|from| Cell::percent(from.energy_relative));
+            let mut cells = run(name, *target_share, nodes, bodies, *mesh_error);
+            cells.push(error.into());
+            cells
+        }
+    }
+}
+
+/// Returns the cells of a run, up to its error.
+fn run(
+    name: &str,
+    share: Option<f64>,
+    nodes: String,
+    bodies: &[BodySummary],
+    mesh_error: Option<f64>,
+) -> Vec<Cell> {
+    let stresses = stresses(bodies, mesh_error);
+    vec![name.into(), share.map(Cell::percent).into(), nodes.into(), stresses.into()]
+}
+
+/// Writes the largest von Mises stress of each body, in the order of the table's heading.
+pub(super) fn stresses(bodies: &[BodySummary], mesh_error: Option<f64>) -> String {
+    let stresses = bodies.iter().map(|body| figure(body.max_von_mises_stress, mesh_error));
+    stresses.collect::<Vec<_>>().join(" / ")
+}
+
+fn mesh_error(audit: &Audit) -> Option<String> {
+    let error = audit.conclusion.fields.as_ref()?.errors.mesh_energy_relative?;
+    Some(format!("Mesh error {}, {PROBABLY_MORE}.", percent(error)))
+}
+
+/// The claims by verdict, in a row for each scope.
+fn by_scope(judged: &[JudgedClaim]) -> Table {
+    let of = |scope: Scope, verdict: Verdict| {
+        let found = judged.iter().filter(|judged| judged.scope == scope);
+        let found = found.filter(|judged| judged.measured.verdict == verdict);
+        let mark = |is_ours| if is_ours { "*" } else { "" };
+        let ids = found.map(|judged| format!("{}{}", judged.claim.id, mark(judged.claim.is_ours)));
+        Cell::from(ids.collect::<Vec<_>>().join(" "))
+    };
+    let scopes = Scope::ALL.iter().filter(|scope| judged.iter().any(|own| own.scope == **scope));
+    let rows = scopes.map(|scope| {
+        let cells = Verdict::ALL.iter().map(|verdict| of(*scope, *verdict));
+        std::iter::once(scope.to_string().into()).chain(cells).collect()
+    });
+    let headings = Verdict::ALL.iter().map(|verdict| verdict.name());
+    Table::new(std::iter::once("verdict holds on").chain(headings), rows)
+}
+
+/// The faults by what they cost: a line each on the screen, a row each on the page.
+fn faults(audit: &Audit, depth: Depth) -> Section {
+    match (prices::by_cost(&audit.prices), depth) {
+        (Ok(costs), Depth::Page) => {
+            let table = Table::from_rows(costs)
+                .column("cost", |cost| cost.cost.clone())
+                .column("finding", |cost| cost.names.clone())
+                .column("fault", |cost| cost.words.clone());
+            let own = prices::without_any(&audit.prices);
+            Section::new("faults", None, Report::default().table(FAULTS, table).notes(own))
+        }
+        (Ok(costs), Depth::Screen | Depth::Full) => {
+            let costs = costs.iter().map(Cost::to_string);
+            let own = prices::without_any(&audit.prices);
+            Section::new("faults", FAULTS, Report::default().notes(costs.chain(own)))
+        }
+        (Err(why), _) => Section::new("faults", FAULTS, Report::default().note(why)),
+    }
+}
+
+/// What the paper leaves open, and what the scene has in its place.
+fn assumed(audit: &Audit, depth: Depth) -> Section {
+    let title = match is_example(&audit.scene) {
+        true => "Assumed, as the paper is silent",
+        false => "The scene",
+    };
+    let assumed: Vec<String> = audit.assumptions.iter().map(Assumption::to_string).collect();
+    match depth {
+        Depth::Screen => {
+            let line = format!("{title}: {}.", assumed.join("; "));
+            Section::new("assumed", None, Report::default().line(line))
+        }
+        Depth::Page | Depth::Full => {
+            Section::new("assumed", title, Report::default().notes(assumed))
+        }
+    }
+}
