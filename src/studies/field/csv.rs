@@ -1,6 +1,6 @@
 //! Displacements in a table of comma-separated values, as this program, spreadsheets and ParaView write it.
 
-use super::{HOW, Kind, Row, Rows, is_number, plain};
+use super::{HOW, Row, Rows, is_number, plain};
 use base::error::{InputError, Result};
 use base::files;
 
@@ -92,7 +92,6 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
     };
     Ok(Rows {
         place: place.into(),
-        kind: Kind::Line,
         names: named(&columns),
         taken: format!("columns {}", [named(&[number]), named(&columns)].concat().join(" | ")),
         rows,
