@@ -215,7 +215,7 @@ def _plain(value: Any) -> Any:
 def _word(option: str, value: Any) -> str:
     # A program's name alone is looked for on the PATH.
     if option in _PATHS and (option != "ccx" or os.path.dirname(value)):
-        return os.path.abspath(value)
+        return str(os.path.abspath(value))
     if isinstance(value, Mapping):
         return ",".join(f"{key}={entry}" for key, entry in value.items())
     return ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
