@@ -32,19 +32,16 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let (what, place, fix) = (indented(&self.what), indented(&self.place), indented(&self.fix));
-        write!(f, "{what}\n  where: {place}\n  fix:   {fix}")
-    }
-}
-
-/// Returns text in which a value with a line break begins no line of its own.
-fn indented(text: &str) -> String {
-    let lines =
-        text.split('\n').enumerate().map(|(k, line)| match k == 0 || line.starts_with(' ') {
+        // A value with a line break begins no line of its own.
+        let lines = self.what.split('\n').enumerate();
+        let indented = |(k, line): (usize, &str)| match k == 0 || line.starts_with(' ') {
             true => line.to_string(),
             false => format!("  {line}"),
-        });
-    lines.collect::<Vec<_>>().join("\n")
+        };
+        let what = lines.map(indented).collect::<Vec<_>>().join("\n");
+        let place = self.place.replace('\n', "\\n");
+        write!(f, "{what}\n  where: {place}\n  fix:   {}", self.fix)
+    }
 }
 
 impl std::error::Error for InputError {}

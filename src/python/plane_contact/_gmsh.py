@@ -18,7 +18,7 @@ def whole(values: Any, name: str) -> Any:
 
 
 def write(path: str, mesh: Any) -> None:
-    """Writes all cells in their order, one of several groups for each of them."""
+    """Writes all cells in their order; behind them one of several groups stands again for each other of its groups."""
     whole(mesh.points, "mesh.points")
     for block in mesh.cells:
         whole(block.data, f"mesh.cells of kind {block.type!r}")
@@ -42,7 +42,7 @@ def write(path: str, mesh: Any) -> None:
 
 
 def _elements(mesh: Any) -> tuple[dict[tuple[int, str], int], list[str]]:
-    """Returns the tags of the named groups by dimension and name, and each element of each group."""
+    """Returns the tags of the named groups by dimension and name, and the cells as elements."""
     physical = mesh.cell_data.get("gmsh:physical")
     geometrical = mesh.cell_data.get("gmsh:geometrical")
     sets = {name: blocks for name, blocks in mesh.cell_sets.items() if not name.startswith("gmsh:")}
@@ -51,7 +51,7 @@ def _elements(mesh: Any) -> tuple[dict[tuple[int, str], int], list[str]]:
     own = mesh.field_data.items() if physical is not None else ()
     names = {(int(dim), name): int(tag) for name, (tag, dim) in own}
     last = max(map(abs, [0, *names.values(), *np.concatenate([[], *(physical or [])]).astype(int)]))
-    elements = []
+    elements, again = [], []
     for k, block in enumerate(mesh.cells):
         if len(block.data) == 0:
             continue
@@ -69,7 +69,9 @@ def _elements(mesh: Any) -> tuple[dict[tuple[int, str], int], list[str]]:
                     tags[cell] += [] if tag in tags[cell] else [tag]
         for cell, nodes in enumerate(block.data):
             corners = " ".join(str(n + 1) for n in nodes)
-            for tag in tags[cell] or [0]:
-                surface = tag if geometrical is None else int(geometrical[k][cell])
-                elements.append(f"{kind} 2 {tag} {surface} {corners}")
-    return names, elements
+            of = tags[cell] or [0]
+            surface = of[0] if geometrical is None else int(geometrical[k][cell])
+            first, *others = [f"{kind} 2 {tag} {surface} {corners}" for tag in of]
+            elements.append(first)
+            again += others
+    return names, elements + again

@@ -136,6 +136,22 @@ const CASES: &[Case] = &[
         contains: &["line 2 has node 7 at 2.8, 1; in the scene it is at"],
         lacks: &["panicked"],
     },
+    // A table of more cells than memory should hold.
+    Case {
+        input: "",
+        command: "head -c 50000000 /dev/zero | tr '\\0' ',' >wide.csv; (echo node,ux,uy; yes 1,1,1 | head -c 90000000) >long.csv; \
+                  ulimit -v 4000000; for file in wide long; do \
+                  timeout 20 plane-contact compare fig1 --friction 0 --with $file.csv; echo $?; done; \
+                  (echo node; head -c 1000000 /dev/zero | tr '\\0' x) | tr '\\n' , >names.csv; \
+                  plane-contact compare fig1 --friction 0 --with names.csv",
+        status: 2,
+        contains: &[
+            "50000000 cells in one table are more than",
+            "cells in one table are more than",
+            "the first line names",
+        ],
+        lacks: &["panicked", "124\n", "134\n"],
+    },
     // Bodies that touch have two nodes at one place.
     Case {
         input: "",
