@@ -19,10 +19,10 @@ use commands::{TablesArgs, folder, folder_name, print, waiting};
 /// Run a scene here and in another code, or take that one's field, and show the differences.
 #[derive(clap::Args)]
 #[command(after_help = "\
---with FIELD: displacements on the scene's mesh, as CSV (columns node or x, y, then ux, uy; nodes.csv of
-solve --csv) or VTU (fields.vtu of solve, meshio, ParaView: the vectors named displacement or u), in the scene's unit, beside the equilibrium: unilateral
-with mortar and the scene's friction, or the run of --variant. Penetration, traction and forces are those
-that the displacements imply. The exit status tells a difference beyond --rtol. Nothing is written but --csv.
+--with FIELD: displacements on the scene's mesh, as CSV (columns node or x, y, then ux, uy, as nodes.csv of
+solve --csv), in the scene's unit, beside the equilibrium: unilateral with mortar and the scene's
+friction, or the run of --variant. Other files go through Python (guide scenes). Penetration, traction and
+forces are those that the displacements imply. The exit status tells a difference beyond --rtol. Nothing is written but --csv.
 
 --with calculix: exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out:
 compare.json, nodes.csv, elements.csv, von_mises_stress.svg (this program),
@@ -36,7 +36,7 @@ contact.
 
 Examples:
   plane-contact compare my/block.json --with other.csv
-  plane-contact compare strand --friction 0 --with out/strand-stepped/fields.vtu --rtol 0.1
+  plane-contact compare strand --friction 0 --with csv/nodes.csv --rtol 0.1
   plane-contact compare strand --variant tied
   plane-contact compare strand --variant unilateral --coupling mortar --friction 0
   plane-contact compare strand --variant unilateral --friction 0 --contact pair --penalty 1e7")]
@@ -45,7 +45,7 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// calculix, which is run, or a .csv or .vtu file of displacements.
+    /// calculix, which is run, or a .csv file of displacements.
     #[arg(long, value_name = "CODE|FIELD", default_value = "calculix", value_parser = other)]
     with: Other,
     /// With a field, the largest difference that is none, over the largest displacement and in the energy
@@ -77,7 +77,7 @@ fn other(text: &str) -> Result<Other, String> {
     if path.extension().is_some() {
         return Ok(Other::Field(path));
     }
-    text.parse().map(Other::Code).map_err(|why| format!("{why}, and no .csv or .vtu file"))
+    text.parse().map(Other::Code).map_err(|why| format!("{why}, and no .csv file"))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

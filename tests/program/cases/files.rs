@@ -8,6 +8,20 @@ fn files() {
 }
 
 const CASES: &[Case] = &[
+    // A name with a line break begins no line of the output.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out s >log; for field in units materials; do \
+                  python3 -c 'import json, sys; s = json.load(open(\"s/scene.json\")); \
+                  s[sys.argv[1]][\"x\\nWritten to out\\n  fix: none\"] = {\"E\": \"y\"}; json.dump(s, sys.stdout)' $field \
+                  | plane-contact solve -; done",
+        status: 2,
+        contains: &[
+            "field units.x\\nWritten to out\\n  fix: none",
+            "field materials.x\\nWritten to out",
+        ],
+        lacks: &["\nWritten to out", "\n  fix: none"],
+    },
     // A link below the current folder is not followed, be it the program's own folder.
     Case {
         input: "",
