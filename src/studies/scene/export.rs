@@ -6,8 +6,8 @@ use crate::calculix::{Problem, deck};
 use base::files;
 use engine::error::Result;
 
-use crate::calculix::arguments::{Code, DeckArgs};
-use commands::{offered, write_or_print};
+use crate::calculix::arguments::DeckArgs;
+use commands::write_or_print;
 
 /// Write a scene as an input deck of CalculiX.
 #[derive(clap::Args)]
@@ -25,9 +25,6 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The code.
-    #[arg(long, value_name = "CODE", default_value = "calculix", value_parser = offered::<Code>(Code::ALL))]
-    to: Code,
     #[command(flatten)]
     deck: DeckArgs,
     /// Write to a file in place of standard output.
@@ -36,7 +33,6 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let Code::Calculix = args.to;
     args.out.as_deref().map_or(Ok(()), files::check_file)?;
     let solution = args.deck.solve(&args.scene)?;
     let parts = args.deck.parts(&solution)?;
