@@ -227,7 +227,6 @@ fn where_it_does_not_hold_the_prices_say_so() {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,
-        range: &[],
     };
     let report = studies::audit::prices::table::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265 %"), "{report}");

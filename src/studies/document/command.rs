@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use crate::audit::prices::{Compared, Price};
 use crate::audit::{Audit, Case, audit};
-use crate::calculix::table as comparison;
-use crate::calculix::{self, Comparison, Contact, Fields, Pair, Part};
+use crate::calculix::{self, Pair};
 use crate::document::page;
 use crate::document::{Contents, Run, document};
+use crate::field;
 use base::error::InputError;
 use base::files;
 use base::plain::{shell_word, shown};
@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> Result<()> {
 /// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
 fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
     let found = audit(case, &Vec::new(), true, &|| ());
-    let beside = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
+    let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
         scene: &case.scene,
         command: command(args),
@@ -97,7 +97,7 @@ fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
         audit: &found,
         repairs: repairs(args, case),
         runs: runs(case, &found),
-        calculix: beside.as_ref().map(|beside| beside.compared(case)),
+        calculix,
     };
     match args.format {
         Format::Html => commands::write_page(&args.out, out, &page::html(&contents))?,
@@ -180,40 +180,15 @@ fn asked(scene: &Scene) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// A run of CalculiX's own contact.
-struct Beside {
-    contact: Contact,
-    version: String,
-    comparison: Comparison,
-}
-
-impl Beside {
-    /// Returns what the report says of it, beside `unilateral`.
-    fn compared<'a>(&'a self, case: &'a Case) -> comparison::Compared<'a> {
-        let solution = case.run(Variant::Unilateral).expect("it was compared");
-        comparison::Compared {
-            scene: &case.scene,
-            model: &solution.model,
-            variant: Variant::Unilateral,
-            certainty: Certainty::Unchecked,
-            contact: &self.contact,
-            decks: 1,
-            version: &self.version,
-            comparison: &self.comparison,
-        }
-    }
-}
-
 /// Runs CalculiX's own contact beside `unilateral`.
-fn calculix(program: &str, case: &Case) -> Result<Beside> {
+fn calculix<'a>(program: &str, case: &'a Case) -> Result<field::Compared<'a>> {
     let solution: &Solution = case.run(Variant::Unilateral).map_err(|why| {
         let what = format!("unilateral, which stands beside CalculiX, does not run: {why}");
         InputError::new("--ccx", what, "leave --ccx out")
     })?;
-    let model = &solution.model;
-    let contact = Contact::Pair(Pair::new(model, None, solution.request.contact.friction));
-    let parts = [Part { contact: contact.clone(), share: 1.0 }];
-    let ran = calculix::run(program, &case.scene, model, &parts)?;
-    let comparison = Comparison::new(model, Fields::from_solution(solution), ran.fields);
-    Ok(Beside { contact, version: ran.version, comparison })
+    let pair = Pair::new(&solution.model, None, solution.request.contact.friction);
+    let parts = [pair.into()];
+    let ran = calculix::run(program, &case.scene.title, &solution.model, &parts)?;
+    let certainty = Certainty::Unchecked;
+    Ok(field::Compared::with_calculix(solution, certainty, &parts, ran, None)?)
 }

@@ -14,7 +14,7 @@ use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
 use crate::audit::words::{Depth, evidence, report as audit_report};
 use crate::audit::{Audit, relative_radius};
-use crate::calculix::table::{self as comparison, Compared};
+use crate::field::{Compared, table as comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use paper::listings::Which;
 use problem::modelling::Variant;

@@ -1,16 +1,20 @@
-//! The displacements that another code computed on the mesh of a scene, beside the reference solution.
+//! The displacements that another code computed on the mesh of a scene, beside a solution of it.
 //!
 //! ```text
-//!  FIELD.csv --csv--> Rows --on_mesh--> u --implied--> Solution --+
-//!  SCENE ----------------------solve--------------> reference ----+--> Beside --> tables, JSON
+//!  FIELD.csv --csv--> Rows --on_mesh--> u --+
+//!  deck --------------ccx-------------> u --+--implied--> Solution --+
+//!  SCENE ----------------------solve--------------> reference -------+--> Beside --> tables, JSON
 //! ```
 
 mod beside;
-pub mod command;
+mod by_calculix;
+pub(crate) mod command;
 mod csv;
-mod table;
+pub mod table;
 
 pub use beside::{AtNode, Beside, BodyDifference, ContactValues};
+pub use by_calculix::ByCalculix;
+pub use table::Compared;
 
 use std::path::Path;
 

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use crate::calculix::{Problem, deck};
+use crate::calculix::arguments::DeckArgs;
+use crate::calculix::deck;
 use base::files;
 use engine::error::Result;
+use problem::scene::Scene;
 
-use crate::calculix::arguments::DeckArgs;
 use commands::write_or_print;
 
 /// Write a scene as an input deck of CalculiX.
@@ -34,10 +35,9 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let solution = args.deck.solve(&args.scene)?;
+    let scene = Scene::open(&args.scene)?;
+    let solution = args.deck.solve(&scene)?;
     let parts = args.deck.parts(&solution)?;
     let last = parts.last().expect("a run has an iteration");
-    let (scene, model) = (&solution.request.scene, &solution.model);
-    let text = deck(&Problem { scene, model, contact: &last.contact })?;
-    write_or_print(&args.out, &text)
+    write_or_print(&args.out, &deck(&scene.title, &solution.model, &last.contact)?)
 }
