@@ -353,7 +353,7 @@ fn a_ccx_that_is_missing_or_fails_is_exit_status_2() {
 }
 
 #[test]
-fn compare_prints_tables_and_writes_what_is_asked_for() {
+fn compare_prints_tables_or_json_and_writes_tables() {
     if !ccx_is_there() {
         return;
     }
@@ -363,18 +363,22 @@ fn compare_prints_tables_and_writes_what_is_asked_for() {
     for words in ["beside CalculiX 2", "8 equations", "Largest differences", "The worst nodes"] {
         assert!(tables.contains(words), "{words:?}: {tables}");
     }
-    assert!(!folder.path().join("out").exists(), "nothing is written");
-    program::run(folder.path(), &[&compare[..], &["--csv", "tables"]].concat());
-    let files = ["--out", "out", "--json"];
-    let printed = program::run(folder.path(), &[&compare[..], &files].concat()).stdout;
-    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-    assert_eq!(read("tables/nodes.csv").lines().count(), 1 + 13);
-    assert_eq!(String::from_utf8(printed).unwrap(), read("out/compare.json"));
-    assert!(folder.path().join("out/field.vtu").is_file());
-    let document: Value = serde_json::from_str(&read("out/compare.json")).unwrap();
-    assert_eq!(document["is_same"], true);
-    assert_eq!(document["nodes"].as_array().unwrap().len(), 13);
-    assert_eq!(document["worst_nodes"].as_array().unwrap().len(), 10);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
+    let with = |more: &[&str]| program::run(folder.path(), &[&compare[..], more].concat());
+    let document = |more: &[&str]| -> Value {
+        serde_json::from_slice(&with(&[&["--json"], more].concat()).stdout).unwrap()
+    };
+    let unjudged = document(&[]);
+    assert_eq!(unjudged.get("is_same"), None);
+    assert_eq!(unjudged["calculix"]["contact"], json!({"kind": "equation", "equations": 8}));
+    assert_eq!(unjudged["nodes"].as_array().unwrap().len(), 13);
+    assert_eq!(unjudged["worst_nodes"].as_array().unwrap().len(), 10);
+    assert_eq!(document(&["--rtol", "1e-5"])["is_same"], true);
+    let exact = with(&["--rtol", "0", "--csv", "tables"]);
+    assert_eq!(exact.status.code(), Some(1));
+    let printed = String::from_utf8(exact.stdout).unwrap();
+    assert!(printed.contains("Differs by more than --rtol 0 (energy norm"), "{printed}");
+    assert_eq!(std::fs::read_dir(folder.path().join("tables")).unwrap().count(), 3);
 }
 
 /// Bodies that lie flush at c_tll = 1e-17: who is in contact is decided by rounding in f64, and not in
@@ -388,12 +392,11 @@ fn compare_repeats_in_double_doubles_where_rounding_decides() {
     scene["contact"]["c_tll"] = 1e-17.into();
     let folder = TempDir::new().unwrap();
     std::fs::write(folder.path().join("flush.json"), scene.to_string()).unwrap();
-    let compare =
-        ["compare", "flush.json", "--with", "calculix", "--variant", "tied", "--out", "out"];
+    let compare = ["compare", "flush.json", "--with", "calculix", "--variant", "tied"];
     let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
     let words = "rounding in f64 may decide who is in contact; this is the run in double-doubles";
     assert!(tables.contains(words), "{tables}");
-    let written = std::fs::read(folder.path().join("out/compare.json")).unwrap();
-    let document: Value = serde_json::from_slice(&written).unwrap();
+    let json = program::run(folder.path(), &[&compare[..], &["--json"]].concat()).stdout;
+    let document: Value = serde_json::from_slice(&json).unwrap();
     assert_eq!(document["calculix"]["certainty"], "in-double-double");
 }

@@ -98,7 +98,8 @@ fn mesh(model: &Model) -> Value {
 fn run(name: &str, run: &Run, tables: &[(&str, &str)], known: &Value) -> Value {
     let solution = run.solution;
     let result = json!(ResultFile::new(solution, &run.assessment, None));
-    let tables = tables.iter().map(|(table, place)| (*table, rows(&result[*table], &known[*place])));
+    let tables =
+        tables.iter().map(|(table, place)| (*table, rows(&result[*table], &known[*place])));
     json!({
         "name": name,
         "result": Value::from_iter(tables),

@@ -37,8 +37,8 @@ const CASES: &[Case] = &[
         input: "",
         command: "mkdir out; echo mine >out/lesson.html; plane-contact lesson; plane-contact lesson --out a.html && \
                   mv a.html out/a.html && cat out/lesson.html && rm out/lesson.html && plane-contact lesson && \
-                  plane-contact lesson && plane-contact report fig1 --no-audit && \
-                  plane-contact report fig1 --no-audit",
+                  plane-contact lesson && plane-contact report fig1 && \
+                  plane-contact report fig1",
         status: 0,
         contains: &["lesson.html is in the way: it does not tell", "mine"],
         lacks: &["report.html is in the way"],
@@ -210,7 +210,7 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "mkdir out; echo precious > victim; ln -s ../victim out/mesh.svg; \
-                  plane-contact report fig1 --no-audit --format markdown --out out/r.txt; status=$?; \
+                  plane-contact report fig1 --format markdown --out out/r.txt; status=$?; \
                   cat victim; ls out; exit $status",
         status: 2,
         contains: &["mesh.svg is in the way: it is a link", "precious"],
@@ -218,10 +218,10 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "echo mine > mesh.svg; plane-contact report fig1 --no-audit --format markdown \
+        command: "echo mine > mesh.svg; plane-contact report fig1 --format markdown \
                   --out r.txt; rm mesh.svg; \
-                  plane-contact report fig1 --no-audit --format markdown --out r.txt && \
-                  plane-contact report fig1 --no-audit --format markdown --out r.txt && head -1 r.txt",
+                  plane-contact report fig1 --format markdown --out r.txt && \
+                  plane-contact report fig1 --format markdown --out r.txt && head -1 r.txt",
         status: 0,
         contains: &["mesh.svg is in the way: r.txt does not tell", "<!-- plane-contact -->"],
         lacks: &[],
@@ -229,7 +229,7 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "plane-contact lesson two-blocks --out -; plane-contact solve fig1 --out -; \
-                  plane-contact report fig1 --no-audit --format markdown --out mesh.svg; s=$?; \
+                  plane-contact report fig1 --format markdown --out mesh.svg; s=$?; \
                   ls; exit $s",
         status: 2,
         contains: &["a file of that name is ./-", "two files are named mesh.svg"],
