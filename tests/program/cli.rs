@@ -403,7 +403,7 @@ fn bad_input_is_exit_status_2_and_loses_no_file() {
         2,
         &["nowhere.json", "strand, fig1, two-blocks"],
     );
-    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["no such reading"]);
+    fails(folder.path(), &["solve", "fig1", "--reading", "R9=x"], 2, &["which no run takes"]);
     fails(
         folder.path(),
         &["solve", "fig1", "--reading", "R2=odd-ish"],

@@ -262,7 +262,7 @@ fn stresses(assessment: &Assessment, solution: &Solution, error: Option<f64>) ->
                 format!("; {}", unbounded(*node, *cause))
             }
             Some(NoLimit { node, cause, is_largest: false }) => {
-                format!("; at other places {}", unbounded(*node, *cause))
+                format!("; elsewhere {}", unbounded(*node, *cause))
             }
             None => String::new(),
         };

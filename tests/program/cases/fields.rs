@@ -14,7 +14,7 @@ const CASES: &[Case] = &[
         command: "for file in numbers.csv places.csv; do \
                   plane-contact compare fig1 --friction 0 --with $file || exit; done",
         status: 0,
-        contains: &["Same within 0.001", "by number", "by coordinates"],
+        contains: &["Same within --rtol 0.001", "by number", "by coordinates"],
         lacks: &["Differs", "NOTE"],
     },
     Case {
@@ -49,7 +49,7 @@ const CASES: &[Case] = &[
                   plane-contact compare fig1 --friction 0 --with more.csv --rtol 0.0101 && \
                   plane-contact compare fig1 --friction 0 --with more.csv",
         status: 1,
-        contains: &["Same within 0.0101", "(energy norm 1.0", "1.00 % of the largest"],
+        contains: &["Same within --rtol 0.0101", "(energy norm 1.0", "1.00 % of the largest"],
         lacks: &["panicked"],
     },
     Case {
@@ -106,7 +106,7 @@ const CASES: &[Case] = &[
             "has a decimal comma: write a point",
             "a decimal comma would separate cells",
             "moves along z by 1",
-            "the run of printed has no end to compare with",
+            "the run of printed does not finish",
         ],
         lacks: &["panicked", ".csv 0", ".vtu 0", ".csv 1"],
     },
@@ -121,7 +121,7 @@ const CASES: &[Case] = &[
                   --no-assessment --out o --csv csv >log; \
                   plane-contact compare s --friction 0 --with csv/nodes.csv --rtol 0",
         status: 0,
-        contains: &["found by number", "Same within 0 ("],
+        contains: &["found by number", "Same within --rtol 0 ("],
         lacks: &["panicked"],
     },
     Case {
