@@ -19,10 +19,11 @@ use commands::{TablesArgs, folder, folder_name, print, waiting};
 /// Run a scene here and in another code, or take that one's field, and show the differences.
 #[derive(clap::Args)]
 #[command(after_help = "\
---with FIELD: displacements on the scene's mesh, as CSV (columns node or x, y, then ux, uy, as nodes.csv of
-solve --csv), in the scene's unit, beside the contact solution: unilateral with mortar and the scene's
-friction, or the run of --variant. Other files go through Python (guide scenes). Penetration, traction and
-forces are those that the displacements imply. The exit status tells a difference beyond --rtol. Nothing is written but --csv.
+--with FIELD: displacements on the scene's mesh, as CSV (columns node or x, y, then ux, uy, as the
+nodes.csv of solve --csv), in the scene's unit, beside the contact solution: unilateral with mortar
+and the scene's friction, or the run of --variant. Other files go through Python (guide scenes).
+Penetration, traction and forces are those that the displacements imply. The exit status tells a
+difference beyond --rtol. Nothing is written but --csv.
 
 --with calculix: exports the scene to a temporary folder, runs ccx there and reads its results. Writes to --out:
 compare.json, nodes.csv, elements.csv, von_mises_stress.svg (this program),
