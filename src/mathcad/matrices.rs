@@ -131,17 +131,23 @@ fn substituted((rows, order, _): &Factors, b: &[f64]) -> Result<Vec<f64>, Cause>
         if rows[k][k] == 0.0 {
             return Err(Cause::Singular);
         }
-        x[k] = finite((x[k] - sum((k + 1..n).map(|j| rows[k][j] * x[j]))) / rows[k][k])?;
+        let known = sum((k + 1..n).map(|j| rows[k][j] * x[j]));
+        x[k] = finite(over_pivot(x[k] - known, rows[k][k]))?;
     }
     Ok(x)
+}
+
+/// Divides by a pivot as LAPACK does: times its reciprocal, where that is a number.
+fn over_pivot(x: f64, pivot: f64) -> f64 {
+    let reciprocal = 1.0 / pivot;
+    if reciprocal.is_finite() { x * reciprocal } else { x / pivot }
 }
 
 /// The rows of an eliminated matrix in the order in which they are pivots, each the largest of its column, with the
 /// factors left of the pivot; their places before; and the sign of that order.
 type Factors = (Vec<Vec<f64>>, Vec<usize>, f64);
 
-/// Factors a square matrix by elimination. As in LAPACK a column is multiplied by the reciprocal of its pivot; the
-/// products of an entry are added up before they are subtracted from it.
+/// Factors a square matrix by elimination; the products of an entry are added up before they are subtracted from it.
 fn factor(a: &Array) -> Factors {
     let n = a.rows();
     let mut rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| *a.at(i, j)).collect()).collect();
@@ -159,14 +165,13 @@ fn factor(a: &Array) -> Factors {
         }
         let (pivot, below) = rows[k..].split_first_mut().expect("there is a row k");
         pivot.iter_mut().zip(&sums[k]).skip(k + 1).for_each(|(x, sum)| *x -= sum);
-        let reciprocal = 1.0 / pivot[k];
         for (row, sums) in below.iter_mut().zip(&mut sums[k + 1..]) {
             // Most rows of a stiffness matrix have no entry there: `audit strand --prices` takes 38 s with
             // this line, and 341 s without it to the same bytes. Without a pivot all have none.
             if row[k] == 0.0 {
                 continue;
             }
-            row[k] = if reciprocal.is_finite() { row[k] * reciprocal } else { row[k] / pivot[k] };
+            row[k] = over_pivot(row[k], pivot[k]);
             for (sum, p) in sums[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
                 *sum += row[k] * p;
             }

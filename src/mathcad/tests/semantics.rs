@@ -573,8 +573,8 @@ fn functions_at_the_edge_of_their_domain() {
     }
 }
 
-/// Results that four authors saved: a column is multiplied by the reciprocal of its pivot, and products are added up
-/// before they are subtracted.
+/// Results that three authors saved, the last one evelinalevina ЛР2 139, 140, 145 and 160: a division by a pivot is a
+/// product with its reciprocal, and products are added up before they are subtracted.
 #[test]
 fn systems_of_equations_have_the_saved_bits() {
     let second = "(4.35 4.39 3.67; 4.04 3.65 3.17; 3.14 2.69 2.17)";
@@ -588,6 +588,14 @@ fn systems_of_equations_have_the_saved_bits() {
     assert_eq!(value(&format!("lsolve({third}, {c})")), saved);
     let saved = "3.8637274549097356; -3.899354264083513; 0.7526163437985929";
     assert_eq!(value(&format!("{third}^−1·{c}")), saved);
+    let last = "for i ∈ 1 .. 6\n  for j ∈ 1 .. 6\n    a[i,j] ← 2·i + j + 0.1·(i = j)\n  b[i] ← i^3\n";
+    let saved = "345.1023614315862; -11.516520202266069; -248.13540183612483; -304.75428346997836; \
+                 -121.37316510383411; 362.00795326231";
+    assert_eq!(value(&format!("{last}lsolve(a, b)")), saved);
+    assert_eq!(value(&format!("{last}(|a|   |a·a|)")), "-0.020368999999999523 0.0004148961609918678");
+    let saved = "4.614364966370475 -3.9078992586774346 -2.430163483725261 -0.9524277087731291 0.5253080661790313 \
+                 2.0030438411311033";
+    assert_eq!(value(&format!("{last}submatrix(a^−1, 1, 1, 1, 6)")), saved);
 }
 
 /// The programs of xmcd's programs-mathcad14.xmcd ask for a sum that stops, one that skips, an

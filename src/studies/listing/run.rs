@@ -37,8 +37,9 @@ pub enum Which {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in
-contact), then the rows of k_cnt that are not zero. --json: {\"cnt\": [...], \"ct\": [...], \"yt\": [...],
-\"dy\": [...], \"k_cnt\": [[master, weight, master, weight], ...]}; cnt is as the scene lists it.
+contact), then the rows of k_cnt that are not zero. --json: {\"cnt\": [...], \"ct\": [...],
+\"yt\": [...], \"dy\": [...], \"k_cnt\": [[master, weight, master, weight], ...]}; cnt is as the
+scene lists it.
 
 Examples:
   plane-contact listing run c_cnt fig1

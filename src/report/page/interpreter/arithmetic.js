@@ -111,9 +111,12 @@ function magnitude(value) {
   return finite(rows.reduce((product, row, k) => product * row[k], sign));
 }
 
+/** A number over a pivot: times its reciprocal, where that is a number. */
+const overPivot = (x, pivot) => (Number.isFinite(1 / pivot) ? x * (1 / pivot) : x / pivot);
+
 /** The rows of an eliminated matrix in the order in which they are pivots, each the largest of its column, with
- * the factors left of the pivot; their places before; and the sign of that order. A column is multiplied by the
- * reciprocal of its pivot; the products of an entry are added up before they are subtracted from it. */
+ * the factors left of the pivot; their places before; and the sign of that order. The products of an entry are
+ * added up before they are subtracted from it. */
 function factors(matrix) {
   const n = matrix.rows;
   const rows = Array.from({ length: n }, (_, i) => matrix.entries.slice(i * n, (i + 1) * n));
@@ -130,11 +133,10 @@ function factors(matrix) {
     }
     const pivot = rows[k];
     for (let j = k + 1; j < n; j += 1) pivot[j] -= sums[k][j];
-    const reciprocal = 1 / pivot[k];
     for (let i = k + 1; i < n; i += 1) {
       const row = rows[i];
       if (row[k] === 0) continue;
-      row[k] = Number.isFinite(reciprocal) ? row[k] * reciprocal : row[k] / pivot[k];
+      row[k] = overPivot(row[k], pivot[k]);
       for (let j = k + 1; j < n; j += 1) sums[i][j] += row[k] * pivot[j];
     }
   }
@@ -157,7 +159,7 @@ function substituted({ rows, order }, b) {
   for (let k = n - 1; k >= 0; k -= 1) {
     if (rows[k][k] === 0) throw new Cause("The matrix is singular.");
     const known = sum(n - 1 - k, (j) => rows[k][k + 1 + j] * x[k + 1 + j]);
-    x[k] = finite((x[k] - known) / rows[k][k]);
+    x[k] = finite(overPivot(x[k] - known, rows[k][k]));
   }
   return new Grid(n, 1, x);
 }
