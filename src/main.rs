@@ -16,6 +16,7 @@ use plane_contact::commands::Verbosity;
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
 use plane_contact::files;
+use plane_contact::plain::is_hidden;
 use plane_contact::report::failure::failure;
 use plane_contact::studies::command::{self, Command};
 use plane_contact::{Error, commands};
@@ -250,7 +251,7 @@ fn is_ignored(signal: i32) -> bool {
 /// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as escapes.
 fn escape(why: &mut clap::Error) {
     let escaped = |text: &String| text.escape_debug().to_string();
-    let is_unsafe = |text: &String| text.contains(char::is_control);
+    let is_unsafe = |text: &String| text.contains(is_hidden);
     let context = why.context().filter_map(|(kind, value)| match value {
         ContextValue::String(text) if is_unsafe(text) => {
             Some((kind, ContextValue::String(escaped(text))))

@@ -2,6 +2,7 @@
 //! Each is set so that a run stays below some 8 GB; the measured bytes stand beside it.
 
 use crate::error::{InputError, Result};
+use crate::files::MOST;
 
 /// The most that there may be of something.
 pub struct Limit {
@@ -25,6 +26,14 @@ pub const EQUATIONS: Limit =
 /// Values of a JSON document, lists and objects included: a number takes up to 144 bytes, an empty list 304.
 pub const VALUES: Limit =
     Limit { most: 15_000_000, of: "values in one file", fix: "give a smaller file" };
+
+/// Bytes of a file that is read whole.
+pub const BYTES: Limit =
+    Limit { most: MOST as usize, of: "bytes in one file", fix: "give a smaller file" };
+
+/// Bytes of the values of all jobs of a sweep, as JSON: a value of two bytes takes some 32.
+pub const JOBS: Limit =
+    Limit { most: 1 << 28, of: "bytes of values in all jobs", fix: "divide the sweep" };
 
 /// Numbers of a mesh file: a node or an element, which takes 310 bytes, has four at least.
 pub const MESH: Limit =

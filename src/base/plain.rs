@@ -3,9 +3,29 @@
 use std::fmt::Display;
 use std::path::Path;
 
+/// Whether a character is a control character, or changes the direction of the text behind it.
+pub fn is_hidden(c: char) -> bool {
+    let turns = matches!(
+        c,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    turns || c.is_control()
+}
+
+/// Whether a character is hidden and no line feed or tab.
+pub fn controls_a_terminal(c: char) -> bool {
+    is_hidden(c) && !['\n', '\t'].contains(&c)
+}
+
+/// Returns words of a user on one line: what would break it, or control a terminal, becomes U+FFFD.
+pub fn on_a_line(words: &str) -> String {
+    let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
+    words.replace(is_hidden, "\u{fffd}")
+}
+
 /// Returns a path on one line: what would break it, or control a terminal, becomes U+FFFD.
 pub fn shown(path: &Path) -> String {
-    path.to_string_lossy().replace(char::is_control, "\u{fffd}")
+    path.to_string_lossy().replace(is_hidden, "\u{fffd}")
 }
 
 /// What serde calls the kinds of values, found or expected.

@@ -1,5 +1,7 @@
 //! XML, an element on each line.
 
+use crate::plain::is_hidden;
+
 /// An element of XML, written as far as it is known.
 pub struct Element {
     name: &'static str,
@@ -81,6 +83,7 @@ pub fn escape(text: &str) -> String {
             '"' => out.push_str("&quot;"),
             '\n' | '\t' => out.push(c),
             '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            c if is_hidden(c) => out.push_str(&format!("&#{};", c as u32)),
             _ => out.push(c),
         }
     }

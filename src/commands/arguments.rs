@@ -10,10 +10,10 @@ use base::plain::{shown, six_digits};
 use engine::Request;
 use engine::error::Result;
 use engine::linear::{Arithmetic, Inputs, ScalarName, Solver};
+use engine::options::Options;
 use paper::mirror::Reading;
 use problem::modelling::{
-    ContactModel, Coupling, Friction, Geometry, StatusRule, Variant, check_iterations,
-    check_tolerance,
+    Coupling, Friction, Geometry, StatusRule, Variant, check_iterations, check_tolerance,
 };
 use problem::scene::{Scene, SceneBuilder};
 use report::json;
@@ -138,18 +138,17 @@ impl ModelArgs {
         variant: Option<Variant>,
         reading: &ReadingArg,
     ) -> Result<Request> {
-        let variant = variant.unwrap_or(scene.variant);
-        if variant == Variant::Unilateral && self.friction.is_none() {
-            check_friction(scene)?;
-        }
-        let contact = ContactModel {
-            coupling: self.coupling.unwrap_or(scene.coupling(variant)),
-            friction: self.friction.unwrap_or(scene.contact.friction),
-            geometry: self.geometry.unwrap_or(scene.contact.geometry),
-            load_steps: self.load_steps.map_or(scene.contact.load_steps, |n| n as usize),
-            status: self.status.unwrap_or(scene.contact.status),
+        let options = Options {
+            variant: Some(variant.unwrap_or(scene.variant)),
+            reading: reading.reading,
+            coupling: self.coupling,
+            friction: self.friction,
+            geometry: self.geometry,
+            load_steps: self.load_steps.map(|n| n as usize),
+            status: self.status,
+            ..Options::default()
         };
-        Ok(Request::new(scene).variant(variant).contact(contact).reading(reading.reading))
+        Ok(options.request(scene)?)
     }
 }
 
@@ -163,20 +162,6 @@ impl ModelArgs {
         let request = self.request(scene, Some(Variant::Unilateral), reading)?;
         Ok(if self.coupling.is_some() { request } else { request.equilibrium() })
     }
-}
-
-/// Checks that a scene says how its surfaces rub, where its own variant asks for that.
-///
-/// # Errors
-/// It says nothing of friction.
-pub fn check_friction(scene: &Scene) -> Result<()> {
-    if !scene.friction_is_missing {
-        return Ok(());
-    }
-    let what = "nothing is said of friction between the surfaces";
-    let fix = "add \"friction\": 0, a coefficient such as \"friction\": 0.3, or \"friction\": \"stick\" (nothing \
-               slides) to the scene's contact";
-    Err(InputError::new("contact.friction", what, fix).into())
 }
 
 /// What a run changes of its scene; the result is that of a scene file edited so.
@@ -258,35 +243,14 @@ pub fn read_listing(path: &Path) -> Result<String, InputError> {
 /// Returns the name of the default folder of a run: `start`, and every option that differs from what
 /// the scene and the program do by themselves, so that no two results share one.
 pub fn folder_name(start: String, request: &Request, more: &[String]) -> String {
-    // What changes the scene, or is executed in place of a listing, is among `more`.
-    let Request {
-        scene,
-        contact: ContactModel { coupling, friction, geometry, load_steps, status },
-        variant: _,
-        iterations: _,
-        reading,
-        arithmetic: Arithmetic { scalar, solver, inputs },
-        tolerance: _,
-        edited: _,
-    } = request;
-    let (own, plain) = (scene.contact, Arithmetic::default());
-    let mut name = start;
-    let mut add = |differs: bool, option: String| {
-        if differs {
-            name += &format!("-{option}");
-        }
-    };
-    add(*coupling != own.coupling, coupling.to_string());
-    add(*friction != own.friction, format!("friction-{friction}"));
-    add(*geometry != own.geometry, geometry.to_string());
-    add(*load_steps != own.load_steps, format!("load-steps-{load_steps}"));
-    add(*status != own.status, status.to_string());
-    add(*scalar != plain.scalar, scalar.to_string());
-    add(*solver != plain.solver, request.solver().to_string());
-    add(*inputs != plain.inputs, inputs.to_string());
-    add(*reading != Reading::default(), reading.to_string());
-    more.iter().for_each(|option| add(true, option.clone()));
-    name
+    let words =
+        Options::from_request(request).given().filter_map(|(option, value)| match &*option {
+            "variant" | "iterations" | "c_tll" => None,
+            "friction" | "load_steps" => Some(format!("{}-{value}", option.replace('_', "-"))),
+            _ => Some(value),
+        });
+    let words = words.chain(more.iter().cloned());
+    words.fold(start, |name, word| format!("{name}-{word}"))
 }
 
 /// The folder that is asked for, else `name` in the folder `out`.
@@ -342,7 +306,8 @@ impl TablesArgs {
     /// # Errors
     /// Standard output or a file cannot be written.
     pub fn print(&self, report: Report) -> Result<()> {
-        self.write(&report)?;
-        print_report(report)
+        // What was computed is shown, whatever is in the way of the files.
+        print_report(report.clone())?;
+        self.write(&report)
     }
 }

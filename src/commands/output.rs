@@ -189,39 +189,18 @@ pub fn width() -> usize {
     terminal.or_else(columns).map_or(usize::MAX, |width: usize| width.max(40))
 }
 
-/// Writes to the file that is asked for, else to standard output.
+/// Writes what `text` returns, which has a `mark`, to the file that is asked for, else to standard output.
 ///
 /// # Errors
-/// The file or standard output cannot be written.
-pub fn write_or_print(file: &Option<PathBuf>, text: &str) -> Result<()> {
-    match file {
-        Some(path) => Ok(files::write(path, text)?),
-        None => print(text),
-    }
-}
-
-/// Checks that a page can be written to `out`, before it is computed.
-///
-/// # Errors
-/// Those of [`files::check_file`]; or no option `asked` for that place, and what is there is not known to be
-/// from this program.
-pub fn check_page(asked: &Option<PathBuf>, out: &Path) -> Result<()> {
-    files::check_file(out)?;
-    let name = out.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let folder = out.parent().unwrap_or(Path::new(""));
-    if asked.is_none() {
-        files::check_folder(folder, &[name])?;
-    }
-    Ok(())
-}
-
-/// Writes a page.
-///
-/// # Errors
-/// Those of [`check_page`], or it cannot be written.
-pub fn write_page(asked: &Option<PathBuf>, out: &Path, page: &str) -> Result<()> {
-    check_page(asked, out)?;
-    Ok(files::write(out, page)?)
+/// Those of `text`; or the file, which is looked at before, or standard output cannot be written.
+pub fn write_or_print(
+    file: &Option<PathBuf>,
+    mark: &str,
+    text: impl FnOnce() -> Result<String>,
+) -> Result<()> {
+    let Some(path) = file else { return print(&text()?) };
+    files::check_file(path, mark)?;
+    Ok(files::write(path, &text()?)?)
 }
 
 /// A progress bar on standard error; it shows only in a terminal.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Request;
 use crate::linear::{Arithmetic, Inputs, ScalarName, Solver};
+use base::error::InputError;
 use paper::mirror::Reading;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry, StatusRule, Variant};
 use problem::scene::Scene;
@@ -97,54 +98,50 @@ impl Options {
     }
 
     /// Returns the request for these options of a scene.
-    pub fn request(&self, scene: &Scene) -> Request {
-        let &Options {
-            variant,
-            iterations,
-            c_tll,
-            reading,
-            coupling,
-            friction,
-            geometry,
-            load_steps,
-            status,
-            scalar,
-            solver,
-            inputs,
-        } = self;
+    ///
+    /// # Errors
+    /// Neither says anything of friction, which is part of what `unilateral` solves.
+    pub fn request(&self, scene: &Scene) -> Result<Request, InputError> {
         let own = Request::new(scene);
-        let own = variant.map_or(own.clone(), |variant| own.variant(variant));
-        Request {
-            variant: own.variant,
-            iterations: iterations.unwrap_or(own.iterations),
-            tolerance: c_tll,
-            reading,
-            contact: ContactModel {
-                coupling: coupling.unwrap_or(own.contact.coupling),
-                friction: friction.unwrap_or(own.contact.friction),
-                geometry: geometry.unwrap_or(own.contact.geometry),
-                load_steps: load_steps.unwrap_or(own.contact.load_steps),
-                status: status.unwrap_or(own.contact.status),
-            },
-            arithmetic: Arithmetic {
-                scalar: scalar.unwrap_or_default(),
-                solver,
-                inputs: inputs.unwrap_or_default(),
-            },
-            scene: own.scene,
-            edited: own.edited,
+        let own = self.variant.map_or(own.clone(), |variant| own.variant(variant));
+        if own.variant == Variant::Unilateral && self.friction.is_none() {
+            scene.check_friction()?;
         }
+        let contact = ContactModel {
+            coupling: self.coupling.unwrap_or(own.contact.coupling),
+            friction: self.friction.unwrap_or(own.contact.friction),
+            geometry: self.geometry.unwrap_or(own.contact.geometry),
+            load_steps: self.load_steps.unwrap_or(own.contact.load_steps),
+            status: self.status.unwrap_or(own.contact.status),
+        };
+        let arithmetic = Arithmetic {
+            scalar: self.scalar.unwrap_or_default(),
+            solver: self.solver,
+            inputs: self.inputs.unwrap_or_default(),
+        };
+        let iterations = self.iterations.unwrap_or(own.iterations);
+        let (tolerance, reading) = (self.c_tll, self.reading);
+        Ok(Request { iterations, tolerance, reading, contact, arithmetic, ..own })
     }
 
     /// Returns a name for a run with these options: its variant, then every other option.
     pub fn name(&self) -> String {
-        let options = serde_json::to_value(self).expect("options have string keys");
-        let options = options.as_object().expect("options are an object");
-        let word = |(name, value): (&String, &serde_json::Value)| {
-            let text = value.as_str().map_or(value.to_string(), String::from);
-            if name == "variant" || name == "reading" { text } else { format!("{name}={text}") }
+        let word = |(name, text): (String, String)| match &*name {
+            "variant" | "reading" => text,
+            _ => format!("{name}={text}"),
         };
-        let words: Vec<String> = options.iter().map(word).collect();
+        let words: Vec<String> = self.given().map(word).collect();
         if words.is_empty() { "scene".into() } else { words.join(" ") }
+    }
+
+    /// Returns the options that are given, each by its name, with its value as text.
+    pub fn given(&self) -> impl Iterator<Item = (String, String)> + use<> {
+        let Ok(serde_json::Value::Object(options)) = serde_json::to_value(self) else {
+            panic!("options are an object");
+        };
+        options.into_iter().map(|(name, value)| {
+            let text = value.as_str().map_or(value.to_string(), String::from);
+            (name, text)
+        })
     }
 }

@@ -40,8 +40,8 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     let solution = match request.variant {
         Variant::Unilateral => unilateral(request, watch),
         Variant::Printed | Variant::Tied | Variant::Stepped => {
-            let scalar = request.arithmetic.scalar;
-            in_scalar!(scalar, published(request, watch)).map_err(|why| in_words_of(scalar, why))
+            let solved = in_scalar!(request.arithmetic.scalar, published(request, watch));
+            solved.map_err(|why| blamed(request, why))
         }
     };
     let solution = solution.map_err(|why| why.hinting(request.scene.slits()))?;
@@ -49,14 +49,24 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Returns the error of a run in a scalar. Of one with fewer digits than the paper's worksheets have,
-/// no failure is one of the print.
-fn in_words_of(scalar: ScalarName, why: Error) -> Error {
+/// Returns the error of a run by what is at fault. Of a scalar with fewer digits than the paper's worksheets have, no
+/// failure is one of the print; nor is a singular matrix of an edited listing where that of the print is none.
+fn blamed(request: &Request, why: Error) -> Error {
+    let scalar = request.arithmetic.scalar;
     let is_coarser = scalar.properties().digits < ScalarName::F64.properties().digits;
+    let as_printed = Request { edited: Vec::new(), ..request.clone() };
     match why {
         Error::Singular(_) | Error::Listing(_) if is_coarser && !scalar.is_exact() => {
             let what = format!("in {scalar} {why}; {scalar} cannot represent what f64 does");
             InputError::new("scalar", what, "use f64, as the paper's worksheets do").into()
+        }
+        Error::Singular(matrix)
+            if !request.edited.is_empty()
+                && !matches!(solve(&as_printed, &mut |_| ()), Err(Error::Singular(_))) =>
+        {
+            let places: Vec<&str> = request.edited.iter().map(|own| own.place.as_str()).collect();
+            let fix = "correct the edited listing";
+            InputError::new(places.join(" and "), matrix.to_string(), fix).into()
         }
         other => other,
     }

@@ -1,7 +1,7 @@
 //! The tables of a report as CSV (RFC 4180).
 
 use super::model::{Block, Cell, Report, Table};
-use super::text::controls_a_terminal;
+use base::plain::controls_a_terminal;
 
 impl Report {
     /// Returns each table as CSV, with the name of its file: the first words of its title.

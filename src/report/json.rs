@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::numbers::reason;
 use base::files::json::{FORMAT, VERSION};
+use base::plain::controls_a_terminal;
 use paper::door::Call;
 use problem::scene::{Scene, Units};
 
@@ -51,7 +52,7 @@ pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
 
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
 pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
-    document(scene, own).to_string() + "\n"
+    visible(document(scene, own).to_string()) + "\n"
 }
 
 /// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than its
@@ -59,7 +60,19 @@ pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
 pub fn streamed(own: &impl Serialize) -> String {
     let document =
         Document { format: FORMAT, version: VERSION, scene: None, own, nulls: BTreeMap::new() };
-    serde_json::to_string(&document).expect("a document has string keys only") + "\n"
+    visible(serde_json::to_string(&document).expect("a document has string keys only")) + "\n"
+}
+
+/// Returns JSON with escapes for characters of its texts that control a terminal.
+fn visible(json: String) -> String {
+    if !json.contains(controls_a_terminal) {
+        return json;
+    }
+    let shown = |c: char| match controls_a_terminal(c) {
+        true => format!("\\u{:04x}", c as u32),
+        false => c.into(),
+    };
+    json.chars().map(shown).collect()
 }
 
 fn value(document: &impl Serialize) -> Value {
@@ -81,7 +94,7 @@ pub fn pretty_explained(document: &impl Serialize) -> String {
 pub fn pretty(document: &impl Serialize) -> String {
     let mut text = String::new();
     indented(&value(document), 0, &mut text);
-    text + "\n"
+    visible(text) + "\n"
 }
 
 fn indented(value: &Value, depth: usize, text: &mut String) {

@@ -30,7 +30,7 @@ pub mod html;
 pub mod json;
 pub mod language;
 pub mod layout;
-mod markdown;
+pub mod markdown;
 pub mod matrix_market;
 pub mod model;
 pub mod numbers;

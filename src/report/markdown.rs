@@ -2,8 +2,14 @@
 
 use super::csv::file_name;
 use super::model::{Block, Cell, Report, Table};
+use base::plain::{controls_a_terminal, is_hidden};
 
 impl Report {
+    /// Returns the report as that of a page of this name, in whose folder its figures are.
+    pub fn of_page(self, page: &str) -> Self {
+        Report { figures: figures_of(page) + "/", ..self }
+    }
+
     /// Writes the report as a page of Markdown, whose figures are the files of
     /// [`figures`](Report::figures) beside it.
     pub fn markdown(&self) -> String {
@@ -17,7 +23,8 @@ impl Report {
                 // A fence longer than any in the lines.
                 let fences = lines.split(|c| c != '`').map(str::len);
                 let fence = "`".repeat(fences.max().unwrap_or(0).max(2) + 1);
-                format!("{fence}text\n{}\n{fence}\n", lines.trim_end())
+                let lines = lines.trim_end().replace(controls_a_terminal, "\u{fffd}");
+                format!("{fence}text\n{lines}\n{fence}\n")
             }
             Block::Table { title, table } => {
                 let title = (!title.is_empty()).then(|| format!("## {}\n\n", escaped(title)));
@@ -26,7 +33,7 @@ impl Report {
                 title.unwrap_or_default() + &table.markdown() + &reasons.collect::<String>()
             }
             Block::Figure { title, .. } => {
-                format!("![{0}]({1})\n\n{0}\n", escaped(title), figure_file(title))
+                format!("![{0}]({1})\n\n{0}\n", escaped(title), self.figure_file(title))
             }
         });
         blocks.collect::<Vec<_>>().join("\n")
@@ -36,9 +43,13 @@ impl Report {
     pub fn figures(&self) -> Vec<(String, &str)> {
         let figures = self.blocks.iter().filter_map(|block| {
             let Block::Figure { title, svg } = block else { return None };
-            Some((figure_file(title), svg.as_str()))
+            Some((self.figure_file(title), svg.as_str()))
         });
         figures.collect()
+    }
+
+    fn figure_file(&self, title: &str) -> String {
+        format!("{}{}.svg", self.figures, file_name(title))
     }
 }
 
@@ -54,8 +65,10 @@ impl<R> Table<R> {
     }
 }
 
-fn figure_file(title: &str) -> String {
-    file_name(title) + ".svg"
+/// Returns the folder of the figures of a page, beside it, so that those of another page stay: a name that is a link as
+/// it stands.
+pub fn figures_of(page: &str) -> String {
+    page.replace(|c: char| !c.is_alphanumeric() && !"_-".contains(c), "-") + "-figures"
 }
 
 /// Returns a text that stands in a line of Markdown or a cell of a table as it is.
@@ -64,7 +77,7 @@ fn escaped(text: &str) -> String {
         '&' => "&amp;".into(),
         '<' => "&lt;".into(),
         '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '$' => format!("\\{c}"),
-        c if c.is_control() => " ".into(),
+        c if is_hidden(c) => " ".into(),
         c => c.to_string(),
     };
     text.chars().map(escape).collect()

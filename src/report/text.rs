@@ -2,6 +2,7 @@
 
 use super::layout::filled;
 use super::model::{Block, Cell, Report, Table};
+use base::plain::controls_a_terminal;
 
 /// The most characters of a line of a table.
 pub const COLUMNS: usize = 100;
@@ -55,13 +56,6 @@ pub fn fitted(text: &str, width: usize) -> String {
     let text = text.replace(controls_a_terminal, "\u{fffd}");
     let text: String = text.lines().map(|line| prose(line, width)).collect();
     text.lines().map(|line| broken(line, width)).collect()
-}
-
-/// Whether a character is a control character other than a line feed or a tab, or changes the
-/// direction of the text behind it.
-pub(super) fn controls_a_terminal(c: char) -> bool {
-    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || c.is_control() && !['\n', '\t'].contains(&c)
 }
 
 fn length(line: &str) -> usize {

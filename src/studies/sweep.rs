@@ -11,6 +11,7 @@ pub mod table;
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use serde::Deserialize;
 use serde_json::{Map, Number, Value, json};
@@ -18,6 +19,7 @@ use serde_json::{Map, Number, Value, json};
 use crate::snapshot::{Options, VERSION};
 use base::error::{InputError, Result};
 use base::files::json::{Kind, read, read_field};
+use base::limits;
 use engine::error::Error;
 use engine::{Request, Solution, max_displacement, solve, summaries};
 use problem::scene::file::SCENE;
@@ -68,13 +70,17 @@ struct Steps {
 /// What came of a job, by column.
 pub type Row = Map<String, Value>;
 
-/// The jobs of a sweep.
+/// The jobs of a sweep: each takes values of the list and of the grid, and is made when it is asked for.
 pub struct Jobs {
     scene: SceneFile,
     /// `scene` and `options`, of which each job has a copy with other values.
     base: Value,
-    /// The jobs, in order.
-    pub list: Vec<Job>,
+    list: Vec<Map<String, Value>>,
+    grid: Vec<(String, Vec<Value>)>,
+    /// How many there are.
+    pub count: usize,
+    /// The hashes of the meshes that were read, by name.
+    meshes: Mutex<HashMap<String, Result<String, String>>>,
 }
 
 /// A job of a sweep.
@@ -100,27 +106,45 @@ impl Jobs {
         let scene = SceneFile::read_in(folder, &sweep.scene)?;
         let fields: Value = read(&scene.text, &SCENE).map_err(|error| error.within(&scene.name))?;
         let base = json!({"scene": fields, "options": sweep.options});
-        let mut all = if sweep.list.is_empty() { vec![Map::new()] } else { sweep.list };
-        if all.len() > MOST_JOBS {
+        let list = if sweep.list.is_empty() { vec![Map::new()] } else { sweep.list };
+        let with_values = |(pointer, values): (String, Value)| {
+            listed(&pointer, values).map(|values| (pointer, values))
+        };
+        let grid = sweep.grid.into_iter().map(with_values).collect::<Result<Vec<_>>>()?;
+        let of_grid = grid.iter().map(|(_, values)| values.len());
+        let count = of_grid.fold(list.len(), usize::saturating_mul);
+        if count > MOST_JOBS {
             return Err(too_many());
         }
-        for (pointer, values) in sweep.grid {
-            let values = listed(&pointer, values)?;
-            if all.len().saturating_mul(values.len()) > MOST_JOBS {
-                return Err(too_many());
-            }
-            let with = |job: &Map<String, Value>, value: &Value| {
-                let mut job = job.clone();
-                job.insert(pointer.clone(), value.clone());
-                job
-            };
-            all = all.iter().flat_map(|job| values.iter().map(move |v| with(job, v))).collect();
+        check_size(&list, &grid, count)?;
+        list.iter().try_for_each(|job| check_pointers(job, &grid))?;
+        Ok(Jobs { scene, base, list, grid, count, meshes: Mutex::default() })
+    }
+
+    /// Returns all jobs, in order.
+    ///
+    /// # Errors
+    /// Those of [`Self::job`].
+    pub fn all(&self) -> Result<Vec<Job>> {
+        (0..self.count).map(|k| self.job(k)).collect()
+    }
+
+    /// Returns a job by its number, which is below the count; of the grid the last pointer varies fastest.
+    ///
+    /// # Errors
+    /// A pointer leads nowhere.
+    pub fn job(&self, number: usize) -> Result<Job> {
+        let mut rest = number;
+        let mut of_grid = Vec::new();
+        for (pointer, values) in self.grid.iter().rev() {
+            of_grid.push((pointer.clone(), values[rest % values.len()].clone()));
+            rest /= values.len();
         }
-        let mut jobs = Jobs { scene, base, list: Vec::new() };
-        let mut meshes = HashMap::new();
-        let of = |values| Ok(Job { key: jobs.key(&values, &mut meshes)?, values });
-        jobs.list = all.into_iter().map(of).collect::<Result<_>>()?;
-        Ok(jobs)
+        let mut values = self.list[rest].clone();
+        values.extend(of_grid.into_iter().rev());
+        let key =
+            self.key(&values, &mut self.meshes.lock().unwrap_or_else(PoisonError::into_inner))?;
+        Ok(Job { values, key })
     }
 
     /// Returns the document that a job stands for.
@@ -162,7 +186,7 @@ impl Jobs {
         let beside = |name: &str| self.scene.beside(name);
         let scene = SceneBuilder::read(&self.scene.name, text.as_bytes(), beside)?.build()?;
         let options: Options = read_field(&document["options"], &SWEEP, "options")?;
-        Ok(options.request(&scene))
+        options.request(&scene)
     }
 
     /// Runs a job; what fails is a row too.
@@ -185,6 +209,42 @@ impl Jobs {
             }
         })
     }
+}
+
+/// Checks that the values of all jobs, of which there are so many, fit in memory.
+fn check_size(
+    list: &[Map<String, Value>],
+    grid: &[(String, Vec<Value>)],
+    count: usize,
+) -> Result<()> {
+    let bytes = |value: Value| value.to_string().len();
+    // Each value is one of as many jobs as there are combinations of the others.
+    let of_list: usize = list.iter().map(|job| bytes(job.clone().into())).sum();
+    let of_list = of_list.saturating_mul(count / list.len());
+    let of_grid = grid.iter().filter(|(_, values)| !values.is_empty()).map(|(pointer, values)| {
+        let own = bytes(values.clone().into()) + values.len() * pointer.len();
+        own.saturating_mul(count / values.len())
+    });
+    limits::JOBS.check(of_grid.fold(of_list, usize::saturating_add), "grid and list")
+}
+
+/// Checks that no pointer of a job leads to a part of what another one sets: the later one would undo the earlier.
+fn check_pointers(job: &Map<String, Value>, grid: &[(String, Vec<Value>)]) -> Result<()> {
+    let all = job.keys().chain(grid.iter().map(|(pointer, _)| pointer));
+    let mut all: Vec<(String, &String)> = all.map(|own| (unescaped(own) + "/", own)).collect();
+    all.sort();
+    let within = all.windows(2).find(|pair| pair[1].0.starts_with(&pair[0].0));
+    within.map_or(Ok(()), |pair| {
+        let [outer, inner] = [0, 1].map(|k| pair[k].1);
+        let what = format!("the pointer {inner:?} leads into what {outer:?} sets");
+        let fix = "leave one of them out, or set the whole by one pointer";
+        Err(InputError::new("grid and list", what, fix))
+    })
+}
+
+/// Returns a pointer whose names stand as they are, but for a slash in them.
+fn unescaped(pointer: &str) -> String {
+    pointer.replace("~1", "\u{1}").replace("~0", "~")
 }
 
 fn too_many() -> InputError {

@@ -96,6 +96,7 @@ fn a_listing_that_makes_no_sense_is_refused() {
         ("    dy[i1] ← 0", "    dy[i1+1] ← 0", "not one for each of"),
         ("ct[i1] ← 0", "ct[i1] ← 1/0", "Division by zero"),
         ("  MJS ← identity(2·R)·0", "  MJS ← identity(2·R+1)·0", "MJS is"),
+        ("← MJS[W[i],W[j]] + K[i,j]·fl", "← MJS[W[i],W[j]]·0", "the matrix is singular"),
     ];
     for (old, new, words) in wrong {
         let folder = listings(&[(old, new)]);

@@ -8,8 +8,8 @@ mod read;
 mod write;
 
 pub use kind::{fields, is_json, kind_of};
-pub use read::{MOST, names, read, read_from, read_in, read_most, text, utf8};
+pub use read::{MOST, names, read, read_from, read_in, read_most, read_near, text, utf8};
 pub use write::{
-    HTML, MARKDOWN, abandon, check_file, check_folder, is_same_place, rewrite, temporary_folder,
-    write, write_all, write_new,
+    DECK, HTML, JUNIT, MARKDOWN, PER_CENT, WORKSHEET, abandon, check_file, check_folder, check_new,
+    is_same_place, rewrite, temporary_folder, write, write_all, write_new,
 };

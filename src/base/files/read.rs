@@ -5,6 +5,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+#[cfg(unix)]
+use std::time::SystemTime;
 
 /// The bytes of a text that is read whole.
 pub const MOST: u64 = 1 << 28;
@@ -12,9 +14,10 @@ pub const MOST: u64 = 1 << 28;
 /// What this process has opened to read.
 static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// What a file is known by, whatever it is called: its device and its number there.
+/// What a file is known by, whatever it is called: its device, its number there, and when it was made, as the number
+/// of a file that is gone is given to another one.
 #[cfg(unix)]
-type Identity = (u64, u64);
+type Identity = (u64, u64, Option<SystemTime>);
 /// What a file is known by: its path without links.
 #[cfg(not(unix))]
 type Identity = PathBuf;
@@ -22,7 +25,7 @@ type Identity = PathBuf;
 #[cfg(unix)]
 fn identity(path: &Path) -> io::Result<Identity> {
     use std::os::unix::fs::MetadataExt;
-    path.metadata().map(|file| (file.dev(), file.ino()))
+    path.metadata().map(|file| (file.dev(), file.ino(), file.created().ok()))
 }
 
 #[cfg(not(unix))]
@@ -82,20 +85,53 @@ pub fn read_from(source: impl Read, most: u64) -> io::Result<Vec<u8>> {
 /// file, or the file may not be read or is longer.
 pub fn read_in(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
     let is_plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let folder = folder.canonicalize()?;
+    let folder = whole(folder)?;
     let path = match name.components().all(is_plain) {
         true => folder.join(name).canonicalize()?,
         false => PathBuf::new(),
     };
     if !path.starts_with(&folder) {
-        let why = "the name leads out of the folder";
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+        return Err(leads_elsewhere("the name leads out of the folder"));
     }
-    if !path.metadata()?.is_file() {
-        return Err(io::Error::other("it is no ordinary file"));
+    read_ordinary(&path, most)
+}
+
+/// Reads an ordinary file as [`read_in`], but that the name may lead out of the folder by `..`.
+///
+/// # Errors
+/// The name is absolute or leads through a link, or to no ordinary file, or the file may not be read or is longer.
+pub fn read_near(folder: &Path, name: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut path = whole(folder)?;
+    for part in name.components() {
+        match part {
+            Component::Normal(name) => path.push(name),
+            Component::ParentDir => drop(path.pop()),
+            Component::CurDir => (),
+            Component::RootDir | Component::Prefix(_) => {
+                return Err(leads_elsewhere("the name is absolute"));
+            }
+        }
     }
-    read_from(open(&path)?, most)
+    if path.canonicalize()? != path {
+        return Err(leads_elsewhere("the name leads through a link"));
+    }
+    read_ordinary(&path, most)
+}
+
+/// Returns a folder by its path without links; the current one where it is empty.
+fn whole(folder: &Path) -> io::Result<PathBuf> {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }.canonicalize()
+}
+
+fn leads_elsewhere(why: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::PermissionDenied, why)
+}
+
+fn read_ordinary(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    match path.metadata()?.is_file() {
+        true => read_from(open(path)?, most),
+        false => Err(io::Error::other("it is no ordinary file")),
+    }
 }
 
 /// Returns the names in `folder` that end in `.extension`, sorted; a name that is no text is left out.
@@ -113,15 +149,13 @@ pub fn names(folder: &Path, extension: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// Returns a text in UTF-8.
+/// Returns what was read as [`utf8`] does.
 ///
 /// # Errors
-/// Says the line where it is not.
+/// Says in which encoding it is, or in which line it is not in UTF-8.
 pub fn text(bytes: Vec<u8>) -> io::Result<String> {
-    String::from_utf8(bytes).map_err(|wrong| {
-        let before = &wrong.as_bytes()[..wrong.utf8_error().valid_up_to()];
-        io::Error::new(io::ErrorKind::InvalidData, not_utf8(before))
-    })
+    let text = utf8(&bytes).map(String::from);
+    text.map_err(|why| io::Error::new(io::ErrorKind::InvalidData, why))
 }
 
 /// Returns a text in UTF-8 without its byte order mark.
@@ -136,13 +170,11 @@ pub fn utf8(text: &[u8]) -> Result<&str, String> {
         }
         _ => {
             let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-            std::str::from_utf8(text).map_err(|wrong| not_utf8(&text[..wrong.valid_up_to()]))
+            std::str::from_utf8(text).map_err(|wrong| {
+                let before = &text[..wrong.valid_up_to()];
+                let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+                format!("line {line} is not in UTF-8")
+            })
         }
     }
-}
-
-/// Says in which line a text is not in UTF-8, of which `before` is the part that is.
-fn not_utf8(before: &[u8]) -> String {
-    let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-    format!("line {line} is not in UTF-8")
 }

@@ -1,8 +1,8 @@
 //! The one way in which files are written: beside their target, and then renamed.
 //!
-//! No link is followed but those of an absolute path, no device is written to, and what the run has read is not replaced. A file that
-//! the user named is replaced. Of a folder only what is the program's own is replaced: where the last
-//! of the files, the *mark* of the folder, is already there and was written by this program. The mark is
+//! No link is followed but those of an absolute path, no device is written to, and what the run has read is not replaced.
+//! Only what is the program's own is replaced: a file that has the *mark* of its kind, and in a folder files of the same
+//! names where the last of them, the mark of the folder, is already there and was written by this program. The mark is
 //! renamed first, so that a run that is killed leaves no file without it.
 
 use std::fs::{self, OpenOptions};
@@ -13,6 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, TempDir, TempPath};
 
 use super::json::is_from_program;
+use super::kind::{is_json, kind_of};
 use super::read::{is_input, read_from};
 use crate::child;
 use crate::error::{InputError, Result};
@@ -22,16 +23,31 @@ use crate::plain::shown;
 const PREFIX: &str = ".plane-contact-";
 
 /// The first bytes of a file that tell whether this program wrote it.
-const HEAD: u64 = 256;
+const HEAD: u64 = 1024;
 
 /// How often something temporary is removed that another program is still writing.
 const TRIES: usize = 100;
 
-/// What begins a page of Markdown that marks a folder; no reader shows it.
+/// What tells that a page of Markdown is from this program, in its first line; no reader shows it.
 pub const MARKDOWN: &str = "<!-- plane-contact -->\n";
 
-/// What tells that a page of HTML is from this program; it stands in the first bytes.
+/// What tells that a page of HTML is; like all marks it stands in the first bytes.
 pub const HTML: &str = "<meta name=\"generator\" content=\"plane-contact\">";
+
+/// What tells that a worksheet of Mathcad is; one that Mathcad saved names Mathcad there.
+pub const WORKSHEET: &str = "<generator>plane-contact</generator>";
+
+/// What begins a line of a text whose comments begin with a per cent sign.
+pub const PER_CENT: &str = "% Written by plane-contact: ";
+
+/// What begins a deck of CalculiX.
+pub const DECK: &str = "** plane-contact\n";
+
+/// The outermost element of a report for JUnit.
+pub const JUNIT: &str = "<testsuites name=\"plane-contact\"";
+
+/// All marks.
+const MARKS: [&str; 6] = [MARKDOWN, HTML, WORKSHEET, PER_CENT, DECK, JUNIT];
 
 /// The temporary files and folders of this process.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -71,22 +87,33 @@ pub fn temporary_folder() -> io::Result<TempDir> {
 /// Writes `content` to a file that the user named, and creates its folder where it is missing.
 ///
 /// # Errors
-/// There is a link, a device, a folder or a file that this run reads, or the file cannot be written; an
-/// existing file keeps its content.
+/// Those of [`check_file`] for the mark of the content, but a file without it may have the same content; or the file
+/// cannot be written. An existing file keeps its content.
 pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
-    check_file(path)?;
-    let written = staged(path, content.as_ref()).and_then(|file| put(vec![file]));
+    let content = content.as_ref();
+    let head = &content[..content.len().min(HEAD as usize)];
+    let mark = MARKS.iter().find(|mark| is_marked(head, mark));
+    check_new(path)?;
+    if !is_same(path, content).unwrap_or(false) {
+        check_file(path, mark.unwrap_or(&""))?;
+    }
+    let written = staged(path, content).and_then(|file| put(vec![file]));
     written.map_err(|why| unwritable(path, &why))
 }
 
-/// Checks that a file can be written to `path`, before its content is computed.
+/// Checks that a file of a kind, which has that `mark`, can be written to `path`, before its content is computed.
 ///
 /// # Errors
-/// There is a link, a device, a folder, or a file that this run reads.
-pub fn check_file(path: &Path) -> Result<()> {
-    let folder = path.parent().unwrap_or(path);
-    let checked = no_hyphen(path).and_then(|()| no_link(folder)).and_then(|()| is_there(path));
-    checked.map(drop).map_err(|why| unwritable(path, &why))
+/// There is a link, a device, a folder, a file that this run reads, or one without the mark.
+pub fn check_file(path: &Path, mark: &str) -> Result<()> {
+    let check = || {
+        no_way_elsewhere(path)?;
+        match is_there(path)? && !has_mark(path, mark)? {
+            true => Err(foreign_file("it")),
+            false => Ok(()),
+        }
+    };
+    check().map_err(|why| unwritable(path, &why))
 }
 
 /// Returns whether two paths lead to one place, where a file need not be yet.
@@ -121,14 +148,37 @@ fn no_link(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes `content` to a new file at `path`, and creates its folder where it is missing.
+/// Refuses a path that leads to another place than it says.
+fn no_way_elsewhere(path: &Path) -> io::Result<()> {
+    no_hyphen(path)?;
+    no_link(path.parent().unwrap_or(path))
+}
+
+/// Checks that `path` is a place for a new file, before its content is computed; a file may be there.
 ///
 /// # Errors
-/// There is a file, or it cannot be written.
-pub fn write_new(path: &Path, content: &str) -> io::Result<()> {
-    let (staged, target) = staged(path, content.as_bytes())?;
-    let _undisturbed = temporary();
-    Ok(staged.persist_noclobber(target)?)
+/// There is a link, a device or a folder.
+pub fn check_new(path: &Path) -> Result<()> {
+    let checked = no_way_elsewhere(path).and_then(|()| ordinary(path));
+    checked.map(drop).map_err(|why| unwritable(path, &why))
+}
+
+/// Writes `content` to a new file at `path`, and creates its folder where it is missing; returns whether there
+/// was none.
+///
+/// # Errors
+/// Those of [`check_new`], or it cannot be written.
+pub fn write_new(path: &Path, content: &str) -> Result<bool> {
+    check_new(path)?;
+    let write = || {
+        let (staged, target) = staged(path, content.as_bytes())?;
+        let _undisturbed = temporary();
+        match staged.persist_noclobber(target) {
+            Err(why) if why.error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+            written => Ok(written.map(|()| true)?),
+        }
+    };
+    write().map_err(|why: io::Error| unwritable(path, &why))
 }
 
 /// Writes `content` in place of what this run read from `path`, `was`.
@@ -142,12 +192,13 @@ pub fn rewrite(path: &Path, was: &[u8], content: &str) -> Result<()> {
         // Of several processes only one compares and replaces; a file system may have no locks.
         let there = fs::File::open(path)?;
         let _ = there.lock();
-        match is_same(path, was)? {
-            true => put(vec![staged]),
-            false => Err(io::Error::other("it was changed since it was read")),
-        }
+        let is_as_read = is_same(path, was)?;
+        is_as_read.then(|| put(vec![staged])).transpose()
     };
-    write().map_err(|why| InputError { fix: "run it again".into(), ..unwritable(path, &why) })
+    write().map_err(|why| unwritable(path, &why))?.ok_or_else(|| {
+        let what = "the file cannot be written: it was changed since it was read";
+        InputError::new(shown(path), what, "run it again")
+    })
 }
 
 /// Writes files by their names in `folder`; the last marks the folder as this program's. All other files
@@ -179,9 +230,10 @@ pub fn write_all<N: AsRef<str>, C: AsRef<[u8]>>(folder: &Path, files: &[(N, C)])
 /// # Errors
 /// Says which file is in place of the folder, or is in it and would be lost: a link, a device, a file that
 /// this run reads, or any file where the mark is not there or not from this program.
-pub fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
-    let checked = foreign(folder, names).and_then(|foreign| match foreign.first() {
-        Some(name) => Err(in_the_way(name, names)),
+pub fn check_folder<N: AsRef<str>>(folder: &Path, names: &[N]) -> Result<()> {
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    let checked = foreign(folder, &names).and_then(|foreign| match foreign.first() {
+        Some(name) => Err(in_the_way(name, &names)),
         None => Ok(()),
     });
     checked.map_err(|why| no_folder(folder, &why))
@@ -213,22 +265,41 @@ fn foreign<'a>(folder: &Path, names: &[&'a str]) -> io::Result<Vec<&'a str>> {
         }
     }
     let mark = names.last().filter(|mark| there.contains(mark));
-    let is_ours = mark.is_some_and(|mark| is_mark(&folder.join(mark)).unwrap_or(false));
+    let is_ours = mark.is_some_and(|mark| marks_a_folder(&folder.join(mark)).unwrap_or(false));
     Ok(if is_ours { Vec::new() } else { there })
 }
 
-/// Returns whether this program wrote the file, which marks a folder.
-fn is_mark(path: &Path) -> io::Result<bool> {
-    let head = read_from(io::Read::take(fs::File::open(path)?, HEAD), HEAD)?;
-    let is_page = head.windows(HTML.len()).any(|part| part == HTML.as_bytes());
-    Ok(is_from_program(&head) || is_page || head.starts_with(MARKDOWN.as_bytes()))
+fn head(path: &Path) -> io::Result<Vec<u8>> {
+    read_from(io::Read::take(fs::File::open(path)?, HEAD), HEAD)
+}
+
+/// Returns whether this program wrote the file, which marks a folder: a page, or a document that can be made again,
+/// as a snapshot cannot.
+fn marks_a_folder(path: &Path) -> io::Result<bool> {
+    let head = head(path)?;
+    let is_document = || Ok(kind_of(&fs::read(path)?) != Some("a snapshot"));
+    if is_from_program(&head) { is_document() } else { Ok(is_marked(&head, MARKDOWN)) }
+}
+
+/// Returns whether a file has a mark in its first bytes, or nothing in it.
+fn has_mark(path: &Path, mark: &str) -> io::Result<bool> {
+    let head = head(path)?;
+    Ok(head.is_empty() || is_marked(&head, mark))
+}
+
+/// Returns whether a text has a mark, which is none where it is empty; no document of JSON has one.
+fn is_marked(head: &[u8], mark: &str) -> bool {
+    let has = || head.windows(mark.len()).any(|part| part == mark.as_bytes());
+    !mark.is_empty() && !is_json(head) && has()
 }
 
 fn in_the_way(name: &str, names: &[&str]) -> io::Error {
     let mark = names.last().map_or("it", |mark| if *mark == name { "it" } else { mark });
-    io::Error::other(format!(
-        "{name} is in the way: {mark} does not tell that it is from this program"
-    ))
+    io::Error::other(format!("{name} is in the way: {}", foreign_file(mark)))
+}
+
+fn foreign_file(name: &str) -> io::Error {
+    io::Error::other(format!("{name} does not tell that it is from this program"))
 }
 
 /// Returns whether there is a file at `path`, which may be replaced.
@@ -240,14 +311,18 @@ fn is_there(path: &Path) -> io::Result<bool> {
     Ok(is_there)
 }
 
-/// Returns whether there is a file at `path`; nothing but an ordinary one may be there.
+/// Returns whether there is a file at `path`; nothing but an ordinary one may be there, which may be written.
 fn ordinary(path: &Path) -> io::Result<bool> {
-    let there = match fs::symlink_metadata(path) {
+    let metadata = match fs::symlink_metadata(path) {
         Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(false),
-        there => there?.file_type(),
+        there => there?,
     };
+    let there = metadata.file_type();
     match () {
-        () if there.is_file() => Ok(true),
+        () if there.is_file() && metadata.permissions().readonly() => {
+            Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is write-protected"))
+        }
+        () if there.is_file() => OpenOptions::new().write(true).open(path).map(|_| true),
         () if there.is_dir() => Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")),
         () if there.is_symlink() => Err(io::Error::other("it is a link")),
         () => Err(io::Error::other("it is no ordinary file")),
@@ -260,8 +335,9 @@ fn is_same(path: &Path, content: &[u8]) -> io::Result<bool> {
     Ok(is_as_long && fs::read(path)? == content)
 }
 
-/// Writes a temporary file beside `target`, with the permissions and the errors of other files: those
-/// that tempfile makes are the owner's alone, and its errors hold names that no two runs share.
+/// Writes a temporary file beside `target`, with the owner and the mode of the file that is there, else those of other
+/// files, and with their errors: files that tempfile makes are the owner's alone, and its errors hold names that no
+/// two runs share.
 fn staged(target: &Path, content: &[u8]) -> io::Result<(TempPath, PathBuf)> {
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -275,8 +351,24 @@ fn staged(target: &Path, content: &[u8]) -> io::Result<(TempPath, PathBuf)> {
         temporary.push(file.path().into());
         file
     };
+    if let Ok(there) = fs::metadata(target) {
+        #[cfg(unix)]
+        own_like(file.as_file(), &there)?;
+        file.as_file().set_permissions(there.permissions())?;
+    }
     file.as_file_mut().write_all(content)?;
     Ok((file.into_temp_path(), target.into()))
+}
+
+/// Gives a file the owner and the group of another one.
+#[cfg(unix)]
+fn own_like(file: &fs::File, other: &fs::Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let own = file.metadata()?;
+    match (own.uid(), own.gid()) == (other.uid(), other.gid()) {
+        true => Ok(()),
+        false => fchown(file, Some(other.uid()), Some(other.gid())),
+    }
 }
 
 /// Renames temporary files to their targets, in their order, undisturbed by a signal.
@@ -290,12 +382,23 @@ fn put(files: Vec<(TempPath, PathBuf)>) -> io::Result<()> {
 }
 
 fn unwritable(path: &Path, why: &io::Error) -> InputError {
-    let what = format!("the file cannot be written: {why}");
-    InputError::new(shown(path), what, "choose another place")
+    InputError::new(shown(path), format!("the file cannot be written: {why}"), remedy(why))
 }
 
 fn no_folder(folder: &Path, why: &io::Error) -> InputError {
-    let what = format!("the folder cannot be written: {why}");
-    let fix = "choose another place, or move what is in the way";
-    InputError::new(shown(folder), what, fix)
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    InputError::new(shown(folder), format!("the folder cannot be written: {why}"), remedy(why))
+}
+
+/// Returns what to do where something cannot be written.
+fn remedy(why: &io::Error) -> &'static str {
+    match why.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "make room there, or choose another place"
+        }
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "make it writable, or choose another place"
+        }
+        _ => "choose another place, or move what is in the way",
+    }
 }

@@ -50,7 +50,7 @@ pub use units::length_in_metres;
 
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
-use base::error::Result;
+use base::error::{InputError, Result};
 use base::limits::check_steps;
 use base::plain::{shell_word, six_digits};
 
@@ -75,7 +75,7 @@ pub struct Scene {
     /// The model of contact beyond what the paper prints.
     pub contact: ContactModel,
     /// Whether it is to run under `unilateral` and says nothing of friction.
-    pub friction_is_missing: bool,
+    pub(super) friction_is_missing: bool,
     /// Whether it names neither a variant nor a coupling.
     coupling_is_missing: bool,
     /// The description and mesh from which it was built; None for half a scene.
@@ -129,6 +129,20 @@ impl Scene {
         beside: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Self> {
         SceneBuilder::read(name, text, beside)?.into_scene()
+    }
+
+    /// Checks that a scene says how its surfaces rub, where its own variant asks for that.
+    ///
+    /// # Errors
+    /// It says nothing of friction.
+    pub fn check_friction(&self) -> Result<()> {
+        if !self.friction_is_missing {
+            return Ok(());
+        }
+        let what = "nothing is said of friction between the surfaces";
+        let fix = "add \"friction\": 0, a coefficient such as \"friction\": 0.3, or \"friction\": \"stick\" \
+                   (nothing slides) to the scene's contact";
+        Err(InputError::new("contact.friction", what, fix))
     }
 
     /// Returns the description and the mesh from which the scene was built; None for half a scene.

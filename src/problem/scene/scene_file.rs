@@ -68,6 +68,28 @@ impl SceneFile {
         Self::from_read(&folder.join(name), text, asked)
     }
 
+    /// Reads the scene file that a snapshot in `folder` names, which may lie above it; None where none is there.
+    ///
+    /// # Errors
+    /// The name is absolute or leads through a link, or the file cannot be read or is no scene, of which nothing is
+    /// said.
+    pub fn of_snapshot(folder: &Path, name: &Path) -> Result<Option<Self>> {
+        let text = files::read_near(folder, name, files::MOST);
+        let text = text.and_then(|text| match kind_of(&text) {
+            Some("a scene file") => Ok(text),
+            Some(_) | None => Err(io::Error::other("it is no scene file")),
+        });
+        match text {
+            Err(why) if why.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(why) => {
+                let what = format!("the scene {} cannot be read: {why}", shown(name));
+                let fix = "name the scene that is to be run by --scene";
+                Err(InputError::new("field scene_file", what, fix))
+            }
+            text => Self::from_read(&folder.join(name), text, name).map(Some),
+        }
+    }
+
     fn embedded(name: &Path) -> Option<Self> {
         let mut all = SCENES.iter().chain(FINDING_SCENES);
         let embedded = all.find(|scene| name.as_os_str() == scene.name)?;

@@ -13,6 +13,8 @@ use ::mathcad::syntax::{
 };
 use ::mathcad::xmcd::write::number;
 use ::mathcad::{Array, Conjunction, Listing, Value};
+use base::files::PER_CENT;
+use base::plain::on_a_line;
 use paper::corrected::Program;
 use paper::listings::{Which, tables};
 use problem::element::Plane;
@@ -153,9 +155,9 @@ pub fn corrected(export: &CorrectedExport) -> String {
 /// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
 /// begins with a function is no script.
 fn head(title: &str, about: &str) -> String {
-    let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
+    let title: String = on_a_line(title).chars().take(100).collect();
     format!(
-        "% {title}\n% {about}\n% Run: octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
+        "% {title}\n% {about}\n{PER_CENT}run octave FILE.m, or in MATLAB from R2024a: run FILE.m\n1;\n"
     )
 }
 

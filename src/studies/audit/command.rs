@@ -103,6 +103,7 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn prices(args: &Args) -> Result<()> {
     args.tables.check()?;
+    check_folder(args, &["prices.svg", "prices.json"])?;
     let reading = args.reading.reading;
     let case = case(args)?;
     let compared = Compared::new(&case)?;
@@ -129,7 +130,7 @@ fn prices(args: &Args) -> Result<()> {
 /// Opens the case of the scene that is asked for.
 fn case(args: &Args) -> Result<Case> {
     let scene = Scene::open(args.scene.as_deref().unwrap_or(Path::new("strand")))?;
-    commands::check_friction(&scene)?;
+    scene.check_friction()?;
     Ok(Case::within_memory(&scene, args.reading.reading)?)
 }
 
@@ -167,6 +168,8 @@ fn listed<T>(
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let reading = args.reading.reading;
+    let file = format!("{}.json", claim.id);
+    check_folder(args, &[&file])?;
     let case = case(args)?;
     let (judged, by_reading) = waiting("judging", || {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
@@ -174,7 +177,7 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let document = claims::Document { judged: &judged, by_reading: &by_reading };
     let json = json::line(Some(&case.scene), &document);
     if let Some(out) = &args.out {
-        files::write_all(out, &[(format!("{}.json", claim.id), &json)])?;
+        files::write_all(out, &[(file, &json)])?;
     }
     print_either(
         args.tables.json,
@@ -184,6 +187,8 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
+    let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
+    check_folder(args, &[&svg, &document])?;
     let scene = match &args.scene {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
@@ -195,7 +200,6 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
         || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured });
     if let Some(out) = &args.out {
         let picture = folder::finding_picture(finding.id, &case.scene);
-        let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
         files::write_all(out, &[(svg, picture), (document, json())])?;
     }
     print_either(args.tables.json, json, || {
@@ -205,9 +209,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
 
 fn whole(args: &Args) -> Result<()> {
     args.tables.check()?;
-    if let Some(out) = &args.out {
-        files::check_folder(out, &["audit.txt", "audit.json"])?;
-    }
+    check_folder(args, &names())?;
     let case = case(args)?;
     let places = places(args)?;
     if !std::io::stderr().is_terminal() {
@@ -230,9 +232,30 @@ fn whole(args: &Args) -> Result<()> {
         if args.full {
             return args.tables.print(report);
         }
-        args.tables.write(&report)?;
+        print_screen(&found)?;
+        return args.tables.write(&report);
     }
-    print(&words::report(&found, Depth::Screen).text(width().min(words::WIDTH)))
+    print_screen(&found)
+}
+
+fn print_screen(found: &Audit) -> Result<()> {
+    print(&words::report(found, Depth::Screen).text(width().min(words::WIDTH)))
+}
+
+/// Checks that files of these names can be written where a folder is named for them.
+fn check_folder<N: AsRef<str>>(args: &Args, names: &[N]) -> Result<()> {
+    Ok(args.out.iter().try_for_each(|out| files::check_folder(out, names))?)
+}
+
+/// The names of all files that an audit may leave.
+fn names() -> Vec<String> {
+    let findings = FINDINGS.iter().map(|finding| format!("findings/{}.svg", finding.id));
+    let runs = Variant::ALL.iter().flat_map(|variant| {
+        let of_run = folder::names(FolderOptions::default()).into_iter();
+        of_run.map(move |name| format!("{variant}/{name}"))
+    });
+    let own = ["audit.txt", "pressure.svg", "audit.json"].map(String::from);
+    findings.chain(runs).chain(own).collect()
 }
 
 /// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.

@@ -4,6 +4,8 @@ use nalgebra::DVector;
 
 use super::contact::{Contact, Equation, Pair};
 use base::error::{InputError, Result};
+use base::files::DECK;
+use base::plain::on_a_line;
 use engine::support_constraints;
 use problem::element::Plane;
 use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
@@ -40,9 +42,8 @@ pub fn deck(title: &str, model: &Model, contact: &Contact) -> Result<String> {
             (touch, equation_cards(model, &held) + &surfaces, step(model, &model.load, "0.1,1\n"))
         }
     };
-    let words: Vec<&str> = title.split_whitespace().collect();
-    let title: String = words.join(" ").chars().take(100).collect();
-    let comments = format!("** {title}\n** plane {}; contact: {touch}\n", model.plane);
+    let title: String = on_a_line(title).chars().take(100).collect();
+    let comments = format!("{DECK}** {title}\n** plane {}; contact: {touch}\n", model.plane);
     Ok([comments, nodes(model), elements(model), cards, boundary(model), step].concat())
 }
 

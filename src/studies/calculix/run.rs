@@ -25,6 +25,9 @@ const RESULTS: u64 = 1 << 31;
 /// The largest displacement: its energy stays finite.
 const LARGEST: f64 = 1e150;
 
+/// The time at the end of a deck's step, as it is printed.
+const END: f64 = 1.0;
+
 /// What a run of `ccx` computed.
 pub struct CalculixRun {
     /// The version that `ccx` reports.
@@ -84,8 +87,14 @@ fn version(program: &str) -> Result<String> {
 /// what it printed; one that prints without end is killed.
 fn ended(program: &str, args: &[&str], folder: &Path) -> Result<(ExitStatus, String)> {
     let fault = |how: &str, why: io::Error| {
-        let fix = "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
-                   its program";
+        let fix = match why.raw_os_error() {
+            // Processes, memory or open files.
+            Some(11 | 12 | 23 | 24) => "see what the system runs short of: ulimit -a",
+            Some(_) | None => {
+                "install CalculiX (on Debian and Ubuntu: apt-get install calculix-ccx), or name \
+                 its program"
+            }
+        };
         InputError::new("ccx", format!("{program} {how}: {why}"), fix)
     };
     let start = || {
@@ -111,21 +120,25 @@ fn failed(program: &str, how: &str, output: &str) -> InputError {
     InputError::new("ccx", what, "export the deck and run it by hand, or choose another penalty")
 }
 
-/// Reads the displacements of `nodes` nodes, by degree of freedom; of several increments the last.
+/// Reads the displacements of `nodes` nodes at the end of the step, by degree of freedom.
 ///
 /// # Errors
-/// A node is missing; something is no number.
+/// A node is missing, as where the file is cut; something is no number.
 pub fn parse(text: &str, nodes: usize) -> Result<DVector<f64>> {
+    if !text.ends_with('\n') {
+        return Err(cut("its last line has no end".into()));
+    }
     let mut u = DVector::from_element(2 * nodes, f64::NAN);
-    let mut is_displacements = false;
+    let mut is_wanted = false;
     for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
         if line.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            is_displacements = line.starts_with("displacements");
-        } else if is_displacements {
+            let is_last = line.split_whitespace().last().and_then(float) == Some(END);
+            is_wanted = is_last && line.starts_with("displacements");
+        } else if is_wanted {
             let node = node(line).filter(|(number, _)| (1..=nodes).contains(number));
             let (number, displacement) = node.ok_or_else(|| {
-                let what = format!("the line {line:?} is not understood");
-                results(what, "use CalculiX 2.20, which this was written for")
+                let fix = "use CalculiX 2.20, which this was written for";
+                results(format!("the line {line:?} is not understood"), fix)
             })?;
             u.rows_mut(2 * number - 2, 2).copy_from_slice(&displacement);
         }
@@ -133,10 +146,17 @@ pub fn parse(text: &str, nodes: usize) -> Result<DVector<f64>> {
     match u.iter().position(|component| component.is_nan()) {
         None => Ok(u),
         Some(dof) => {
-            let what = format!("node {} is not in them", dof / 2 + 1);
-            Err(results(what, "export the deck and see what ccx says of it"))
+            let node = dof / 2 + 1;
+            Err(cut(format!("node {node} is not in them at time {END}, the end of the step")))
         }
     }
+}
+
+fn cut(what: String) -> InputError {
+    results(
+        what,
+        "see whether the disk of TMPDIR is full; else export the deck and see what ccx says of it",
+    )
 }
 
 fn results(what: String, fix: &str) -> InputError {

@@ -10,7 +10,7 @@ use crate::document::page;
 use crate::document::{Contents, Run, document};
 use crate::field;
 use base::error::InputError;
-use base::files;
+use base::files::{self, HTML, MARKDOWN};
 use base::plain::{shell_word, shown};
 use engine::error::Result;
 use engine::estimates::Certainty;
@@ -18,6 +18,7 @@ use engine::{Assessment, Solution};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
+use report::markdown::figures_of;
 
 use commands::{offered, report_written, waiting};
 
@@ -76,10 +77,13 @@ pub fn run(args: &Args) -> Result<()> {
         };
         Path::new("out/report").with_extension(ending)
     });
-    commands::check_page(&args.out, &out)?;
+    match args.format {
+        Format::Html => files::check_file(&out, HTML)?,
+        Format::Markdown => check_markdown(&out)?,
+    }
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
-    commands::check_friction(&scene)?;
+    scene.check_friction()?;
     let case = Case::within_memory(&scene, Reading::default())?;
     waiting("auditing", || write(args, &case, &out))?;
     report_written(&out);
@@ -100,22 +104,38 @@ fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
         calculix,
     };
     match args.format {
-        Format::Html => commands::write_page(&args.out, out, &page::html(&contents))?,
+        Format::Html => files::write(out, &page::html(&contents))?,
         Format::Markdown => {
-            let report = document(&contents);
-            let page = files::MARKDOWN.to_string() + &report.markdown();
+            let (folder, name, stem) = place_of(out)?;
+            let report = document(&contents).of_page(stem);
+            let page = MARKDOWN.to_string() + &report.markdown();
             let mut written = report.figures();
-            written.push((name_of(out)?, &page));
-            files::write_all(out.parent().unwrap_or(Path::new("")), &written)?;
+            written.push((name.into(), &page));
+            files::write_all(folder, &written)?;
         }
     }
     Ok(())
 }
 
-/// Returns the name of the page, beside which its figures lie.
-fn name_of(out: &Path) -> Result<String, InputError> {
-    let name = out.file_name().and_then(|name| name.to_str()).map(String::from);
-    name.ok_or_else(|| InputError::new("--out", "its name is not in UTF-8", "name another file"))
+/// Checks that a page of Markdown and its figures can be written, before they are computed.
+fn check_markdown(out: &Path) -> Result<()> {
+    let (folder, name, stem) = place_of(out)?;
+    let figures = figures_of(stem);
+    // Where there is no such folder, nothing is in the way.
+    let there = files::names(&folder.join(&figures), "svg").unwrap_or_default();
+    let mut names: Vec<String> = there.iter().map(|name| format!("{figures}/{name}")).collect();
+    names.push(name.into());
+    Ok(files::check_folder(folder, &names)?)
+}
+
+/// Returns the folder of a page, its name there, and this without its extension.
+fn place_of(out: &Path) -> Result<(&Path, &str, &str), InputError> {
+    let names = [out.file_name(), out.file_stem()].map(|name| name.and_then(|name| name.to_str()));
+    let [Some(name), Some(stem)] = names else {
+        let what = "its name is not in UTF-8";
+        return Err(InputError::new("--out", what, "name another file"));
+    };
+    Ok((out.parent().unwrap_or(Path::new("")), name, stem))
 }
 
 /// Returns the print repaired one finding at a time; nothing where that takes long and was not asked for, or

@@ -38,12 +38,14 @@ pub fn run(args: &Args) -> Result<()> {
     args.tables.check()?;
     let out = folder(&args.out, "extremes".into());
     let is_written = !args.tables.json || args.out.is_some();
-    if is_written {
-        files::check_folder(&out, &["extremes.txt", "extremes.json"])?;
-    }
     let is_chosen =
         |g: &&Generator| args.names.is_empty() || args.names.iter().any(|n| n == g.name);
     let chosen: Vec<&Generator> = GENERATORS.iter().filter(is_chosen).collect();
+    if is_written {
+        let pictures = chosen.iter().map(|generator| format!("{}.svg", generator.name));
+        let texts = ["extremes.txt", "extremes.json"].map(String::from);
+        files::check_folder(&out, &pictures.chain(texts).collect::<Vec<_>>())?;
+    }
     let measured = waiting("sweeping", || measure(&chosen));
     let json = report::json(&measured);
     if !is_written {

@@ -8,6 +8,7 @@ use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{Compared, Price};
 use crate::lesson::page::{self as page, Chapter, Measured};
 use crate::lesson::{self as study, Repairs, Switch, reference, run as execute, switches};
+use base::files::{self, HTML};
 use base::plain::shown;
 use engine::error::Result;
 use paper::corrected::FAULTS;
@@ -53,8 +54,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
-    commands::check_page(&args.out, &out)?;
-    commands::write_page(&args.out, &out, &lesson(args)?)?;
+    files::check_file(&out, HTML)?;
+    files::write(&out, &lesson(args)?)?;
     report_written(&out);
     Ok(())
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use base::error::InputError;
+use base::files::PER_CENT;
 use base::limits;
 use base::plain::shown;
 use engine::Request;
@@ -121,6 +122,11 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
 }
 
 fn km(args: &KmArgs) -> Result<()> {
+    write_or_print(&args.matrix_market, PER_CENT, || matrix(args))
+}
+
+/// Returns the matrix, as Matrix Market.
+fn matrix(args: &KmArgs) -> Result<String> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
     let model = model(&scene, reading)?;
@@ -138,8 +144,7 @@ fn km(args: &KmArgs) -> Result<()> {
         }
     };
     let comment = format!("MJS of scene {}: equation 2n-1 is x of node n, 2n is y", scene.name);
-    let text = matrix_market::matrix_market(&matrix, &comment);
-    write_or_print(&args.matrix_market, &text)
+    Ok(matrix_market::matrix_market(&matrix, &comment))
 }
 
 /// Returns what executes an edited listing; nothing where the printed one is run.

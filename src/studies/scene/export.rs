@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::calculix::arguments::DeckArgs;
 use crate::calculix::deck;
-use base::files;
+use base::files::DECK;
 use engine::error::Result;
 use problem::scene::Scene;
 
@@ -34,10 +34,11 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let scene = Scene::open(&args.scene)?;
-    let solution = args.deck.solve(&scene)?;
-    let parts = args.deck.parts(&solution)?;
-    let last = parts.last().expect("a run has an iteration");
-    write_or_print(&args.out, &deck(&scene.title, &solution.model, &last.contact)?)
+    write_or_print(&args.out, DECK, || {
+        let scene = Scene::open(&args.scene)?;
+        let solution = args.deck.solve(&scene)?;
+        let parts = args.deck.parts(&solution)?;
+        let last = parts.last().expect("a run has an iteration");
+        Ok(deck(&scene.title, &solution.model, &last.contact)?)
+    })
 }

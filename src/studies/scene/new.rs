@@ -38,11 +38,10 @@ pub fn run(args: &Args) -> Result<()> {
         InputError::new(shown(&args.mesh), what, "give the path of a mesh that Gmsh saved")
     })?;
     let scene = first(&name_beside(&args.mesh, &out)?, &file)?;
-    if out.exists() {
+    if !files::write_new(&out, &scene.text)? {
         let fix = "choose another file with --out";
         return Err(InputError::new(shown(&out), "it exists already", fix).into());
     }
-    files::write(&out, &scene.text)?;
     let out = shell_word(&shown(&out));
     print_report(
         Report::default().heading("Guessed from the groups of the mesh").notes(scene.notes).line(

@@ -31,6 +31,8 @@ pub enum Kind {
     Unit { was: String, is: String },
     /// The arrays have other lengths or other rows.
     Shape { was: usize, is: usize, at: Option<f64> },
+    /// The bound of an array is none that a snapshot is recorded with: it lets pass what differs.
+    Bound { was: f64, most: f64 },
     /// Numbers differ by more than the limit.
     Numbers(Worst),
 }
@@ -100,12 +102,18 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
         if was.unit != is.unit {
             add(entry, Kind::Unit { was: was.unit.clone(), is: is.unit.clone() });
         }
-        if let Some(kind) = numbers(was, is) {
-            add(entry, kind);
-        }
+        let kinds = bound(was, is).into_iter().chain(numbers(was, is));
+        kinds.for_each(|kind| add(entry, kind));
     }
     found.sort_by_key(|difference| difference.entry.place());
     (found, compared)
+}
+
+/// Returns the recorded bound of an array where it is beyond its numbers: no run has such a one.
+fn bound(was: &Numbers, is: &Numbers) -> Option<Kind> {
+    let most = 1e3 * was.largest().max(was.floor.min(is.floor));
+    let bound = was.bound.filter(|bound| *bound > most && was.tolerance.is_none())?;
+    Some(Kind::Bound { was: bound, most })
 }
 
 /// Returns how two arrays differ; None where they do not.
@@ -119,12 +127,13 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
         return Some(Kind::Shape { was: old.len(), is: new.len(), at: elsewhere });
     }
     let largest = was.largest();
-    let bounds = was.bound.zip(is.bound).map(|(a, b)| a + b);
-    let floor = was.floor.max(is.floor);
-    let limit = |value: f64| match (was.tolerance, bounds) {
-        (Some(tolerance), _) => tolerance.limit(value, largest, floor),
-        (None, Some(bounds)) => bounds.max(floor),
-        (None, None) => (WITHOUT_BOUND * largest).max(floor),
+    // A larger one in a file lets nothing pass that the run does not.
+    let floor = was.floor.min(is.floor);
+    let most = (WITHOUT_BOUND * largest).max(floor);
+    let bounds = was.bound.zip(is.bound).filter(|(a, b)| a.max(*b) <= most).map(|(a, b)| a + b);
+    let limit = |value: f64| match was.tolerance {
+        Some(tolerance) => tolerance.limit(value, largest, floor),
+        None => bounds.map_or(most, |bounds| bounds.max(floor)),
     };
     let bounded = was.tolerance.is_some() || bounds.is_some();
     let mut worst: Option<(f64, Worst)> = None;

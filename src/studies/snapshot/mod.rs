@@ -175,9 +175,13 @@ impl Snapshot {
         let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, bounds)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
-        let (version, units) = (VERSION.into(), scene.units.clone());
-        let input = Input::from_scene(scene)?;
-        Ok(Snapshot { format: FORMAT, version, units, scene_file: None, input, runs })
+        Ok(Snapshot::of_runs(Input::from_scene(scene)?, None, runs))
+    }
+
+    /// Returns the snapshot of runs that this program made of an input, read from `scene_file`.
+    fn of_runs(input: Input, scene_file: Option<String>, runs: IndexMap<String, Run>) -> Self {
+        let (version, units) = (VERSION.into(), input.scene.units.clone());
+        Snapshot { format: FORMAT, version, units, scene_file, input, runs }
     }
 
     /// Returns the scene that was recorded.
@@ -216,6 +220,11 @@ impl Snapshot {
             return Err(json::instead(text, &kind).unwrap_or(error));
         }
         let snapshot: Self = json::read(text, &kind)?;
+        if snapshot.units != snapshot.input.scene.units {
+            let what = "the units are not those of the scene in the snapshot";
+            let fix = "undo the change; in other units a scene is recorded anew";
+            return Err(InputError::new("field units", what, fix));
+        }
         for (name, run) in snapshot.runs.iter() {
             run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
         }

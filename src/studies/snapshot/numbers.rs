@@ -14,7 +14,8 @@ pub struct Numbers {
     /// The unit, empty where the scene names none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// A bound on the rounding error of each number; null where none is known.
+    /// A bound on the rounding error of each number; null where none is known, or it is more than a billionth of
+    /// the largest: it would let pass what differs.
     pub bound: Option<f64>,
     /// What rounding may do at the least, by the sizes of which the numbers are differences: no limit
     /// is smaller but an absolute tolerance.
@@ -172,10 +173,15 @@ impl Numbers {
     }
 
     fn new(unit: &str, values: Values, Error { bound, floor }: Error) -> Self {
-        let is_finite = |error: &f64| error.is_finite();
-        let bound = bound.filter(is_finite);
-        let floor = Some(floor).filter(is_finite).unwrap_or_default();
-        Numbers { unit: unit.into(), bound, floor, tolerance: None, values }
+        let floor = Some(floor).filter(|error| error.is_finite()).unwrap_or_default();
+        let numbers = Numbers { unit: unit.into(), bound: None, floor, tolerance: None, values };
+        let most = (WITHOUT_BOUND * numbers.largest()).max(floor);
+        Numbers { bound: bound.filter(|bound| *bound <= most), ..numbers }
+    }
+
+    /// Returns whether what rounding does at the least is a thousandth of the numbers or more.
+    pub fn are_rounding(&self) -> bool {
+        self.floor > 0.0 && self.floor >= 1e-3 * self.largest()
     }
 
     /// Returns numbers in rows, each of a node's or a triangle's number and its values.

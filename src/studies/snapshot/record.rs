@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Run;
-use super::numbers::{Error as Rounded, Numbers, WITHOUT_BOUND};
+use super::numbers::{Error as Rounded, Numbers};
 use super::{Entry, Quantity};
 use engine::contact::ContactNode;
 use engine::error::{Error, Result};
@@ -140,10 +140,9 @@ impl Scale {
         Scale { coordinate, displacement, edge: lengths.fold(f64::INFINITY, f64::min) }
     }
 
-    /// Returns the least error of a displacement, length; without a bound it is what numbers that have
-    /// none may differ by.
-    fn displacement_error(&self, is_bounded: bool) -> f64 {
-        self.displacement * if is_bounded { ROUNDED } else { WITHOUT_BOUND }
+    /// Returns the least error of a displacement, length.
+    fn displacement_error(&self) -> f64 {
+        ROUNDED * self.displacement
     }
 
     /// Returns the error of a node's distance from its edge where displacements are known to `moved`.
@@ -166,7 +165,7 @@ impl Recorded<'_> {
     fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
         let units = &self.request.scene.units;
         let of = |quantity| Entry { iteration: Some(step.k), quantity };
-        let moved = self.scale.displacement_error(bounds.is_some());
+        let moved = self.scale.displacement_error();
         let distance = self.scale.distance(moved);
         let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
         let weights = distance / self.scale.edge + ROUNDED;
@@ -283,7 +282,7 @@ fn end(
     let (model, units) = (&*solution.model, &solution.request.scene.units);
     let bound = rounding.and_then(|rounding| rounding.displacement);
     let scale = Scale::new(model, solution.u.amax());
-    let moved = scale.displacement_error(bound.is_some());
+    let moved = scale.displacement_error();
     let errors = match bounds {
         Bounds::LeftOut => None,
         Bounds::Computed => {

@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use super::words;
-use crate::snapshot::{Presence, Quantity, Snapshot, Verified, VerifiedRun};
+use crate::snapshot::{Entry, Numbers, Presence, Quantity, Snapshot, Verified, VerifiedRun};
+use base::error::InputError;
+use base::files;
 use base::xml::Element;
 use engine::error::Error;
 use report::failure::Failure;
@@ -38,6 +40,17 @@ pub fn file(snapshot: &Snapshot) -> String {
     pretty(snapshot)
 }
 
+/// Returns the text of a snapshot's file, which can be read again.
+///
+/// # Errors
+/// It is too large.
+pub fn readable(snapshot: &Snapshot) -> Result<String, InputError> {
+    let text = file(snapshot);
+    let checked = files::json::check_size(&text, "the snapshot");
+    checked.map_err(|error| InputError { fix: "record less by --only u".into(), ..error })?;
+    Ok(text)
+}
+
 /// Reports what was recorded: a line for each run.
 pub fn recorded(snapshot: &Snapshot) -> Report {
     snapshot.runs.iter().fold(Report::default(), |report, (name, run)| {
@@ -51,10 +64,21 @@ pub fn recorded(snapshot: &Snapshot) -> Report {
             0 => String::new(),
             count => format!("; {count} arrays have no bound on their rounding errors"),
         };
-        report.line(format!(
+        let rounding = run
+            .numbers
+            .iter()
+            .filter(|(entry, numbers)| entry.iteration.is_none() && numbers.are_rounding());
+        let said = |(entry, numbers): (&Entry, &Numbers)| {
+            format!(
+                "{entry}: no change below {:.1e} can be seen, as rounding makes it",
+                numbers.floor
+            )
+        };
+        let line = format!(
             "{} {name}: {facts} facts, {numbers} numbers{unbounded}{failure}",
             snapshot.input.name
-        ))
+        );
+        report.line(line).notes(rounding.map(said))
     })
 }
 
@@ -73,13 +97,15 @@ fn verdict(run: &VerifiedRun) -> String {
     }
 }
 
-/// Reports what verifying found: file by file its runs, and in what they differ.
-pub fn report(checked: &[VerifiedFile]) -> Report {
+/// Reports what verifying found: file by file its runs, and in what they differ; why a file could not be verified
+/// stands on a page, and on standard error beside a terminal's report.
+pub fn report(checked: &[VerifiedFile], is_page: bool) -> Report {
     checked.iter().fold(Report::default(), |report, VerifiedFile { file, scene, verified }| {
         match verified {
-            Err(why) => report
-                .line(format!("{file}: error, it cannot be verified"))
-                .code(format!("error: {why}\n")),
+            Err(why) => {
+                let report = report.line(format!("{file}: error, it cannot be verified"));
+                if is_page { report.code(format!("error: {why}\n")) } else { report }
+            }
             Ok(verified) => {
                 let report =
                     report.line(format!("{file}: {}", outcome(verified))).notes(scene.clone());
@@ -114,19 +140,20 @@ pub fn junit(checked: &[VerifiedFile]) -> String {
     let test_case =
         |name: &str| Element::new("testcase").set("name", name).set("classname", "snapshot");
     let case = |run: &VerifiedRun| {
-        test_case(&run.name).with_all((!run.is_same()).then(|| {
-            let failure = Element::with_text("failure", &run_words(run));
-            failure.set("message", words::headline(run))
-        }))
+        test_case(&run.name).with_all(
+            (!run.is_same()).then(|| outcome_of("failure", words::headline(run), &run_words(run))),
+        )
     };
     let suite = |checked: &VerifiedFile| {
         let runs = checked.runs();
         let alone = match &checked.verified {
             Err(why) => {
                 let why = why.to_string();
-                Some(Element::with_text("error", &why).set("message", first_line(&why)))
+                Some(outcome_of("error", first_line(&why).into(), &why))
             }
-            Ok(_) if runs.is_empty() => Some(Element::with_text("failure", "nothing was compared")),
+            Ok(_) if runs.is_empty() => {
+                Some(outcome_of("failure", "nothing was compared".into(), ""))
+            }
             Ok(_) => None,
         };
         let errors = usize::from(checked.verified.is_err());
@@ -140,7 +167,14 @@ pub fn junit(checked: &[VerifiedFile]) -> String {
             .with_all(runs.iter().map(case))
             .with_all(alone.map(|outcome| test_case("runs").with(outcome)))
     };
-    Element::new("testsuites").with_all(checked.iter().map(suite)).document()
+    let suites = Element::new("testsuites").set("name", "plane-contact");
+    suites.with_all(checked.iter().map(suite)).document()
+}
+
+/// Returns the outcome of a case: its message, and of the words what does not stand there yet.
+fn outcome_of(kind: &'static str, message: String, words: &str) -> Element {
+    let rest = words.strip_prefix(&*message).unwrap_or(words).trim_start_matches('\n');
+    Element::with_text(kind, rest).set("message", message)
 }
 
 /// Returns what verifying found as JSON: whether something was compared in every file and nothing differs, and file by
@@ -171,6 +205,6 @@ pub fn json(checked: &[VerifiedFile]) -> String {
     };
     let same = checked.iter().all(VerifiedFile::is_same);
     let files: Vec<Value> = checked.iter().map(file).collect();
-    let text = report(checked).text(COLUMNS);
+    let text = report(checked, true).text(COLUMNS);
     json::line(None, &json!({ "same": same, "files": files, "text": text }))
 }

@@ -7,7 +7,7 @@ use super::compare::{Difference, compare};
 use super::first::{First, first};
 use super::record::{Bounds, record};
 use super::{Entry, Quantity};
-use super::{FORMAT, Input, Numbers, Run, Snapshot, VERSION};
+use super::{Input, Numbers, Run, Snapshot, VERSION};
 use base::choices;
 use engine::Request;
 use engine::error::Result;
@@ -117,7 +117,7 @@ pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     let (scene, input) = given_or_own(snapshot, scene)?;
     let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
     let again = runs.par_iter().map(|(name, old)| {
-        let mut run = record(&old.options.request(&scene), Bounds::Computed)?;
+        let mut run = record(&old.options.request(&scene)?, Bounds::Computed)?;
         run.keep_only(old.only.clone());
         for (entry, numbers) in &mut run.numbers {
             numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
@@ -125,15 +125,7 @@ pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
         Ok(((*name).clone(), run))
     });
     let runs = again.collect::<Result<Vec<_>>>()?.into_iter().collect();
-    let (version, units) = (VERSION.into(), scene.units.clone());
-    Ok(Snapshot {
-        format: FORMAT,
-        version,
-        units,
-        scene_file: snapshot.scene_file.clone(),
-        input,
-        runs,
-    })
+    Ok(Snapshot::of_runs(input, snapshot.scene_file.clone(), runs))
 }
 
 /// Returns `scene`, or that of the snapshot, with what a snapshot of it has.
@@ -151,7 +143,7 @@ fn verify_run(
     name: &str,
     old: &Run,
 ) -> Result<VerifiedRun> {
-    let request = old.options.request(scene);
+    let request = old.options.request(scene)?;
     let rerun = |bounds: Bounds| -> Result<Run> {
         let mut run = record(&request, bounds)?;
         run.keep_only(old.only.clone());

@@ -73,6 +73,11 @@ fn difference(difference: &Difference) -> String {
             let [is, was] = [is, was].map(|unit| if unit.is_empty() { "none" } else { unit });
             format!("unit of {entry}: {is}, was {was}")
         }
+        Kind::Bound { was, most } => {
+            format!(
+                "bound of {entry}: {was:.3e} lets everything pass; no run has one above {most:.3e}"
+            )
+        }
         Kind::Fact { was, is } => format!("{entry}: {}", fact(was, is)),
         Kind::Shape { was, is, at } => {
             let at = at.map_or(String::new(), |at| format!(", first at row {at}"));

@@ -105,16 +105,16 @@ pub fn run(command: &Command) -> Result<()> {
         Command::Export { sweep, to } => {
             let program = std::env::current_exe().unwrap_or_else(|_| "plane-contact".into());
             let words = [&*program, &sweep.file, &sweep.out()];
-            print(&report::job_file(*to, &sweep.jobs()?.list, words)?)
+            print(&report::job_file(*to, &sweep.jobs()?.all()?, words)?)
         }
         Command::Table { sweep, json } => {
-            let (jobs, out) = (sweep.jobs()?, sweep.out());
-            let rows = jobs.list.iter().map(|job| result(&out, job)).collect::<Result<Vec<_>>>()?;
+            let (jobs, out) = (sweep.jobs()?.all()?, sweep.out());
+            let rows = jobs.iter().map(|job| result(&out, job)).collect::<Result<Vec<_>>>()?;
             let missing = rows.iter().filter(|row| row.is_none()).count();
             if missing > 0 {
                 note(&format!("{missing} of {} jobs have not run\n", rows.len()));
             }
-            print(&report::table(&jobs.list, &rows, *json))
+            print(&report::table(&jobs, &rows, *json))
         }
     }
 }
@@ -122,20 +122,23 @@ pub fn run(command: &Command) -> Result<()> {
 fn run_jobs(sweep: &SweepArgs, only: Option<usize>) -> Result<()> {
     let (jobs, out) = (sweep.jobs()?, sweep.out());
     let chosen = match only {
-        None => &jobs.list[..],
-        Some(job) => jobs.list.get(job..=job).ok_or_else(|| {
-            let what = format!("there are {} jobs, counted from 0", jobs.list.len());
-            InputError::new("--only", what, "give the number of one")
-        })?,
+        None => jobs.all()?,
+        Some(job) if job < jobs.count => vec![jobs.job(job)?],
+        Some(_) => {
+            let what = format!("there are {} jobs, counted from 0", jobs.count);
+            return Err(InputError::new("--only", what, "give the number of one").into());
+        }
     };
     let (mut ran, mut failed) = (0, 0);
     let bar = progress("running the jobs", chosen.len(), "job {pos} of {len} {wide_bar} {eta}");
-    for job in chosen {
+    for job in &chosen {
         let row = match result(&out, job)? {
             Some(row) => row,
             None => {
                 let row = jobs.run(job)?;
-                files::write(&out.join(report::result_name(job)), &report::result(job, &row))?;
+                let file = out.join(report::result_name(job));
+                // Where another run was quicker, its result, which is the same, stays.
+                files::write_new(&file, &report::result(job, &row))?;
                 ran += 1;
                 row
             }

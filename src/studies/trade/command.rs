@@ -50,7 +50,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     args.tables.check()?;
     let scene = Scene::open(&args.scene)?;
-    commands::check_friction(&scene)?;
+    scene.check_friction()?;
     let request = Request::new(&scene).reading(args.reading.reading);
     let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
     let options = Options { runs: usize::from(args.runs), only };
@@ -60,7 +60,7 @@ pub fn run(args: &Args) -> Result<()> {
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.tables.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, &["trade.json"])?;
+        files::check_folder(&out, &["trade.svg", "trade.json"])?;
     }
     let bar = progress(
         "measuring",
@@ -75,9 +75,9 @@ pub fn run(args: &Args) -> Result<()> {
     bar.finish();
     let json = json::line(Some(&scene), &measured);
     if is_written {
-        let mut written = vec![("trade.json", &json)];
         let picture = report::picture(&measured);
-        written.extend(picture.iter().map(|picture| ("trade.svg", picture)));
+        let picture = picture.iter().map(|picture| ("trade.svg", picture));
+        let written = picture.chain([("trade.json", &json)]).collect::<Vec<_>>();
         files::write_all(&out, &written)?;
     }
     if args.tables.json {

@@ -55,14 +55,16 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    args.out.as_deref().map_or(Ok(()), files::check_file)?;
-    let text = match (args.to, args.corrected) {
-        (Target::Mathcad, false) => listings(args, mathcad::worksheet)?,
-        (Target::Mathcad, true) => corrected(args, mathcad::corrected)?,
-        (Target::Octave, false) => listings(args, octave::program)?,
-        (Target::Octave, true) => corrected(args, octave::corrected)?,
+    let mark = match args.to {
+        Target::Mathcad => files::WORKSHEET,
+        Target::Octave => files::PER_CENT,
     };
-    write_or_print(&args.out, &text)
+    write_or_print(&args.out, mark, || match (args.to, args.corrected) {
+        (Target::Mathcad, false) => listings(args, mathcad::worksheet),
+        (Target::Mathcad, true) => corrected(args, mathcad::corrected),
+        (Target::Octave, false) => listings(args, octave::program),
+        (Target::Octave, true) => corrected(args, octave::corrected),
+    })
 }
 
 /// Writes the listings with the scene's tables, and the variant `printed` if it can be solved.

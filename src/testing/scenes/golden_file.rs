@@ -6,7 +6,9 @@ use std::path::Path;
 #[track_caller]
 pub fn assert_file(path: &Path, text: &str) {
     if std::env::var_os("INSTA_UPDATE").is_some_and(|update| update == "always") {
-        base::files::write(path, text).expect("a golden file can be written");
+        let folder = path.parent().expect("a golden file lies in a folder");
+        let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
+        written.expect("a golden file can be written");
     }
     let golden = std::fs::read_to_string(path).unwrap_or_default();
     let lines = || golden.lines().zip(text.lines()).enumerate();

@@ -40,8 +40,138 @@ const CASES: &[Case] = &[
                   plane-contact lesson && plane-contact report fig1 && \
                   plane-contact report fig1",
         status: 0,
-        contains: &["lesson.html is in the way: it does not tell", "mine"],
-        lacks: &["report.html is in the way"],
+        contains: &[
+            "the file cannot be written: it does not tell",
+            "where: out/lesson.html",
+            "mine",
+        ],
+        lacks: &["where: out/report.html"],
+    },
+    // Every command that writes runs twice into one place, and then on another scene: what is there is its own.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out a >t; plane-contact scene copy two-blocks --out b >t; \
+                  plane-contact scene copy fig1 --out c >t; mkdir kept; cp -r a b c kept; \
+                  while read -r c; do for s in a a b; do plane-contact $(echo \"$c\" | sed \"s#SCENE#$s/scene.json#\") >t 2>e \
+                  || { echo FAILED $c on $s; cat e; }; done; done <<end\n\
+                  solve SCENE --no-pictures --no-error-estimate --out o --csv csv\n\
+                  trade SCENE --only c_tll --runs 1 --out trade --csv csv2\n\
+                  extremes offset --out extremes\n\
+                  audit SCENE --claim P1 --out claim\n\
+                  audit SCENE --finding C4 --out finding\n\
+                  report SCENE --out r.html\n\
+                  report SCENE --format markdown --out r.md\n\
+                  lesson SCENE --out l.html\n\
+                  scene export SCENE --variant tied --out d.inp\n\
+                  mathcad export SCENE --out w.xmcd\n\
+                  mathcad export SCENE --to octave --out w.m\n\
+                  listing run Km SCENE --matrix-market k.mtx\n\
+                  end\n\
+                  for d in a b c; do diff -r $d kept/$d || echo CHANGED; done",
+        status: 0,
+        contains: &[],
+        lacks: &["FAILED", "CHANGED"],
+    },
+    // What a name leads to is a user's scene or snapshot, which no page, deck or worksheet replaces.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; cd my; plane-contact snapshot record scene.json --variant tied \
+                  --out a.json >t; cp a.json b.json; echo '$MeshFormat' >fig1.msh; mkdir ../kept; cp * ../kept; \
+                  while read -r c; do for f in scene.json a.json fig1.msh; do plane-contact $c $f >../out 2>../e && echo REPLACED $c; \
+                  grep -c 'does not tell that it is from this program' ../e; done; done <<end | sort | uniq -c\n\
+                  snapshot verify b.json --report\n\
+                  snapshot verify b.json --junit\n\
+                  report two-blocks --out\n\
+                  report two-blocks --format markdown --out\n\
+                  lesson two-blocks --out\n\
+                  scene export two-blocks --out\n\
+                  mathcad export two-blocks --out\n\
+                  mathcad export two-blocks --to octave --out\n\
+                  listing run Km two-blocks --matrix-market\n\
+                  end\n\
+                  plane-contact snapshot verify --report *.json; diff -r . ../kept && echo kept",
+        status: 0,
+        contains: &["27 1\n", "kept"],
+        lacks: &["REPLACED"],
+    },
+    // An empty file marks no folder.
+    Case {
+        input: "",
+        command: "mkdir o; >o/result.json; echo mine >o/fields.vtu; \
+                  plane-contact solve fig1 --no-pictures --out o || cat o/fields.vtu",
+        status: 0,
+        contains: &["fields.vtu is in the way", "mine"],
+        lacks: &["Written"],
+    },
+    // A snapshot marks no folder.
+    Case {
+        input: "",
+        command: "plane-contact snapshot record fig1 --variant tied --out o/result.json >t; cp o/result.json kept; \
+                  plane-contact solve fig1 --no-pictures --out o || cmp o/result.json kept && echo kept",
+        status: 0,
+        contains: &["result.json is in the way: it does not tell", "kept"],
+        lacks: &["Written"],
+    },
+    // What is in the way is named before anything is computed; what is printed is printed all the same.
+    Case {
+        input: "",
+        command: "mkdir o p-figures t; echo mine | tee o/trade.svg o/offset.svg o/P1.json o/C4.svg o/prices.svg p-figures/x.svg \
+                  t/parameters.csv >t/all; while read -r c; do timeout 20 plane-contact $c; done <<end\n\
+                  trade strand --out o\n\
+                  extremes --out o\n\
+                  audit --claim P1 --out o\n\
+                  audit --finding C4 --out o\n\
+                  audit --prices --repairs --out o\n\
+                  report strand --format markdown --out p.md\n\
+                  end\n",
+        status: 2,
+        contains: &[
+            "trade.svg is in the way",
+            "offset.svg is in the way",
+            "P1.json is in the way",
+            "C4.svg is in the way",
+            "prices.svg is in the way",
+            "p-figures/x.svg is in the way: p.md does not tell",
+        ],
+        lacks: &["auditing"],
+    },
+    // A file that is replaced keeps its mode, and one that may not be written stays.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; plane-contact snapshot record my/scene.json --out s.json >t; \
+                  plane-contact mathcad export fig1 --out w.xmcd; chmod 600 s.json w.xmcd; \
+                  sed -i 's/6\\.3/6.4/' my/scene.json; plane-contact snapshot accept s.json >t; \
+                  plane-contact mathcad export two-blocks --out w.xmcd; stat -c %a s.json w.xmcd; chmod 444 s.json w.xmcd; \
+                  sed -i 's/6\\.4/6.5/' my/scene.json; plane-contact snapshot accept s.json; \
+                  plane-contact mathcad export fig1 --out w.xmcd; stat -c %a s.json w.xmcd",
+        status: 0,
+        contains: &["600\n600\n", "it is write-protected", "make it writable", "444\n444\n"],
+        lacks: &["Recorded"],
+    },
+    // What a title holds controls no terminal.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; cd my; \
+                  sed -i 's/\"title\": \"/&\\\\u001b[31m\\\\u0007\\\\u009b\\\\u202e\\\\u200f\\\\n/' scene.json; \
+                  while read -r c; do plane-contact $c; done <<end >../out 2>&1\n\
+                  scene export scene.json --variant tied\n\
+                  mathcad export scene.json\n\
+                  mathcad export scene.json --to octave\n\
+                  solve scene.json --json\n\
+                  audit scene.json --claim P1\n\
+                  audit scene.json --claim P1 --json\n\
+                  snapshot record scene.json --out s.json\n\
+                  snapshot diff s.json fig1\n\
+                  snapshot diff s.json fig1 --json\n\
+                  end\n\
+                  plane-contact report scene.json --format markdown --out r.md; \
+                  plane-contact scene copy fig1 --out ../fig1 >t; plane-contact snapshot verify s.json --scene ../fig1 --report v.md >t; \
+                  cat ../out s.json r.md v.md | python3 -c 'import sys\n\
+                  text = sys.stdin.buffer.read().decode()\n\
+                  print({hex(ord(c)) for c in text if not c.isprintable() and c not in \"\\n\\t\\xa0\"}, len(text) > 10000)'",
+        status: 0,
+        contains: &["set() True"],
+        lacks: &[],
     },
     Case {
         input: "",
@@ -209,7 +339,7 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "mkdir out; echo precious > victim; ln -s ../victim out/mesh.svg; \
+        command: "mkdir -p out/r-figures; echo precious > victim; ln -s ../../victim out/r-figures/mesh.svg; \
                   plane-contact report fig1 --format markdown --out out/r.txt; status=$?; \
                   cat victim; ls out; exit $status",
         status: 2,
@@ -218,21 +348,24 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "echo mine > mesh.svg; plane-contact report fig1 --format markdown \
-                  --out r.txt; rm mesh.svg; \
+        command: "mkdir r-figures; echo mine > r-figures/mesh.svg; plane-contact report fig1 \
+                  --format markdown --out r.txt; rm r-figures/mesh.svg; \
                   plane-contact report fig1 --format markdown --out r.txt && \
-                  plane-contact report fig1 --format markdown --out r.txt && head -1 r.txt",
+                  plane-contact report fig1 --format markdown --out r.txt && head -1 r.txt && \
+                  plane-contact report two-blocks --format markdown --out two.md && cat two.md",
         status: 0,
-        contains: &["mesh.svg is in the way: r.txt does not tell", "<!-- plane-contact -->"],
+        contains: &[
+            "mesh.svg is in the way: r.txt does not tell",
+            "<!-- plane-contact -->",
+            "](two-figures/mesh.svg)",
+        ],
         lacks: &[],
     },
     Case {
         input: "",
-        command: "plane-contact lesson two-blocks --out -; plane-contact solve fig1 --out -; \
-                  plane-contact report fig1 --format markdown --out mesh.svg; s=$?; \
-                  ls; exit $s",
+        command: "plane-contact lesson two-blocks --out -; plane-contact solve fig1 --out -",
         status: 2,
-        contains: &["a file of that name is ./-", "two files are named mesh.svg"],
+        contains: &["a file of that name is ./-"],
         lacks: &["Written"],
     },
     Case {
@@ -417,10 +550,74 @@ const CASES: &[Case] = &[
         contains: &["the name leads out of the folder"],
         lacks: &[],
     },
+    // A value of a part of what another pointer sets; more values than fit in memory.
+    Case {
+        input: "",
+        command: "while read -r s; do echo \"{\\\"format\\\": 1, \\\"scene\\\": \\\"fig1\\\", $s}\" >s.json; \
+                  plane-contact sweep run s.json; echo status $?; done <<end\n\
+                  \"grid\": {\"/scene/contact/c_tll\": [0.1], \"/scene/contact\": [{}]}\n\
+                  \"grid\": {\"/scene/contact\": [{}], \"/scene/title\": [0], \"/scene/contact/c_tll\": [0.1]}\n\
+                  \"list\": [{\"/options/variant\": \"tied\"}], \"grid\": {\"/options/variant\": [\"stepped\"]}\n\
+                  \"list\": [{}, {\"/scene/a~1b\": 1, \"/scene/a~1b/c\": 1}]\n\
+                  \"grid\": {\"/scene/a~0\": [1], \"/scene/a~\": [2]}\n\
+                  end\n",
+        status: 0,
+        contains: &[
+            "\"/scene/contact/c_tll\" leads into what \"/scene/contact\" sets",
+            "\"/options/variant\" leads into what \"/options/variant\" sets",
+            "\"/scene/a~1b/c\" leads into",
+            "leads into what \"/scene/a~",
+        ],
+        lacks: &["Written", "status 0"],
+    },
+    Case {
+        input: "",
+        command: "python3 -c 'import json; json.dump({\"format\": 1, \"scene\": \"fig1\", \"list\": [{\"/scene/title\": \"A\" * 4000000}],\n\
+                  \"grid\": {\"/scene/contact/c_tll\": {\"from\": 1e-4, \"to\": 1e-2, \"count\": 100000}}}, open(\"s.json\", \"w\"))'; \
+                  ulimit -v 8000000; timeout 60 plane-contact sweep run s.json --only 0",
+        status: 2,
+        contains: &["bytes of values in all jobs are more than 268435456", "divide the sweep"],
+        lacks: &[],
+    },
+    // A job alone is run without a look at the others.
+    Case {
+        input: "",
+        command: "echo '{\"format\": 1, \"scene\": \"fig1\", \"grid\": {\"/options/variant\": [\"tied\"], \
+                  \"/scene/contact/c_tll\": {\"from\": 1e-4, \"to\": 1e-2, \"count\": 100000}}}' >s.json; \
+                  for k in 0 1 99998 99999; do timeout 3 plane-contact sweep run s.json --only $k || exit 9; done; \
+                  timeout 3 plane-contact sweep run s.json --only 100000",
+        status: 2,
+        contains: &["1 jobs: 1 ran, 0 failed", "there are 100000 jobs"],
+        lacks: &[],
+    },
+    // Several runs of a sweep in one folder.
+    Case {
+        input: "",
+        command: "echo '{\"format\": 1, \"scene\": \"fig1\", \"grid\": {\"/options/variant\": [\"tied\", \"stepped\"], \
+                  \"/scene/contact/c_tll\": {\"from\": 1e-4, \"to\": 1e-2, \"count\": 10}}}' >s.json; \
+                  for k in 1 2 3 4 5; do for j in 1 2 3; do plane-contact sweep run s.json || echo FAILED & done; wait; rm -r out; done",
+        status: 0,
+        contains: &["20 jobs: "],
+        lacks: &["FAILED", "error"],
+    },
     // The results of another program.
     Case {
         input: "ccx",
-        command: "plane-contact compare two-blocks --with calculix --ccx ./fifo --out o",
+        command: "for k in 0 1 2 3 4; do CUT=$k plane-contact compare two-blocks --contact pair --friction 0 --variant unilateral \
+                  --ccx ./cut --out o --json >t; echo status $?; done",
+        status: 0,
+        contains: &[
+            "node 4 is not in them at time 1",
+            "its last line has no end",
+            "element 1 is not in them at time 1",
+            "see whether the disk of TMPDIR is full",
+            "status 0",
+        ],
+        lacks: &[],
+    },
+    Case {
+        input: "ccx",
+        command: "plane-contact compare two-blocks --with calculix --ccx ./fifo",
         status: 2,
         contains: &["./fifo left no results (it is no ordinary file)"],
         lacks: &["cannot be started"],
@@ -428,7 +625,7 @@ const CASES: &[Case] = &[
     Case {
         input: "ccx",
         command: "mkdir x; ulimit -v 8000000; cd x; \
-                  plane-contact compare two-blocks --with calculix --ccx ../zero --out o",
+                  plane-contact compare two-blocks --with calculix --ccx ../zero",
         status: 2,
         contains: &["../zero left no results (the name leads out of the folder)"],
         lacks: &["cannot be started"],

@@ -259,6 +259,138 @@ const CASES: &[Case] = &[
         contains: &["same, 1 run"],
         lacks: &[],
     },
+    // A change of all stresses by a thousandth, of a scene whose stresses are small beside its displacements.
+    Case {
+        input: "floor",
+        command: "plane-contact snapshot record scene.json --out s.json >t; for k in 1.000001 1.001; do python3 -c 'import json, sys\n\
+                  s = json.load(open(\"scene.json\"))\n\
+                  for m in s[\"materials\"].values(): m[\"E\"] *= float(sys.argv[1])\n\
+                  json.dump(s, open(\"scene.json\", \"w\"))' $k; plane-contact snapshot verify s.json; echo status $?; done",
+        status: 0,
+        contains: &["status 1", "stress: ", "reactions: ", "pressure: "],
+        lacks: &["status 0", "same"],
+    },
+    // Moduli far apart: what rounding may do at most is more than the numbers, and no limit.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; cd my; for r in 1e6 1e8 1e10; do for k in 1.001 1.1 1000; do \
+                  python3 -c 'import json, sys\n\
+                  s = json.load(open(\"scene.json\")); r, k = map(float, sys.argv[1:]); m = s[\"materials\"]\n\
+                  m[\"2\"][\"E\"] = r * m[\"1\"][\"E\"]; json.dump(s, open(\"r.json\", \"w\"))' $r $k; rm -f a.json; \
+                  plane-contact snapshot record r.json --variant tied --only stress,pressure,reactions --out a.json >t || echo FAILED; \
+                  python3 -c 'import json, sys\n\
+                  a = json.load(open(\"a.json\"))\n\
+                  for run in a[\"runs\"].values():\n\
+                  \x20 for name in (\"stress\", \"pressure\", \"reactions\"):\n\
+                  \x20   for row in run[\"numbers\"][name][\"values\"]: row[1:] = [x and float(sys.argv[1]) * x for x in row[1:]]\n\
+                  json.dump(a, open(\"b.json\", \"w\"))' $k; \
+                  plane-contact snapshot verify a.json >t || echo FAILED; plane-contact snapshot verify b.json >t && echo SAME; done; done",
+        status: 1,
+        contains: &[],
+        lacks: &["FAILED", "SAME", "Error"],
+    },
+    // What lets everything pass is said: a bound, units that are not those of the scene.
+    Case {
+        input: "",
+        command: changed!(
+            "r[\"numbers\"][\"stress\"][\"bound\"] = 1e308; r[\"numbers\"][\"stress\"][\"floor\"] = 1e308\n\
+             for row in r[\"numbers\"][\"stress\"][\"values\"]: row[1] *= 1.1",
+            "plane-contact snapshot verify t.json"
+        ),
+        status: 1,
+        contains: &[
+            "bound of stress: 1.000e308 lets everything pass",
+            "stress: 9 of 27 numbers differ",
+        ],
+        lacks: &["same"],
+    },
+    Case {
+        input: "",
+        command: changed!("del d[\"units\"][\"stress\"]", "plane-contact snapshot verify t.json"),
+        status: 2,
+        contains: &["the units are not those of the scene", "field units"],
+        lacks: &["same"],
+    },
+    // What solve refuses is neither verified nor recorded.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; cd my; sed -i 's/\"variant\": \"[a-z]*\"/\"variant\": \"unilateral\"/' scene.json; \
+                  python3 -c 'import json\n\
+                  s = json.load(open(\"scene.json\")); s[\"contact\"].pop(\"friction\", None); json.dump(s, open(\"none.json\", \"w\"))\n\
+                  s[\"contact\"][\"friction\"] = 0; json.dump(s, open(\"scene.json\", \"w\"))'; \
+                  plane-contact snapshot record scene.json --only u --out s.json >t; cp s.json kept; mv none.json scene.json; \
+                  for c in 'verify s.json' 'accept s.json' 'diff s.json scene.json' 'record scene.json --out n.json' \
+                  'accept kept --scene scene.json'; do plane-contact snapshot $c; echo status $?; done; cmp s.json kept && ls n.json",
+        status: 2,
+        contains: &["status 2\n", "nothing is said of friction"],
+        lacks: &["status 0", "status 1", "changed", "differ:"],
+    },
+    // Several are accepted: a scene among them is skipped, and what cannot be read hinders no other.
+    Case {
+        input: "",
+        command: "plane-contact scene copy fig1 --out my >t; cd my; for v in tied stepped; do \
+                  plane-contact snapshot record scene.json --variant $v --out $v.json >t; done; echo x >bad.json; \
+                  sed -i 's/6\\.3/6.4/' scene.json; plane-contact snapshot accept *.json; echo status $?; \
+                  plane-contact snapshot verify stepped.json tied.json",
+        status: 0,
+        contains: &[
+            "scene.json is a scene, and skipped",
+            "Recorded again: stepped.json",
+            "Recorded again: tied.json",
+            "status 2",
+            "where: bad.json",
+            "tied.json: same",
+        ],
+        lacks: &["differ:"],
+    },
+    // A snapshot's scene is a scene near it, and of nothing else a word is told.
+    Case {
+        input: "",
+        command: "mkdir project secret; echo TOKEN >secret/token; echo '{\"TOKEN\": 1}' >secret/keys; plane-contact scene copy fig1 --out project >t; \
+                  plane-contact scene copy fig1 --out other >t; sed -i 's/6\\.3/6.4/' other/scene.json; cd project; \
+                  plane-contact snapshot record scene.json --variant tied --out a.json >t; ln -s ../secret/token link.json; ln -s ../other/scene.json to.json; \
+                  for name in ../secret/token ../secret/keys $PWD/../secret/token link.json to.json $PWD/scene.json ../secret ../nowhere \
+                  ../other/scene.json; do sed \"s#\\\"scene_file\\\": \\\"[^\\\"]*\\\"#\\\"scene_file\\\": \\\"$name\\\"#\" a.json >b.json; \
+                  for c in 'verify --report v.md --junit j.xml' accept; do plane-contact snapshot $c b.json; echo \"status $?\"; done; cat v.md j.xml; done",
+        status: 0,
+        contains: &[
+            "it is no scene file",
+            "the name is absolute",
+            "the name leads through a link",
+            "it is no ordinary file",
+            "scene file ../nowhere is not there",
+            "changed: scene loads[0].pressure: 6.4, was 6.3",
+        ],
+        lacks: &["TOKEN"],
+    },
+    // Two sides that are one are read once.
+    Case {
+        input: "units",
+        command: "plane-contact snapshot diff - --variant tied,stepped <scene.json; plane-contact snapshot diff - - <scene.json",
+        status: 0,
+        contains: &["- and -: same"],
+        lacks: &["error"],
+    },
+    // The remedy stands on a line of its own.
+    Case {
+        input: "",
+        command: recorded!("plane-contact snapshot record fig1 --variant printed --out s.json"),
+        status: 2,
+        contains: &["take new values by `plane-contact snapshot accept`, or delete the file"],
+        lacks: &[],
+    },
+    // A failure is said once.
+    Case {
+        input: "",
+        command: "echo x >bad.json; plane-contact snapshot verify bad.json --junit j.xml; cat j.xml",
+        status: 0,
+        contains: &[
+            "<error message=\"x where a value is expected\">  where: bad.json: the snapshot, line 1",
+        ],
+        lacks: &[
+            "x where a value is expected\n  where: bad.json: the snapshot, line 1, column 1\n  fix:   give a snapshot as `plane-contact snapshot record` writes it\nerror",
+        ],
+    },
     // Through a pipe.
     Case {
         input: "",

@@ -49,7 +49,7 @@ pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
     let bytes = text;
     let text = utf8(text).map_err(|what| InputError::new(&whole, what, "save it as UTF-8"));
     let text = text.map_err(|error| instead(bytes, kind).unwrap_or(error))?;
-    limits::VALUES.check(values(text), &whole)?;
+    check_size(text, &whole)?;
     let mut source = serde_json::Deserializer::from_str(text);
     let place = |path: &str| if path.is_empty() { whole.clone() } else { format!("field {path}") };
     let document = deserialize(&mut source, kind, place, |error| words(error, text));
@@ -59,6 +59,15 @@ pub fn read<T: DeserializeOwned>(text: &[u8], kind: &Kind) -> Result<T> {
         InputError::new(format!("the end of {whole}"), what, kind.fix)
     })?;
     Ok(document)
+}
+
+/// Checks that a document, of which `whole` is the name, is none too large to be read.
+///
+/// # Errors
+/// It has too many bytes or values.
+pub fn check_size(text: &str, whole: &str) -> Result<()> {
+    limits::BYTES.check(text.len(), whole)?;
+    limits::VALUES.check(values(text), whole)
 }
 
 /// Reads what the values of a field of a document hold.

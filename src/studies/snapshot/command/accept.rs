@@ -1,56 +1,74 @@
 //! `plane-contact snapshot accept`.
 
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{accept, difference};
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use problem::scene::{Scene, SceneFile};
 
 use super::record::from_folder_of;
-use super::verify::{scene_of, snapshot_of};
-use commands::{print_report, waiting, within};
+use super::verify::{is_scene, note_skipped, scene_of, snapshot_of};
+use commands::{print_report, report_error, waiting, within};
 
-/// Record a snapshot again, and print what changed.
+/// Record snapshots again, and print what changed.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Its runs, what is recorded of each, and its tolerances stay. What changed is printed as verify prints
-it; see it before by verify.
+Their runs, what is recorded of each, and their tolerances stay. What changed is printed as verify prints
+it; see it before by verify. Among several files scenes are skipped; of one that cannot be recorded the
+exit status tells, and the others are recorded all the same.
 
 Examples:
   plane-contact snapshot accept out/fig1.snapshot.json
+  plane-contact snapshot accept my/*.json
   plane-contact snapshot accept my/block.snapshot.json --scene my/other.json")]
 pub struct Args {
-    /// A snapshot.
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
-    /// Record this scene [default: the file that it was recorded from, else the scene in the snapshot].
+    /// Snapshots.
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Record this scene [default: the file that a snapshot was recorded from, else the scene in it].
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<()> {
-    let file = shown(&args.file);
-    let given_file = args.scene.as_deref().map(SceneFile::read).transpose()?;
-    let given = given_file.as_ref().map(Scene::of_file).transpose()?;
-    let text = files::read(&args.file);
+pub fn run(args: &Args) -> Result<ExitStatus> {
+    let given = args.scene.as_deref().map(SceneFile::read).transpose()?;
+    let mut status = ExitStatus::Done;
+    for path in &args.files {
+        let text = files::read(path);
+        if args.files.len() > 1 && is_scene(&text) {
+            note_skipped(path);
+        } else if let Err(why) = record(path, text, given.as_ref()) {
+            let failed = report_error(&why);
+            status = if status == ExitStatus::Done { failed } else { status };
+        }
+    }
+    Ok(status)
+}
+
+/// Records the snapshot in a file again, on its own scene or on a `given` one.
+fn record(path: &Path, text: io::Result<Vec<u8>>, given_file: Option<&SceneFile>) -> Result<()> {
+    let file = shown(path);
+    let given = given_file.map(Scene::of_file).transpose()?;
     // What cannot be read is named below.
     let was = text.as_ref().ok().cloned().unwrap_or_default();
-    let old = snapshot_of(&args.file, text)?;
-    let (scene, said) = scene_of(&args.file, &old, given.as_ref())?;
+    let old = snapshot_of(path, text)?;
+    let (scene, said) = scene_of(path, &old, given.as_ref())?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
-        new.scene_file = scene.path().and_then(|scene| from_folder_of(&args.file, scene));
+        new.scene_file = scene.path().and_then(|scene| from_folder_of(path, scene));
     }
-    let text = report::file(&new);
-    files::rewrite(&args.file, &was, &text)?;
+    let text = report::readable(&new)?;
+    files::rewrite(path, &was, &text)?;
     let done = match text.as_bytes() == was {
         true => format!("Nothing changed: {file} stays as it was"),
         false => format!("Recorded again: {file}"),
     };
     let verified = Ok(difference(&old, &new));
-    print_report(report::report(&[VerifiedFile { file, scene: said, verified }]).line(done))
+    print_report(report::report(&[VerifiedFile { file, scene: said, verified }], false).line(done))
 }

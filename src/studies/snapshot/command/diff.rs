@@ -1,15 +1,15 @@
 //! `plane-contact snapshot diff`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::snapshot::table::{self as report, VerifiedFile};
-use crate::snapshot::{Bounds, Snapshot, difference};
+use crate::snapshot::{Bounds, Options, Snapshot, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
-use engine::linear::{Arithmetic, ScalarName, Solver};
+use engine::linear::{ScalarName, Solver};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
@@ -66,33 +66,37 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         let fix = "give another snapshot or scene, or two values, as --variant stepped,tied";
         return Err(InputError::new("diff", what, fix).into());
     }
+    // What is one for both sides is read once: it may come through a pipe.
+    let first = SceneFile::read(names[0])?;
+    let second = if names[0] == names[1] { first.clone() } else { SceneFile::read(names[1])? };
     let sides = waiting("running", || -> Result<_> {
-        Ok([side(args, 0, names[0])?, side(args, 1, names[1])?])
+        Ok([side(args, 0, &first)?, side(args, 1, &second)?])
     })?;
     let verified = difference(&sides[0], &sides[1]);
     let status = ExitStatus::compared(verified.is_same());
     let file = format!("{} and {}", shown(names[0]), shown(names[1]));
     let checked = [VerifiedFile { file, scene: None, verified: Ok(verified) }];
-    print_either(args.json, || report::json(&checked), || report::report(&checked))?;
+    print_either(args.json, || report::json(&checked), || report::report(&checked, false))?;
     Ok(status)
 }
 
 /// Reads a snapshot, or runs a scene.
-fn side(args: &Args, side: usize, name: &Path) -> Result<Snapshot> {
-    // It is read once: it may come through a pipe.
-    let file = SceneFile::read(name)?;
+fn side(args: &Args, side: usize, file: &SceneFile) -> Result<Snapshot> {
     if files::fields(&file.text).iter().any(|name| name == "format") {
         let snapshot = Snapshot::read(&file.text);
         // What it says of its scene must be true.
         let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
-        return Ok(checked.map_err(|error| error.within(&shown(name)))?);
+        let place = file.path().unwrap_or(&file.name);
+        return Ok(checked.map_err(|error| error.within(place))?);
     }
-    let scene = Scene::of_file(&file)?;
-    let mut request = engine::Request::new(&scene);
-    request.variant = of_side(&args.variant, side, "--variant")?.unwrap_or(scene.variant);
-    request.reading = of_side(&args.reading, side, "--reading")?.unwrap_or_default();
-    let scalar = of_side(&args.scalar, side, "--scalar")?.unwrap_or_default();
-    let solver = of_side(&args.solver, side, "--solver")?;
-    let request = request.arithmetic(Arithmetic { scalar, solver, ..Arithmetic::default() });
+    let scene = Scene::of_file(file)?;
+    let options = Options {
+        variant: of_side(&args.variant, side, "--variant")?,
+        reading: of_side(&args.reading, side, "--reading")?.unwrap_or_default(),
+        scalar: of_side(&args.scalar, side, "--scalar")?,
+        solver: of_side(&args.solver, side, "--solver")?,
+        ..Options::default()
+    };
+    let request = options.request(&scene)?;
     Snapshot::record(&scene, &[request], Bounds::Computed)
 }

@@ -1,6 +1,5 @@
 //! `plane-contact snapshot record`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::snapshot::table as report;
@@ -56,7 +55,7 @@ pub fn run(args: &Args) -> Result<()> {
         let what = "one file cannot hold the snapshots of several scenes";
         return Err(InputError::new("--out", what, "leave it out, or record one by one").into());
     }
-    args.out.as_deref().map_or(Ok(()), files::check_file)?;
+    args.out.as_deref().map_or(Ok(()), files::check_new)?;
     for name in &args.scenes {
         let scene_file = SceneFile::read(name)?;
         let scene = Scene::of_file(&scene_file)?;
@@ -76,7 +75,7 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         snapshot.scene_file = scene_file.path().and_then(|scene| from_folder_of(&file, scene));
-        write_new(&file, &report::file(&snapshot))?;
+        write_new(&file, &report::readable(&snapshot)?)?;
         print_report(report::recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
     Ok(())
@@ -100,24 +99,17 @@ pub fn from_folder_of(snapshot: &Path, scene: &str) -> Option<String> {
 
 /// Writes a snapshot; an existing file with another content is kept.
 fn write_new(file: &Path, text: &str) -> Result<()> {
-    files::check_file(file)?;
-    let place = shown(file);
-    if let Err(why) = files::write_new(file, text) {
-        if why.kind() != io::ErrorKind::AlreadyExists {
-            let what = format!("the file cannot be written: {why}");
-            return Err(InputError::new(place, what, "choose another place").into());
-        }
-        let what = match files::read(file) {
-            Ok(there) if there == text.as_bytes() => return Ok(()),
-            Ok(_) => "there is another snapshot".into(),
-            Err(why) => format!("the file that is there cannot be read: {why}"),
-        };
-        let fix = "see what differs by `plane-contact snapshot verify`, take new values by
-                   `plane-contact snapshot accept`, or \
-                   delete the file";
-        return Err(InputError::new(place, what, fix).into());
+    if files::write_new(file, text)? {
+        return Ok(());
     }
-    Ok(())
+    let what = match files::read(file) {
+        Ok(there) if there == text.as_bytes() => return Ok(()),
+        Ok(_) => "there is another snapshot".into(),
+        Err(why) => format!("the file that is there cannot be read: {why}"),
+    };
+    let fix = "see what differs by `plane-contact snapshot verify`, take new values by \
+               `plane-contact snapshot accept`, or delete the file";
+    Err(InputError::new(shown(file), what, fix).into())
 }
 
 /// Returns the name of a number; a shell would take one of several words apart.

@@ -7,10 +7,10 @@ use crate::snapshot::table::{self as report, VerifiedFile};
 use crate::snapshot::{self, Snapshot};
 use base::error::InputError;
 use base::exit::ExitStatus;
-use base::files::{self, kind_of};
+use base::files::{self, JUNIT, MARKDOWN, kind_of};
 use base::plain::shown;
 use engine::error::Result;
-use problem::scene::Scene;
+use problem::scene::{Scene, SceneFile};
 
 use commands::{note, print_either, progress, report_error, within};
 
@@ -54,14 +54,12 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     if snapshots.is_empty() {
         snapshots = scenes;
     } else {
-        scenes.iter().for_each(|(file, _)| {
-            note(&format!("note: {} is a scene, and skipped\n", shown(file)));
-        });
+        scenes.iter().for_each(|(file, _)| note_skipped(file));
     }
     let snapshots = snapshots.into_iter().map(|(file, text)| (&**file, snapshot_of(file, text)));
     let snapshots = snapshots.collect();
-    let written = [&args.junit, &args.report].into_iter().flatten();
-    written.clone().try_for_each(|file| files::check_file(file))?;
+    args.junit.as_deref().map_or(Ok(()), |file| files::check_file(file, JUNIT))?;
+    args.report.as_deref().map_or(Ok(()), |file| files::check_file(file, MARKDOWN))?;
     if let (Some(junit), Some(report)) = (&args.junit, &args.report)
         && files::is_same_place(junit, report)
     {
@@ -73,7 +71,8 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         files::write(file, &report::junit(&checked))?;
     }
     if let Some(file) = &args.report {
-        files::write(file, &report::report(&checked).markdown())?;
+        let page = MARKDOWN.to_string() + &report::report(&checked, true).markdown();
+        files::write(file, &page)?;
     }
     report(&checked, args.json)
 }
@@ -81,14 +80,20 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
 /// Prints what verifying found, and returns the exit status: that of the first file that could not be
 /// verified, else whether all is the same.
 fn report(checked: &[VerifiedFile], json: bool) -> Result<ExitStatus> {
-    print_either(json, || report::json(checked), || report::report(checked))?;
+    print_either(json, || report::json(checked), || report::report(checked, false))?;
     let failures = checked.iter().filter_map(|checked| checked.verified.as_ref().err());
     let statuses: Vec<ExitStatus> = failures.map(report_error).collect();
     let is_same = checked.iter().all(VerifiedFile::is_same);
     Ok(statuses.first().copied().unwrap_or(ExitStatus::compared(is_same)))
 }
 
-fn is_scene(text: &io::Result<Vec<u8>>) -> bool {
+/// Says that a scene among snapshots is skipped.
+pub fn note_skipped(scene: &Path) {
+    note(&format!("note: {} is a scene, and skipped\n", shown(scene)));
+}
+
+/// Returns whether a file, as it was read, is a scene.
+pub fn is_scene(text: &io::Result<Vec<u8>>) -> bool {
     text.as_ref().is_ok_and(|text| kind_of(text) == Some("a scene file"))
 }
 
@@ -102,11 +107,13 @@ pub fn scene_of(
     snapshot: &Snapshot,
     given: Option<&Scene>,
 ) -> Result<(Option<Scene>, Option<String>)> {
-    let (None, Some(path)) = (given, &snapshot.scene_file) else {
+    let (None, Some(path)) = (given, snapshot.scene_file.as_deref().map(Path::new)) else {
         return Ok((given.cloned(), None));
     };
-    let today = file.parent().unwrap_or(Path::new("")).join(path);
-    let scene = today.is_file().then(|| Scene::open(today)).transpose()?;
+    let today = SceneFile::of_snapshot(file.parent().unwrap_or(Path::new("")), path);
+    let scene = today.map_err(|error| error.within(&shown(file)))?;
+    let scene = scene.as_ref().map(Scene::of_file).transpose()?;
+    let path = shown(path);
     let said = match &scene {
         None => Some(format!("scene file {path} is not there: the scene in the snapshot is run")),
         Some(scene) => {
