@@ -114,7 +114,12 @@ fn results_that_are_not_whole_are_refused() {
     refused(PRINTED, 14, "node 14 is not in them");
     refused(PRINTED, 12, "is not understood");
     refused(&PRINTED.replace("-2.015804E-04", "NaN"), 13, "NaN");
-    refused("", 13, "node 1 is not in them");
+    refused("", 13, "its last line has no end");
+    // What an earlier increment had is no part of the last one, whose end is lost.
+    let earlier = PRINTED.replace("0.1000000E+01", "0.1000000E+00");
+    let nodes: Vec<&str> = PRINTED.lines().take(9).collect();
+    refused(&(earlier.clone() + &nodes.join("\n") + "\n"), 13, "node 7 is not in them at time 1");
+    refused(&(earlier + &nodes.join("\n")), 13, "its last line has no end");
 }
 
 /// Displacements relative to the largest.

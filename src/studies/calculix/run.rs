@@ -134,6 +134,9 @@ pub fn parse(text: &str, nodes: usize) -> Result<DVector<f64>> {
         if line.starts_with(|c: char| c.is_ascii_alphabetic()) {
             let is_last = line.split_whitespace().last().and_then(float) == Some(END);
             is_wanted = is_last && line.starts_with("displacements");
+            if is_wanted {
+                u.fill(f64::NAN);
+            }
         } else if is_wanted {
             let node = node(line).filter(|(number, _)| (1..=nodes).contains(number));
             let (number, displacement) = node.ok_or_else(|| {
