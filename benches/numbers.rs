@@ -333,7 +333,7 @@ fn calculix(folder: &Path) -> Table {
             .output()
             .expect("the program starts");
         let compared: Value = serde_json::from_slice(&compared.stdout).unwrap_or_default();
-        let Some(differs) = compared["displacement"]["largest"]["relative"].as_f64() else {
+        let Some(differs) = compared["distance"]["displacement_relative"].as_f64() else {
             table.row(format!("{name}: ccx found no answer"), &[None; 4]);
             continue;
         };

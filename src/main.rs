@@ -10,7 +10,8 @@ use std::thread::{Builder, available_parallelism};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches, Parser};
-use clap_complete::Shell;
+use clap_complete::CompleteEnv;
+use clap_complete::env::Shells;
 use plane_contact::commands::Verbosity;
 use plane_contact::error::InputError;
 use plane_contact::exit::ExitStatus;
@@ -51,8 +52,8 @@ Examples:
 )]
 struct Cli {
     /// Print the completions of a shell: bash, elvish, fish, powershell, zsh.
-    #[arg(long, value_name = "SHELL")]
-    completions: Option<Shell>,
+    #[arg(long, value_name = "SHELL", value_parser = ["bash", "elvish", "fish", "powershell", "zsh"])]
+    completions: Option<String>,
     /// Write the man pages of all commands to a folder.
     #[arg(long, value_name = "DIR", conflicts_with = "completions")]
     man: Option<PathBuf>,
@@ -69,7 +70,11 @@ struct Cli {
 /// Bytes of the stack of each thread, whatever the environment (RUST_MIN_STACK) says; the default of Rust.
 const STACK: usize = 1 << 21;
 
+/// The variable of the environment by which a shell asks what completes a command line.
+const COMPLETE: &str = "PLANE_CONTACT_COMPLETE";
+
 fn main() -> ExitCode {
+    CompleteEnv::with_factory(Cli::command).var(COMPLETE).complete();
     start_pool();
     #[cfg(unix)]
     heed_signals();
@@ -123,20 +128,6 @@ fn grammar() -> clap::Command {
     })
 }
 
-/// Returns a command for completions, whose `help` has the names of the commands in it: that of clap offers none.
-fn with_help(command: clap::Command) -> clap::Command {
-    if !command.has_subcommands() {
-        return command;
-    }
-    let help = clap::Command::new("help")
-        .about("Print the help of a command")
-        .disable_help_flag(true)
-        .disable_help_subcommand(true)
-        .subcommands(command.get_subcommands().map(name_alone));
-    let command = command.disable_help_subcommand(true);
-    command.mut_subcommands(with_help).subcommand(help)
-}
-
 /// Starts the threads of the pool, one for each processor unless RAYON_NUM_THREADS says otherwise. Where the system
 /// does not start so many, this thread alone is the pool: rayon, which fails then, builds no second one.
 fn start_pool() {
@@ -169,92 +160,26 @@ fn exit_statuses() -> String {
     ExitStatus::ALL.iter().map(line).collect()
 }
 
-/// Returns a command with nothing but its name and the commands in it.
-fn name_alone(command: &clap::Command) -> clap::Command {
-    clap::Command::new(command.get_name().to_string())
-        .disable_help_flag(true)
-        .disable_help_subcommand(true)
-        .subcommands(command.get_subcommands().map(name_alone))
-}
-
 /// Prints the completions of a shell, or writes the man pages: what is asked for in place of a command.
 fn shell_files(cli: &Cli) -> Result<(), Error> {
     if cli.completions.is_none() && cli.man.is_none() {
         let fix = "name a command: plane-contact --help lists them";
         return Err(InputError::new("the command line", "there is no command", fix).into());
     }
-    if let Some(shell) = cli.completions {
-        let mut grammar = with_help(Cli::command());
-        let mut text = Vec::new();
-        clap_complete::generate(shell, &mut grammar, "plane-contact", &mut text);
-        let text = String::from_utf8(text).expect("help is UTF-8");
-        commands::print(&match shell {
-            Shell::Bash => bash(&text),
-            Shell::Fish => text + &fish_values(&grammar, "") + FISH_WITH,
-            Shell::Zsh => {
-                text.replace(":CODE|FIELD:_default", ":CODE|FIELD:{compadd calculix; _files}")
-            }
-            _ => text,
-        })?;
+    if let Some(shell) = &cli.completions {
+        let (shells, mut script) = (Shells::builtins(), Vec::new());
+        let completer = shells.completer(shell).expect("clap knows the values of the option");
+        let [name, program] = ["plane_contact", "plane-contact"];
+        completer
+            .write_registration(COMPLETE, name, program, program, &mut script)
+            .expect("memory can be written");
+        commands::print(&String::from_utf8(script).expect("it is UTF-8"))?;
     }
     if let Some(folder) = &cli.man {
         files::write_all(folder, &man_pages(&grammar()))?;
         commands::report_written(folder);
     }
     Ok(())
-}
-
-/// What `compare --with` takes beside a file.
-const FISH_WITH: &str = "complete -c plane-contact -n \"__fish_plane_contact_using_subcommand compare\" -l with -r -a calculix\n";
-
-/// Completes words with `=`, which bash takes apart: `--reading R5=no` ends with R5, = and no.
-const BASH_WORDS: &str = r#"
-_plane__contact_words() {
-    local cur="$2" prev="$3" at=${COMP_CWORD} left=""
-    if [[ "${COMP_WORDS[at]}" == "=" ]]; then cur=""; elif [[ "${prev}" == "=" ]]; then at=$((at - 1)); fi
-    if [[ "${COMP_WORDS[at]}" == "=" ]]; then
-        prev="${COMP_WORDS[at-1]}"
-        if [[ "${prev}" != --* ]]; then
-            left="${prev}="
-            prev="${COMP_WORDS[at-2]}"
-            if [[ "${prev}" == "=" ]]; then prev="${COMP_WORDS[at-3]}"; fi
-        fi
-    fi
-    _plane__contact "$1" "${left}${cur}" "${prev}"
-    COMPREPLY=("${COMPREPLY[@]#"${left}"}")
-}
-"#;
-
-/// Returns the script for bash without what is wrong in it.
-fn bash(script: &str) -> String {
-    // A command with a hyphen has two names there (clap-rs/clap#6421).
-    let script = script.replace("plane__subcmd__contact", "plane__contact");
-    let files = r#"COMPREPLY=($(compgen -f "${cur}"))"#;
-    let both = r#"COMPREPLY=($(compgen -f -W "calculix" -- "${cur}"))"#;
-    let with = format!("--with)\n                    {files}");
-    let script = script.replace(&with, &with.replace(files, both));
-    BASH_WORDS.trim_start().to_string()
-        + &script.replace("complete -F _plane__contact ", "complete -F _plane__contact_words ")
-}
-
-/// Returns what clap leaves out for fish: the values of the arguments that have no option, command by command; `seen`
-/// asks whether the words before are those of the command.
-fn fish_values(command: &clap::Command, seen: &str) -> String {
-    let offered = command.get_positionals().flat_map(clap::Arg::get_possible_values);
-    let names: Vec<String> = offered.map(|value| value.get_name().to_string()).collect();
-    let own = match names.is_empty() {
-        true => String::new(),
-        false => format!("complete -c plane-contact -n \"{seen}\" -a \"{}\"\n", names.join(" ")),
-    };
-    let inner = command.get_subcommands().map(|inner| {
-        let name = inner.get_name();
-        let seen = match seen {
-            "" => format!("__fish_plane_contact_using_subcommand {name}"),
-            seen => format!("{seen}; and __fish_seen_subcommand_from {name}"),
-        };
-        fish_values(inner, &seen)
-    });
-    own + &inner.collect::<String>()
 }
 
 /// Returns the man pages of a command and of those in it, each with the name of its file.

@@ -45,7 +45,8 @@ impl fmt::Display for InputError {
             false => format!("  {line}"),
         };
         let what = lines.map(indented).collect::<Vec<_>>().join("\n");
-        write!(f, "{what}\n  where: {}\n  fix:   {}", self.place, self.fix)
+        let place = self.place.replace('\n', "\\n");
+        write!(f, "{what}\n  where: {place}\n  fix:   {}", self.fix)
     }
 }
 

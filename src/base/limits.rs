@@ -39,6 +39,10 @@ pub const JOBS: Limit =
 pub const MESH: Limit =
     Limit { most: 60_000_000, of: "numbers in one mesh file", fix: "use a coarser mesh" };
 
+/// Cells of a table: one takes up to 75 bytes.
+pub const CELLS: Limit =
+    Limit { most: 40_000_000, of: "cells in one table", fix: "give the nodes of one mesh" };
+
 /// Edges and nodes that are loaded, each counted once for every load: 100 bytes each.
 pub const LOADED: Limit = Limit {
     most: 10_000_000,

@@ -11,9 +11,13 @@ use super::settings::Settings;
 use super::syntax::{Comparison, Operation};
 use super::value::{Array, Value};
 
-/// Returns a finite number, or the overflow that Mathcad reports.
+/// Returns a finite number, or the overflow that Mathcad reports: no number comes of an overflow before.
 pub fn finite(result: f64) -> Result<f64, Cause> {
-    if result.is_finite() { Ok(result) } else { Err(Cause::Overflow { result }) }
+    match result {
+        result if result.is_finite() => Ok(result),
+        result if result.is_nan() => Err(Cause::Overflow { result: f64::INFINITY }),
+        result => Err(Cause::Overflow { result }),
+    }
 }
 
 /// Returns what an operation makes of two numbers; 0/0 is as the worksheet's `zero-over-zero` says.

@@ -5,7 +5,7 @@
 
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function, Meaning, each, exactly, real};
+use super::function::{Builtin, FUNCTION, Function, Meaning, elementary, exactly};
 use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::Sheet;
@@ -778,7 +778,7 @@ impl Run<'_, '_, '_> {
         self.spend(steps)?;
         let name = builtin.name;
         Ok(match builtin.meaning {
-            Meaning::Elementary(function) => each(arguments, |x| real(function(x), x, name))?,
+            Meaning::Elementary(function, pole) => elementary(arguments, function, pole, name)?,
             Meaning::Numbers(function) => Value::Number(function(arguments, name)?),
             Meaning::One(function) => exactly(arguments).and_then(|[x]| function(x))?,
             Meaning::Two(function) => exactly(arguments).and_then(|[x, y]| function(x, y))?,

@@ -29,8 +29,9 @@ pub struct Builtin {
 
 /// What a function makes of its arguments.
 pub enum Meaning {
-    /// A number of a number, and of an array each number's. Its last bit need not be Mathcad's.
-    Elementary(fn(f64) -> f64),
+    /// A number of a number, and of an array each number's; where there is none, by the magnitude. Its last bit need
+    /// not be Mathcad's.
+    Elementary(fn(f64) -> f64, Option<f64>),
     /// A number of its arguments, which are numbers, and of its own name for messages.
     Numbers(fn(&[Value], &'static str) -> Result<f64, Cause>),
     /// A value of its one argument, or of two.
@@ -60,15 +61,18 @@ static BUILTINS: [Builtin; 46] = {
         Builtin { name, cost, meaning }
     }
     const fn elementary(name: &'static str, function: fn(f64) -> f64) -> Builtin {
-        row(name, |x| (size(x), (1 + FUNCTION) * size(x) as u64), Elementary(function))
+        with_pole(name, function, None)
+    }
+    const fn with_pole(name: &'static str, function: fn(f64) -> f64, pole: Option<f64>) -> Builtin {
+        row(name, |x| (size(x), (1 + FUNCTION) * size(x) as u64), Elementary(function, pole))
     }
     [
         elementary("sin", x87::sin),
         elementary("cos", x87::cos),
         elementary("tan", x87::tan),
-        elementary("cot", |x| 1.0 / x87::tan(x)),
+        with_pole("cot", |x| 1.0 / x87::tan(x), Some(0.0)),
         elementary("sec", |x| 1.0 / x87::cos(x)),
-        elementary("csc", |x| 1.0 / x87::sin(x)),
+        with_pole("csc", |x| 1.0 / x87::sin(x), Some(0.0)),
         elementary("asin", f64::asin),
         elementary("acos", f64::acos),
         elementary("atan", f64::atan),
@@ -77,9 +81,9 @@ static BUILTINS: [Builtin; 46] = {
         elementary("tanh", f64::tanh),
         elementary("asinh", f64::asinh),
         elementary("acosh", f64::acosh),
-        elementary("atanh", f64::atanh),
+        with_pole("atanh", f64::atanh, Some(1.0)),
         elementary("exp", f64::exp),
-        elementary("ln", f64::ln),
+        with_pole("ln", f64::ln, Some(0.0)),
         elementary("floor", f64::floor),
         elementary("ceil", f64::ceil),
         elementary("trunc", f64::trunc),
@@ -88,7 +92,7 @@ static BUILTINS: [Builtin; 46] = {
         // log(x) to the base of 10, or log(x, b).
         row("log", free, Numbers(log)),
         // mod(x, y), the remainder, with the sign of x.
-        row("mod", free, Numbers(|xy, name| numbers(xy).and_then(|[x, y]| real(x % y, y, name)))),
+        row("mod", free, Numbers(remainder)),
         // So many products, at most.
         row("factorial", |_| (0, 50), Numbers(factorial)),
         // identity(n), the n x n matrix.
@@ -233,11 +237,20 @@ fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
     Ok(numbers)
 }
 
-/// Returns a function's value of a number, or of each number of an array.
-pub fn each(
+/// Returns an elementary function's value of a number, or of each number of an array.
+pub fn elementary(
     arguments: &[Value],
-    function: impl Fn(f64) -> Result<f64, Cause>,
+    function: fn(f64) -> f64,
+    pole: Option<f64>,
+    name: &'static str,
 ) -> Result<Value, Cause> {
+    each(arguments, |x| match pole == Some(x.abs()) {
+        true => Err(Cause::Domain { name: name.into(), argument: x }),
+        false => real(function(x), name),
+    })
+}
+
+fn each(arguments: &[Value], function: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
     let [argument] = exactly(arguments)?;
     match argument {
         Value::Number(x) => function(*x).map(Value::Number),
@@ -246,17 +259,9 @@ pub fn each(
     }
 }
 
-/// Returns a function's result, if it is a number that is real.
-pub fn real(result: f64, argument: f64, name: &'static str) -> Result<f64, Cause> {
-    if result.is_nan() {
-        Err(Cause::Complex { name: name.into() })
-    } else if result.is_infinite() && name == "exp" {
-        Err(Cause::Overflow { result })
-    } else if result.is_infinite() {
-        Err(Cause::Domain { name: name.into(), argument })
-    } else {
-        Ok(result)
-    }
+/// Returns a function's result at a point where it has one, if that is a number that is real.
+fn real(result: f64, name: &'static str) -> Result<f64, Cause> {
+    if result.is_nan() { Err(Cause::Complex { name: name.into() }) } else { finite(result) }
 }
 
 /// Returns the number of rows and columns: none of what is no array.
@@ -309,33 +314,59 @@ fn round(arguments: &[Value]) -> Result<Value, Cause> {
             (&arguments[..1], numbers(&arguments[1..])?)
         }
     };
+    if places.fract() != 0.0 {
+        return Err(kind("a whole number of places", &arguments[1]));
+    }
     let scale = 10_f64.powf(places);
-    each(x, |x| finite((x * scale).round() / scale))
+    each(x, |x| match x * scale {
+        _ if scale == 0.0 => Ok(0.0),
+        scaled if scaled.is_finite() => finite(scaled.round() / scale),
+        // All its digits stand before that place.
+        _ => Ok(x),
+    })
 }
 
 fn root(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
     if arguments.len() == 1 {
-        return numbers(arguments).and_then(|[x]| real(x.sqrt(), x, name));
+        return numbers(arguments).and_then(|[x]| real(x.sqrt(), name));
     }
     let [n, x] = numbers(arguments)?;
+    if n == 0.0 || x == 0.0 && n < 0.0 {
+        return Err(Cause::Singularity { numerator: 1.0, denominator: 0.0 });
+    }
     let root = match x < 0.0 && n % 2.0 != 0.0 && n.fract() == 0.0 {
         true => -(-x).powf(1.0 / n),
         false => x.powf(1.0 / n),
     };
     // The nearest whole number, where it is the root.
     let whole = root.round();
-    real(if whole.powf(n) == x { whole } else { root }, x, name)
+    real(if whole.powf(n) == x { whole } else { root }, name)
 }
 
 fn log(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+    let ln = |x: f64| match x {
+        0.0 => Err(Cause::Domain { name: name.into(), argument: x }),
+        x => real(x.ln(), name),
+    };
     if arguments.len() == 1 {
-        return numbers(arguments).and_then(|[x]| real(x.log10(), x, name));
+        return numbers(arguments).and_then(|[x]| ln(x).map(|_| x.log10()));
     }
     let [x, base] = numbers(arguments)?;
-    let log = x.ln() / base.ln();
+    let (numerator, denominator) = (ln(x)?, ln(base)?);
+    if denominator == 0.0 {
+        return Err(Cause::Singularity { numerator, denominator });
+    }
+    let log = numerator / denominator;
     // The nearest whole number, where it is the logarithm.
     let whole = log.round();
-    real(if base.powf(whole) == x { whole } else { log }, x, name)
+    Ok(if base.powf(whole) == x { whole } else { log })
+}
+
+fn remainder(arguments: &[Value], _: &'static str) -> Result<f64, Cause> {
+    match numbers(arguments)? {
+        [x, 0.0] => Err(Cause::Singularity { numerator: x, denominator: 0.0 }),
+        [x, y] => Ok(x % y),
+    }
 }
 
 fn factorial(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {

@@ -68,6 +68,7 @@ mod x87;
 
 pub use edit::Edit;
 pub use failure::{Cause, Failure, ParseError};
+pub use lexer::name_length;
 pub use listing::{Line, Listing};
 pub use observe::Recorder;
 pub use run::{Runner, evaluate};

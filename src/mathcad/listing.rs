@@ -44,16 +44,22 @@ pub struct Listing {
 /// The line between the two blocks of `try`.
 pub const ON_ERROR: &str = "on error";
 
-/// Marks the names that statements read or call; the variable of a series is its own.
-fn uses(block: &[Statement], used: &mut [bool]) {
-    fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut [bool]) {
+/// Returns a line that has no string without its remark.
+fn without_remark(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default()
+}
+
+/// Hands over the names that statements read or, as is said of each, call; the variable of a series is its own.
+fn uses(block: &[Statement], used: &mut dyn FnMut(Slot, bool)) {
+    fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, bool)) {
         use Kind::*;
         let depth = own.len();
         match &expr.kind {
-            Read(reference) => used[reference.name] |= !own.contains(&reference.name),
-            Call(name, _) => used[*name] = true,
+            Read(reference) if own.contains(&reference.name) => {}
+            Read(reference) => used(reference.name, false),
+            Call(name, _) => used(*name, true),
             Series { function, name, .. } => {
-                used[*function] = true;
+                used(*function, true);
                 own.push(*name);
             }
             Entry { .. } | Array { .. } => {}
@@ -75,7 +81,7 @@ fn uses(block: &[Statement], used: &mut [bool]) {
 fn unchanging(program: &[Statement], parameters: &[Slot], names: usize) -> usize {
     let is_unchanging = |statement: &&Statement| {
         let mut used = vec![false; names];
-        uses(std::slice::from_ref(*statement), &mut used);
+        uses(std::slice::from_ref(*statement), &mut |slot, _| used[slot] = true);
         survey(std::slice::from_ref(*statement), &mut |slot| used[slot] = true);
         matches!(statement.step, Step::For { .. } | Step::Assign { .. })
             && statement.guard.is_none()
@@ -135,7 +141,7 @@ impl Listing {
         limits: &Limits,
     ) -> Result<Self, ParseError> {
         let numbered = lines.iter().zip(before + 1..);
-        let lines = numbered.filter(|(text, _)| !text.starts_with('#') && !text.trim().is_empty());
+        let lines = numbered.filter(|(text, _)| !without_remark(text).trim().is_empty());
         let lines =
             lines.enumerate().map(|(k, (text, in_file))| Line::new(k + 1, in_file, text)).collect();
         Self::from_lines(name, lines, limits)
@@ -191,18 +197,25 @@ impl Listing {
     /// Returns the names that some of its statements read or call.
     pub(super) fn names_of(&self, block: &[Statement]) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
-        uses(block, &mut used);
+        uses(block, &mut |slot, _| used[slot] = true);
         let used = used.iter().enumerate().filter(|(_, used)| **used);
         used.map(|(slot, _)| self.names.name(slot)).collect()
     }
 
-    /// Returns the lines, those that start with `#` left out.
+    /// Returns whether the program calls a function of that name.
+    pub(super) fn calls(&self, name: &str) -> bool {
+        let (slot, mut is_called) = (self.names.find(name), false);
+        uses(&self.program, &mut |used, called| is_called |= called && Some(used) == slot);
+        is_called
+    }
+
+    /// Returns the lines, those that are a remark alone left out.
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 }
 
-/// Writes the listing's text, the lines that start with `#` left out.
+/// Writes the listing's text, the lines that are a remark alone left out.
 impl fmt::Display for Listing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.lines.iter().try_for_each(|line| writeln!(f, "{line}"))
@@ -280,7 +293,10 @@ impl Reader<'_> {
                 // Between the two blocks of `try`.
                 if k > 0 {
                     let other = self.lines.get(self.next);
-                    if !other.is_some_and(|other| other.level == level && other.text == ON_ERROR) {
+                    let is_between = |other: &Line| {
+                        other.level == level && without_remark(&other.text).trim_end() == ON_ERROR
+                    };
+                    if !other.is_some_and(is_between) {
                         let last = &self.lines[self.next - 1];
                         let message =
                             format!("expected a line `{ON_ERROR}` below, beside its `try`");

@@ -227,8 +227,8 @@ impl<'t> Parser<'t> {
         let mut depth = 0;
         let behind = self.tokens[self.next..].iter().skip(1).map(|(token, _)| {
             match token {
-                Token::Sign("(" | "[" | "⟨") => depth += 1,
-                Token::Sign(")" | "]" | "⟩") => depth -= 1,
+                Token::Sign("(" | "[" | "⟨" | "{") => depth += 1,
+                Token::Sign(")" | "]" | "⟩" | "}") => depth -= 1,
                 _ => {}
             }
             (token, depth)

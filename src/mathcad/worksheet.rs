@@ -1,7 +1,6 @@
 //! Executing a worksheet region by region, beside the results that Mathcad saved.
 
 use std::cell::Cell;
-use std::cmp::Ordering::Equal;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -11,7 +10,7 @@ use super::listing::Listing;
 use super::matrices;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::unsupported;
+use super::unsupported::{self, is_function};
 use super::value::{Array, Value};
 use super::words;
 use super::xmcd::document::{Content, Region, Saved, Worksheet};
@@ -177,7 +176,7 @@ impl Execution<'_> {
         let mut verdict = verdict(&outcome, region.saved.as_ref());
         if let (Verdict::Differs { .. }, true) = (&verdict, self.eigen.get())
             && let (Outcome::Value(ours), Some(Saved::Value(saved))) = (&outcome, &region.saved)
-            && digits(&unordered(saved), &unordered(ours)) >= Some(LEAST_DIGITS)
+            && agree_unordered(saved, ours)
         {
             let construct =
                 "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
@@ -274,7 +273,9 @@ impl Execution<'_> {
         let unknown =
             |of: &&str| *of != name && !self.sheet.has(of) && Function::builtin(of).is_none();
         if let Some(of) = program.free_names().into_iter().find(unknown) {
-            let outcome = match unsupported::construct(of) {
+            // A unit is no function.
+            let construct = unsupported::construct(of);
+            let outcome = match construct.filter(|_| is_function(of) || !program.calls(of)) {
                 Some(construct) => Outcome::Unsupported(construct),
                 None => Outcome::Failed(Cause::Undefined { name: of.into() }),
             };
@@ -494,22 +495,37 @@ fn spelled(saved: &Saved) -> String {
     }
 }
 
-/// Returns the columns of an array, or the entries of one column, in ascending order, each column with
-/// its first entry that is not 0 positive: what Mathcad chooses of eigenvectors is gone.
-fn unordered(value: &Value) -> Value {
-    let Value::Array(array) = value else { return value.clone() };
-    let (rows, cols) = value.size();
-    let signed = |column: Vec<f64>| {
-        let first = column.iter().find(|x| x.abs() > 1e-8);
-        let sign = first.map_or(1.0, |x| x.signum());
-        column.into_iter().map(|x| sign * x).collect::<Vec<_>>()
+/// Returns whether arrays agree but for what Mathcad chooses of eigenvectors: the order and the signs of the columns,
+/// or of one column the order of its entries. Each is paired with the nearest that is left.
+fn agree_unordered(saved: &Value, ours: &Value) -> bool {
+    let (Value::Array(saved), Value::Array(ours)) = (saved, ours) else { return false };
+    let (rows, cols) = saved.size();
+    if ours.size() != (rows, cols) {
+        return false;
+    }
+    let columns = |array: &Array| -> Vec<Vec<f64>> {
+        let column = |j| (0..rows).map(|i| *array.at(i, j)).collect();
+        if cols == 1 {
+            array.entries().map(|x| vec![*x]).collect()
+        } else {
+            (0..cols).map(column).collect()
+        }
     };
-    let mut columns: Vec<Vec<f64>> = match cols {
-        1 => array.entries().map(|x| vec![*x]).collect(),
-        _ => (0..cols).map(|j| signed((0..rows).map(|i| *array.at(i, j)).collect())).collect(),
+    let signs: &[f64] = if cols == 1 { &[1.0] } else { &[1.0, -1.0] };
+    let distance = |a: &[f64], b: &[f64]| {
+        let of =
+            |sign: f64| a.iter().zip(b).fold(0.0, |d: f64, (x, y)| d.max((x - sign * y).abs()));
+        signs.iter().map(|sign| of(*sign)).fold(f64::INFINITY, f64::min)
     };
-    columns.sort_by(|a, b| a.iter().zip(b).fold(Equal, |order, (x, y)| order.then(x.total_cmp(y))));
-    Array::from_rows(columns.first().map_or(1, Vec::len), columns.concat()).into()
+    let largest = saved.entries().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let mut left = columns(ours);
+    columns(saved).iter().all(|column| {
+        let by_distance = |a: &usize, b: &usize| {
+            distance(column, &left[*a]).total_cmp(&distance(column, &left[*b]))
+        };
+        let nearest = (0..left.len()).min_by(by_distance).expect("one is left for each");
+        distance(column, &left.swap_remove(nearest)) <= largest * 0.1_f64.powi(LEAST_DIGITS as i32)
+    })
 }
 
 /// Returns how many digits the values have in common, `u32::MAX` for the same bits; none if they

@@ -6,7 +6,9 @@ use crate::mirror::{Change, Pairs, Reading, Worksheet};
 use base::choices;
 use mathcad::array::{Column, Table};
 use mathcad::failure::Fallible;
-use mathcad::{Array, Cause, Edit, Failure, Limits, Listing, Outcome, Recorder, Settings, Value};
+use mathcad::{
+    Array, Cause, Edit, Failure, Limits, Listing, Outcome, Recorder, Settings, Value, name_length,
+};
 use problem::element::{self, Plane};
 
 choices! {
@@ -40,8 +42,9 @@ impl Which {
 
     /// Returns the listing that a text, or an edit of a listing, begins with.
     pub fn from_text(text: &str) -> Option<Which> {
-        let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty())?;
-        Which::ALL.iter().copied().find(|w| header.trim_start().starts_with(w.name()))
+        let mut lines = text.lines().map(str::trim_start);
+        let header = lines.find(|line| !line.starts_with('#') && !line.is_empty())?;
+        header[..name_length(header)].parse().ok()
     }
 
     /// Returns the listing under a reading: the text of record with the reading's edits.

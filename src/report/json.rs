@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::numbers::reason;
 use base::files::json::{FORMAT, VERSION};
 use base::plain::controls_a_terminal;
-use paper::mirror::Pairs;
+use paper::door::Call;
 use problem::scene::{Scene, Units};
 
 /// A document that a command prints or writes: its own value, and around it what it says of itself.
@@ -148,12 +148,13 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
     }
 }
 
-/// Returns what one call of `c_cnt` found: of each contact node the `elem` number of its target edge (0 = none), the
-/// vertical distance from its target line, length, and whether it is in contact, 1 or 0; by node mate, weight, mate,
-/// weight.
-pub fn found(pairs: &Pairs<f64>) -> Value {
+/// Returns what one call of `c_cnt` found: of each contact node its number, the `elem` number of its target edge (0 =
+/// none), the vertical distance from its target line, length, and whether it is in contact, 1 or 0; by node mate,
+/// weight, mate, weight.
+pub fn found(Call { sheet, pairs, .. }: &Call) -> Value {
     let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
     json!({
+        "cnt": sheet.cnt.as_slice(),
         "ct": pairs.ct.as_slice(),
         "yt": pairs.yt.as_slice(),
         "dy": pairs.dy.as_slice(),

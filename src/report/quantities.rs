@@ -1,6 +1,5 @@
 //! The quantities of a result as columns of a table and as arrays of numbers, and the page of all.
 
-use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::model::{Cell, Table};
@@ -28,26 +27,6 @@ impl Array {
     /// Collects the values of a quantity.
     pub fn new(name: &str, unit: &str, components: usize, values: Vec<f64>) -> Self {
         Array { name: name.into(), unit: unit.into(), components, values }
-    }
-}
-
-/// A measured value, as it stands in a file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum MeasuredValue {
-    /// One number.
-    Scalar(f64),
-    /// The components of a vector or tensor.
-    Components(Vec<f64>),
-}
-
-impl MeasuredValue {
-    /// Returns its numbers.
-    pub fn numbers(&self) -> Vec<f64> {
-        match self {
-            MeasuredValue::Scalar(x) => vec![*x],
-            MeasuredValue::Components(x) => x.clone(),
-        }
     }
 }
 
@@ -152,19 +131,6 @@ pub fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Arra
         symbols => (symbols.len().max(1), values),
     };
     Array::new(&quantity.array(), unit, components, values)
-}
-
-/// Returns the measured values of a triangle by their fields, without those that are not known.
-pub fn measured(values: &TriangleValues) -> Vec<(&'static str, MeasuredValue)> {
-    let known = |quantity: &Quantity<TriangleValues>| {
-        let numbers = (quantity.value)(values).numbers()?;
-        let value = match numbers[..] {
-            [x] => MeasuredValue::Scalar(x),
-            _ => MeasuredValue::Components(numbers),
-        };
-        Some((quantity.name, value))
-    };
-    TriangleValues::QUANTITIES.iter().filter_map(known).collect()
 }
 
 /// Returns what a page needs to know of the quantities, by the place where they live.

@@ -4,8 +4,8 @@ use clap::Subcommand;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::{
-    audit, calculix, document, extremes, guide, lesson, listing, scene, snapshot, solve, sweep,
-    trade, worksheet,
+    audit, document, extremes, field, guide, lesson, listing, scene, snapshot, solve, sweep, trade,
+    worksheet,
 };
 use base::exit::ExitStatus;
 use engine::error::Result;
@@ -22,7 +22,7 @@ pub enum Command {
     Audit(audit::command::Args),
     Report(document::command::Args),
     Lesson(lesson::command::Args),
-    Compare(calculix::command::Args),
+    Compare(field::command::Args),
     #[command(subcommand)]
     Listing(listing::Command),
     #[command(subcommand)]
@@ -49,7 +49,7 @@ impl Command {
             Command::Audit(args) => audit::command::run(&args).map(done),
             Command::Report(args) => document::command::run(&args).map(done),
             Command::Lesson(args) => lesson::command::run(&args).map(done),
-            Command::Compare(args) => calculix::command::run(&args),
+            Command::Compare(args) => field::command::run(&args),
             Command::Listing(command) => listing::run(&command),
             Command::Mathcad(command) => worksheet::run(&command),
             Command::Snapshot(command) => snapshot::command::run(&command),

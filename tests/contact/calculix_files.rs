@@ -3,9 +3,8 @@
 use plane_contact::engine::{Constraint, Motion};
 use plane_contact::problem::model::{Dof, NodeId};
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::calculix::Equation;
 use plane_contact::studies::calculix::deck::field;
-use plane_contact::studies::calculix::results::float;
+use plane_contact::studies::calculix::{Equation, float};
 
 /// Terms (number of the node, direction, coefficient) and the constant.
 type Plain = (Vec<(usize, usize, f64)>, f64);

@@ -14,11 +14,9 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::model::{Model, NodeId, Restraint};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::model::{Block, Cell};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::FINDINGS;
 use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
-use plane_contact::studies::audit::range::{Parameter, ParameterValue};
 use plane_contact::studies::benchmark::Hertz;
 use testing::bodies::Writing;
 use testing::drawn::{Drawn, Kind, Support, scenes};
@@ -229,7 +227,6 @@ fn where_it_does_not_hold_the_prices_say_so() {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,
-        range: &[],
     };
     let report = studies::audit::prices::table::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265 %"), "{report}");
@@ -281,48 +278,4 @@ fn on_a_target_that_is_held_the_load_passes() {
     };
     assert_near("transmitted", transmitted, 1.0, 1.0, &CORRECTED);
     assert_eq!(studies::audit::prices::table::of_weight(&prices, Weight::Fatal), ["K1"]);
-}
-
-/// Over a range each fault has its least and its greatest cost, with the place; where the corrected algorithm
-/// is not at the solution a place is left out.
-#[test]
-fn over_a_range_each_fault_has_its_least_and_its_greatest_cost() {
-    let case = |scene: Scene| Arc::new(Case::new(scene));
-    let roof = scenes(10, 340).nth(339).expect("a scene");
-    let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
-    let [fig1, blocks] = ["fig1", "two-blocks"].map(|name| case(Scene::open(name).unwrap()));
-    let at = |value| ParameterValue { parameter: Parameter::Radius, value, own: value == 1.0 };
-    let places = vec![(at(1.0), fig1), (at(2.0), blocks), (at(3.0), case(roof.build().unwrap()))];
-    let alone = prices::on(&places[0].1, &|| ()).expect("prices");
-    let range = prices::over_range(&places, &|| ());
-    assert_eq!((range.len(), prices::runs_over(&places)), (2, 2 * prices::runs()));
-    let document = studies::audit::prices::table::Document {
-        reading: Reading::default(),
-        prices: &alone,
-        repairs: &[],
-        range: &range,
-    };
-    let report = studies::audit::prices::table::report(&document, &places[0].1.scene);
-    let over_range = report.blocks.iter().find_map(|block| match block {
-        Block::Table { title, table } if title.starts_with("Over 2 places") => Some(table),
-        _ => None,
-    });
-    let over_range = over_range.expect("a table");
-    let row = |id: &str| {
-        let rows = over_range.cells.iter();
-        let mut rows = rows.map(|row| row.iter().map(Cell::to_string).collect::<Vec<_>>());
-        rows.find(|row| row[0] == id).expect(id)
-    };
-    let (own, blocks) =
-        ("the paper's example", "radius of the strand at the same clearance, mm: 2");
-    // The middle node of two-blocks lies over the node that two edges share.
-    assert_eq!(row("K2")[2..], ["41.58", own, "decided by rounding", blocks]);
-    assert_eq!(row("C3")[2..], ["0", blocks, "3.51", own]);
-    assert_eq!(row("K1")[2..], ["stops", own, "stops", own]);
-    assert_eq!(row("C2")[2..], ["0", own, "0", own]);
-    let text = report.text(usize::MAX);
-    assert!(
-        text.contains("Left out: radius of the strand at the same clearance, mm: 3: "),
-        "{text}"
-    );
 }

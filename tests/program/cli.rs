@@ -482,7 +482,7 @@ fn no_output_replaces_an_input() {
     for (line, file) in [
         #[cfg(unix)]
         ("snapshot verify s.json --report t.json", "t.json"),
-        ("report my --no-audit --out my/scene.json", "my/scene.json"),
+        ("report my --out my/scene.json", "my/scene.json"),
         ("lesson ./my/../my/scene.json --out my/scene.json", "my/scene.json"),
         ("scene export my --out my/scene.json", "my/scene.json"),
         ("mathcad export my --out my/scene.json", "my/scene.json"),

@@ -18,7 +18,6 @@ fn square() -> Drawing {
         region_names: ["block", "stamp"].map(String::from).to_vec(),
         length_unit: "mm".into(),
         contact: None,
-        search: None,
     }
 }
 

@@ -91,8 +91,7 @@ fn what_a_program_prints_without_end_is_not_kept() {
     std::fs::write(&ccx, script).expect("it is written");
     std::fs::set_permissions(&ccx, std::fs::Permissions::from_mode(0o755)).expect("executable");
     for ccx in ["yes", "./ccx"] {
-        let line =
-            format!("ulimit -v 1000000; $P compare fig1 --with calculix --ccx {ccx} --out o");
+        let line = format!("ulimit -v 1000000; $P compare fig1 --with calculix --ccx {ccx}");
         let words =
             format!("{ccx} was ended, as its output cannot be read: it has more than 16777216");
         refused(folder.path(), &line, &[&words, "name its program"]);

@@ -193,29 +193,16 @@ fn the_report_of_strand_is_small_and_fast() {
     keep_picture(folder.path(), "report-1440-light.png");
 }
 
-/// The page of a mesh that a canvas's own paths, or SVG, would take seconds to draw.
 #[test]
-fn a_report_shows_100_352_triangles() {
-    let Some(modules) = browser() else { return };
-    let folder = TempDir::new().expect("a folder");
-    made(folder.path(), "mesh", &["scene", "mesh", "blocks", "--upper", "224", "--lower", "224"]);
-    let args = ["report", "out/mesh-blocks", "--variant", "unilateral", "--no-audit"];
-    let page = made(folder.path(), "report.html", &args);
-    in_browser(&modules, "large.cjs", &[&page, "100352"]);
-}
-
-#[test]
-fn a_report_has_hertz_charts_and_calculix_beside_the_runs() {
+fn a_report_has_hertz_and_calculix_beside_the_runs() {
     let Some(modules) = browser() else { return };
     let folder = TempDir::new().expect("a folder");
     let report = |kind: &str, args: &[&str]| {
-        let args = [&["report", "--no-audit"], args].concat();
+        let args = [&["report"], args].concat();
         in_browser(&modules, "beside.cjs", &[&made(folder.path(), "report.html", &args), kind]);
     };
-    made(folder.path(), "mesh", &["scene", "mesh", "hertz"]);
-    report("hertz", &["out/mesh-hertz", "--variant", "unilateral"]);
-    made(folder.path(), "trade", &["trade", "two-blocks", "--only", "solver", "--out", "charts"]);
-    report("charts", &["two-blocks", "--charts", "charts"]);
+    made(folder.path(), "mesh", &["scene", "mesh", "hertz", "--size", "10"]);
+    report("hertz", &["out/mesh-hertz"]);
     let mut ccx = Command::new("sh");
     ccx.args(["-c", "command -v ccx"]);
     if is_there(ccx, "REQUIRE_CCX") {
@@ -229,7 +216,7 @@ fn a_page_is_the_same_on_every_run_and_has_nothing_from_outside() {
     let page = |name, args: &[&str]| {
         std::fs::read_to_string(made(folder.path(), name, args)).expect("UTF-8")
     };
-    for args in [&["lesson"][..], &["report", "fig1", "--no-audit"]] {
+    for args in [&["lesson"][..], &["report", "fig1"]] {
         let text = page("a.html", args);
         assert_eq!(text, page("b.html", args));
         let text = text.replace("http://www.w3.org/2000/svg", "the name of SVG");
@@ -244,7 +231,7 @@ fn a_page_is_the_same_on_every_run_and_has_nothing_from_outside() {
 #[test]
 fn a_page_lets_in_no_other_script() {
     let folder = TempDir::new().expect("a folder");
-    for args in [&["lesson", "two-blocks"][..], &["report", "two-blocks", "--no-audit"]] {
+    for args in [&["lesson", "two-blocks"][..], &["report", "two-blocks"]] {
         let page = std::fs::read_to_string(made(folder.path(), "a.html", args)).expect("UTF-8");
         let between = |start: &str, end: &str| {
             let (_, rest) = page.split_once(start).expect(start);
@@ -280,7 +267,7 @@ fn texts_of_a_scene_are_escaped() {
         scene.lines().filter(|line| !line.contains("figure 1")).collect::<Vec<_>>().join("\n");
     std::fs::write(folder.path().join("scene.json"), own).expect("a file");
     let page = made(folder.path(), "lesson.html", &["lesson", "scene.json"]);
-    let report = made(folder.path(), "report.html", &["report", "scene.json", "--no-audit"]);
+    let report = made(folder.path(), "report.html", &["report", "scene.json"]);
     let texts = [&page, &report].map(|page| std::fs::read_to_string(page).expect("UTF-8"));
     for text in &texts {
         assert_eq!(text.matches("</script>").count(), 2, "those of the page itself");

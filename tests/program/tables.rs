@@ -8,7 +8,9 @@ use std::sync::LazyLock;
 use nalgebra::DVector;
 use plane_contact::engine::estimates::Estimates;
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
-use plane_contact::engine::{Assessment, Solution, SolutionDistance, Stiffness, solve, summaries};
+use plane_contact::engine::{
+    Assessment, Solution, SolutionDistance, Stiffness, distance, implied, solve, summaries,
+};
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::problem::scene::Refined;
@@ -16,7 +18,7 @@ use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::prices::{Compared, Outcome, Price, Weight};
 use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
-use plane_contact::studies::calculix::{Comparison, Contact, Fields, Pair, Part, RECORDED, run};
+use plane_contact::studies::calculix::{Pair, RECORDED, run};
 use plane_contact::studies::trade::{self, Varied};
 use plane_contact::{Request, Scene};
 
@@ -327,26 +329,21 @@ fn calculix() {
         ("`unilateral`, `mortar`", mortar, Friction::STICK),
     ];
     let row = |(name, ours, friction): (&str, &Solution, Friction)| {
-        let contact = Contact::Pair(Pair::new(&STRAND.model, None, friction));
-        let part = Part { contact, share: 1.0 };
-        let theirs = run("ccx", &STRAND, &STRAND.model, &[part]).expect("ccx runs").fields;
-        let comparison = Comparison::new(&STRAND.model, Fields::from_solution(ours), theirs);
+        let pair = Pair::new(&STRAND.model, None, friction);
+        let ran = run("ccx", &STRAND.title, &STRAND.model, &[pair.into()]).expect("ccx runs");
+        let theirs = implied(ours, ran.u).expect("surfaces of bodies").solution;
+        let apart = distance(ours, &theirs);
         let recorded = RECORDED.iter().all(|(name, stress)| {
-            let body = comparison.bodies.iter().find(|body| body.name == *name);
-            (body.expect(name).calculix - stress).abs() < 0.05
+            let body = apart.bodies.iter().find(|body| body.name == *name);
+            (body.expect(name).reference - stress).abs() < 0.05
         });
-        assert!(
-            recorded || friction != Friction::STICK,
-            "calculix::RECORDED: {:?}",
-            comparison.bodies
-        );
-        let stresses = comparison.bodies.iter().map(|body| {
-            let apart = body.relative().expect("CalculiX has stress in both bodies").abs();
-            format!("{:.1} / {:.1}: {}", body.ours, body.calculix, percent(apart, 1))
+        assert!(recorded || friction != Friction::STICK, "calculix::RECORDED: {apart:?}");
+        let stresses = apart.bodies.iter().map(|body| {
+            let relative = percent(body.relative.abs(), 1);
+            format!("{:.1} / {:.1}: {relative}", body.von_mises_stress, body.reference)
         });
-        let displacement = comparison.displacement.largest.relative.expect("displacements");
         let stresses = stresses.collect::<Vec<_>>().join(" | ");
-        format!("{name} | {} | {stresses}", percent(displacement, 1))
+        format!("{name} | {} | {stresses}", percent(apart.displacement_relative, 1))
     };
     let table = markdown(
         "variant | displacement | von Mises stress in the block, here / CalculiX, MPa | in the stamp",

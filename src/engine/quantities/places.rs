@@ -96,7 +96,7 @@ impl SupportForce {
     }
 }
 
-/// The state of a triangle, by this program or by another one; what is not known is NaN.
+/// The state of a triangle.
 pub struct TriangleState {
     /// sigma_x, sigma_y, tau_xy, sigma_z.
     pub sigma: [f64; 4],
@@ -123,26 +123,9 @@ impl TriangleState {
             mesh_error,
         }
     }
-
-    /// Returns the state of a triangle of which only the stresses are known: sigma_x, sigma_y,
-    /// tau_xy, sigma_z, and the von Mises stress.
-    pub fn stressed(sigma: [f64; 4], von_mises_stress: f64) -> Self {
-        TriangleState {
-            sigma,
-            epsilon: [f64::NAN; 4],
-            von_mises_stress,
-            von_mises_strain: f64::NAN,
-            mesh_error: None,
-        }
-    }
 }
 
 impl TriangleValues {
-    /// Collects the values of a triangle from its state.
-    pub fn new(state: &TriangleState) -> Self {
-        TriangleValues::compute(state)
-    }
-
     /// Returns the values of each triangle of a solution; `mesh_error` has the error of the mesh in
     /// each, where that is estimated.
     pub fn all(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<Self> {

@@ -215,6 +215,23 @@ fn eigenvalues_agree_in_any_order() {
     let half = 0.5_f64.sqrt();
     assert_eq!(saved("eigenvecs", &numbers(2, 2, &[half, half, -1.0, 0.0])), unsupported(order));
     assert!(matches!(saved("eigenvals", &numbers(2, 1, &[2.0, 4.0])), Verdict::Differs { .. }));
+    // Columns of which rounding decides the order, and entries that are 0 but for rounding.
+    let equal = numbers(2, 2, &[1.0, 0.3, 0.3, 1.0]);
+    let (more, zero) = (f64::from_bits(half.to_bits() + 1), 1e-17);
+    for saved in [[half, more, -more, half], [more, half, half, -more], [more, half, -half, more]] {
+        let text = format!("<result>{}</result>", numbers(2, 2, &saved));
+        let checked = executed(&[format!("<eval>{}{text}</eval>", call("eigenvecs", &equal))]);
+        assert_eq!(checked[0].verdict, unsupported(order), "{saved:?}");
+    }
+    let diagonal = numbers(2, 2, &[3.0, 0.0, 0.0, 2.0]);
+    let text = format!("<result>{}</result>", numbers(2, 2, &[1.0, zero, -zero, -1.0]));
+    let checked = executed(&[format!("<eval>{}{text}</eval>", call("eigenvecs", &diagonal))]);
+    assert_eq!(checked[0].verdict, unsupported(order));
+    // Two columns are not the same one twice.
+    let twice = numbers(2, 2, &[half, half, half, half]);
+    let checked =
+        executed(&[format!("<eval>{}<result>{twice}</result></eval>", call("eigenvecs", &equal))]);
+    assert!(matches!(checked[0].verdict, Verdict::Differs { .. }));
     // A rotation's are complex; those of a symmetric matrix are an orthogonal matrix.
     let rotation = numbers(2, 2, &[0.0, 1.0, -1.0, 0.0]);
     let checked = executed(&[eval(&call("eigenvals", &rotation), None)]);

@@ -36,6 +36,12 @@ File = Union[str, "os.PathLike[str]"]
 Scene = Union[File, Mapping[str, Any]]
 Result = dict[str, Any]
 
+#: pytest shows the caller's line, and leaves out those of this module.
+__tracebackhide__ = True
+
+#: The options that are paths: those of the caller, wherever the program runs.
+_PATHS = {"out", "csv", "with", "c_cnt", "km", "ccx"}
+
 
 class Error(Exception):
     """The program ended with another exit status than 0."""
@@ -85,22 +91,23 @@ def audit(scene: Scene = "strand", **options: Any) -> Result:
     return _json(["audit"], scene, options)
 
 
-def compare(scene: Scene, u: Any, **options: Any) -> Result:
+def compare(scene: Scene, u: Any, points: Any = None, **options: Any) -> Result:
     """Returns how far displacements ``u``, a row for each node, are from the contact solution.
 
+    Row k is that of node k + 1, or with ``points``, as a mesh of meshio has them, that of the node there.
     As ``plane-contact compare --with FIELD`` does, also where they differ: ``distance`` has the largest
     difference of a node and the distance in the energy norm, ``contact`` what the displacements imply of
     contact. With ``friction=0, geometry="initial"`` it is the distance from the reference solution.
     """
-    if np.iscomplexobj(u):
-        raise ValueError("u is complex, expected real displacements")
-    u = np.asarray(whole(u, "u"), dtype=float)
-    if u.ndim != 2 or u.shape[1] not in (2, 3):
-        raise ValueError(f"u has the shape {u.shape}, expected a row of two or three for each node")
-    rows = ((n, x, y) for n, (x, y) in enumerate(u[:, :2].tolist(), 1))
+    u = _rows(u, "u")
+    places = np.arange(1, len(u) + 1)[:, None] if points is None else _rows(points, "points")[:, :2]
+    if len(places) != len(u):
+        raise ValueError(f"u has {len(u)} rows, points {len(places)}")
+    columns = (["node"] if points is None else ["x", "y"]) + ["ux", "uy", "uz"][: u.shape[1]]
+    lines = (",".join(map(repr, [*at, *by])) for at, by in zip(places.tolist(), u.tolist()))
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "field.csv")
-        Path(path).write_text("node,ux,uy\n" + "".join(f"{n},{x!r},{y!r}\n" for n, x, y in rows))
+        Path(path).write_text("\n".join([",".join(columns), *lines, ""]), encoding="utf-8")
         try:
             return _json(["compare"], scene, {**options, "with": path})
         except Differs as differs:
@@ -110,9 +117,8 @@ def compare(scene: Scene, u: Any, **options: Any) -> Result:
 
 def record(scene: Scene, out: File, **options: Any) -> Result:
     """Records a snapshot of what the scene gives in the file ``out``, and returns it."""
-    path = os.path.abspath(out)
-    _run(["snapshot", "record"], scene, {**options, "out": path})
-    recorded: Result = arrays(json.loads(Path(path).read_text(encoding="utf-8")))
+    _run(["snapshot", "record"], scene, {**options, "out": out})
+    recorded: Result = arrays(json.loads(Path(out).read_text(encoding="utf-8")))
     return recorded
 
 
@@ -168,7 +174,7 @@ def _run(
             raise InputError("help is no option here: help(plane_contact), or plane-contact --help")
         if value is not None and value is not False:
             name = "--" + option.replace("_", "-")
-            words += [name] if value is True else [f"{name}={_word(value)}"]
+            words += [name] if value is True else [f"{name}={_word(option, value)}"]
     words += ["--", *files] if files else []
     with tempfile.TemporaryDirectory() as folder:
         text, place = None, None
@@ -187,6 +193,16 @@ def _run(
     return ran.stdout
 
 
+def _rows(values: Any, name: str) -> "np.ndarray[Any, Any]":
+    """Returns a row of two or three numbers for each node."""
+    if np.iscomplexobj(values):
+        raise ValueError(f"{name} is complex, expected real numbers")
+    rows = np.asarray(whole(values, name), dtype=float)
+    if rows.ndim != 2 or rows.shape[1] not in (2, 3):
+        raise ValueError(f"{name} has the shape {rows.shape}, expected a row of two or three for each node")
+    return rows
+
+
 def _plain(value: Any) -> Any:
     if isinstance(value, os.PathLike):
         return os.fspath(value)
@@ -196,7 +212,10 @@ def _plain(value: Any) -> Any:
     return array.tolist()
 
 
-def _word(value: Any) -> str:
+def _word(option: str, value: Any) -> str:
+    # A program's name alone is looked for on the PATH.
+    if option in _PATHS and (option != "ccx" or os.path.dirname(value)):
+        return str(os.path.abspath(value))
     if isinstance(value, Mapping):
         return ",".join(f"{key}={entry}" for key, entry in value.items())
     return ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
@@ -211,6 +230,5 @@ def _error(ran: "subprocess.CompletedProcess[str]") -> Error:
     if result is not None and "failure" in result:
         message = result["failure"]["message"]
     elif ran.returncode == 1 and result is not None:
-        names = [file["file"] for file in result.get("files", []) if not file["same"]]
-        message = f"{', '.join(names)}: not as recorded"
+        message = result.get("text", message)
     return _ERRORS.get(ran.returncode, Error)(message, arrays(result))

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -255,3 +256,150 @@ def test_it_is_typed():
     mypy = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.devnull, str(source)]
     checked = subprocess.run(mypy, capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout
+
+
+def plate(inner: str = "triangle", tag: int = 2, named: bool = True) -> dict:
+    """A plate of 3 x 3 squares, held below and pressed above; the square in the middle has its own kind and tag."""
+    points = np.array([[i, j, 0.0] for j in range(4) for i in range(4)])
+    corners = np.array([[n, n + 1, n + 5, n + 4] for n in (0, 1, 2, 4, 6, 8, 9, 10)])
+    halves = lambda squares: np.vstack([squares[:, [0, 1, 2]], squares[:, [0, 2, 3]]])
+    middle = np.array([[5, 6, 10, 9]])
+    cells = [
+        ("line", [[0, 1], [1, 2], [2, 3]]),
+        ("line", [[12, 13], [13, 14], [14, 15]]),
+        ("line", [[4, 0], [8, 4], [12, 8]]),
+        ("triangle", halves(corners)),
+        (inner, middle if inner == "quad" else halves(middle)),
+    ]
+    tags = [np.full(len(data), tag) for (_, data), tag in zip(cells, [1, 4, 3, 2, tag])]
+    names = {"bottom": [1, 1], "top": [4, 1], "left": [3, 1], "body": [2, 2]} if named else {}
+    mesh = meshio.Mesh(points, cells, cell_data={"gmsh:physical": tags}, field_data=names)
+    return {
+        "mesh": mesh,
+        "plane": "stress",
+        "materials": {"body" if named else "2": {"E": 1000, "nu": 0.3}},
+        "restraints": [{"on": 1, "fix": ["x", "y"]}],
+        "loads": [{"on": 4, "pressure": 1.0}],
+    }
+
+
+def as_file(scene: dict, folder: Path) -> dict:
+    """The same scene, its mesh written by meshio."""
+    scene["mesh"].cell_data["gmsh:geometrical"] = scene["mesh"].cell_data["gmsh:physical"]
+    scene["mesh"].write(folder / "plate.msh", file_format="gmsh22", binary=False)
+    return {**scene, "mesh": "plate.msh"}
+
+
+@pytest.mark.parametrize("load", [3, 4, "left", "top"])
+@pytest.mark.parametrize("named", [True, False])
+def test_a_mesh_of_meshio_has_the_tags_of_its_file(load, named, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    scene = plate(named=named)
+    scene["loads"][0]["on"] = load
+    if not named and isinstance(load, str):
+        for refused in (scene, as_file(scene, tmp_path)):
+            with pytest.raises(plane_contact.InputError, match=load):
+                plane_contact.solve(refused)
+        return
+    through, own = (plane_contact.solve(of) for of in (scene, as_file(scene, tmp_path)))
+    assert len(through["elements"]["von_mises_stress"]) == 18
+    np.testing.assert_array_equal(through["u"], own["u"])
+
+
+@pytest.mark.parametrize("inner, tag, words", [
+    ("quad", 2, "quad"), ("triangle", 9, "has no material"), ("triangle", 0, "has no material"), ("line3", 2, "line3"),
+])  # fmt: skip
+def test_no_cell_of_a_mesh_is_left_out(inner, tag, words):
+    scene = plate(inner if inner != "line3" else "triangle", tag)
+    if inner == "line3":
+        scene["mesh"].cells.append(meshio.CellBlock("line3", [[0, 1, 2]]))
+        scene["mesh"].cell_data["gmsh:physical"].append(np.array([1]))
+    with pytest.raises((plane_contact.InputError, ValueError), match=words):
+        plane_contact.solve(scene)
+
+
+def test_cell_sets_are_groups_beside_tags():
+    scene = plate()
+    whole = plane_contact.solve(scene)["u"]
+    mesh = scene["mesh"]
+    mesh.cell_sets = {"pressed": [None, np.array([0, 1, 2]), None, None, None]}
+    scene["loads"] = [{"on": "pressed", "pressure": 1.0}]
+    np.testing.assert_array_equal(plane_contact.solve(scene)["u"], whole)
+    del mesh.cell_data["gmsh:physical"]
+    everything = [None, None, None, np.arange(16), np.array([0])]
+    mesh.cell_sets |= {"body": everything, "bottom": [np.arange(3), None, None, None, None]}
+    scene["restraints"][0]["on"] = "bottom"
+    with pytest.raises(plane_contact.InputError, match="has no material"):
+        plane_contact.solve(scene)
+    everything[4] = np.array([True, True])
+    np.testing.assert_array_equal(plane_contact.solve(scene)["u"], whole)
+    mesh.cell_sets["two\nlines"] = everything
+    with pytest.raises(ValueError, match="line break"):
+        plane_contact.solve(scene)
+
+
+def test_paths_are_those_of_the_caller(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    scene = plate()
+    plane_contact.solve(scene, out=Path("results"))
+    assert Path("results/result.json").exists()
+    plane_contact.record(scene, "plate.json")
+    assert plane_contact.verify("plate.json")["same"] is True
+    with pytest.raises(plane_contact.InputError, match="here/ccx"):
+        plane_contact._json(["compare"], scene, {"ccx": "here/ccx"})
+    for command in ("solve", "audit", "compare", "snapshot record"):
+        help = [plane_contact.program(), *command.split(), "--help"]
+        text = subprocess.run(help, capture_output=True, encoding="utf-8").stdout
+        options = re.findall(r"--([a-z-]+) <[A-Z|]*(?:FILE|DIR|FIELD|PROGRAM)[A-Z|]*>", text)
+        assert {option.replace("-", "_") for option in options} <= plane_contact._PATHS, command
+
+
+def test_the_field_of_the_guide_s_example_is_one_of_meshio(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    scene = plate()
+    u = plane_contact.solve(scene)["u"]
+    described = {**as_file(scene, tmp_path), "contact": None}
+    Path("scene.json").write_text(json.dumps({k: v for k, v in described.items() if v}), encoding="utf-8")
+    page = (ROOT / "src/guide/scenes.md").read_text(encoding="utf-8")
+    example = page.split("```python\n")[1].split("```")[0]
+    assert len(example.splitlines()) == 4
+    mesh = meshio.Mesh(scene["mesh"].points, scene["mesh"].cells, {"displacement": np.column_stack([u, 0 * u[:, 0]])})
+    for factor, said in [(1.0, "True"), (1.1, "False")]:
+        mesh.point_data["displacement"] *= factor
+        mesh.write("field.vtu")
+        exec(example, {})
+        same, energy = capsys.readouterr().out.split()
+        assert same == said and float(energy) == pytest.approx(factor - 1, abs=1e-9)
+    order = np.random.default_rng(1).permutation(len(u))
+    compared = plane_contact.compare("scene.json", u[order], points=mesh.points[order])
+    assert compared["is_same"] and compared["distance"]["energy_relative"] < 1e-9
+    assert not plane_contact.compare("scene.json", u[order])["is_same"]
+    with pytest.raises(ValueError, match="points 15"):
+        plane_contact.compare("scene.json", u, points=mesh.points[1:])
+
+
+def test_a_third_column_counts():
+    u = plane_contact.solve("fig1", variant="tied")["u"]
+    flat, raised = (np.column_stack([u, np.full(len(u), z)]) for z in (0.0, 5.0))
+    same = [plane_contact.compare("fig1", of, variant="tied")["is_same"] for of in (u, flat)]
+    assert same == [True, True]
+    with pytest.raises(plane_contact.InputError, match="moves along z by 5"):
+        plane_contact.compare("fig1", raised, variant="tied")
+
+
+def test_a_difference_is_told_as_verify_tells_it(tmp_path):
+    scene, path = tmp_path / "s/scene.json", tmp_path / "s/a.json"
+    subprocess.run([plane_contact.program(), "-q", "scene", "copy", "fig1", "--out", str(scene.parent)], check=True)
+    plane_contact.record(scene, path, only="u")
+    scene.write_text(scene.read_text(encoding="utf-8").replace("30000.0", "31000.0"), encoding="utf-8")
+    verify = [plane_contact.program(), "snapshot", "verify", str(path)]
+    printed = subprocess.run(verify, capture_output=True, encoding="utf-8", env={**os.environ, "COLUMNS": "100"})
+    test = tmp_path / "test_it.py"
+    test.write_text(f"import plane_contact\n\ndef test():\n    plane_contact.verify({str(path)!r})\n", encoding="utf-8")
+    pytest_ = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, str(test)]
+    shown = subprocess.run(pytest_, capture_output=True, encoding="utf-8", cwd=tmp_path).stdout
+    assert "materials" in printed.stdout and "31000" in printed.stdout
+    with pytest.raises(plane_contact.Differs) as caught:
+        plane_contact.verify(path)
+    assert str(caught.value).strip() == printed.stdout.strip()
+    assert "31000" in shown and "_json" not in shown and "subprocess" not in shown

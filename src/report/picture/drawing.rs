@@ -1,6 +1,5 @@
 //! What the pictures of a mesh draw on.
 
-use super::search::Search;
 use problem::model::{Model, NodeId};
 use problem::scene::Scene;
 
@@ -24,8 +23,6 @@ pub struct Drawing {
     pub length_unit: String,
     /// The surfaces that may touch, in a scene with contact.
     pub contact: Option<Contact>,
-    /// The contact search, in a small scene.
-    pub search: Option<Search>,
 }
 
 /// The two surfaces that may touch.
@@ -73,7 +70,6 @@ impl Drawing {
                 nodes: model.contact.nodes.iter().map(|node| node.index()).collect(),
                 edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
             }),
-            search: Search::from_model(model),
         }
     }
 

@@ -9,9 +9,10 @@
 //! | `page`        | layout: title, panels, legend, captions            |
 //! | `colour`      | values to colours, and the colour bar              |
 //! | `raster`      | triangles of a fine mesh as pixels                 |
-//! | `search`      | the contact search of a small scene                |
 //! | `view`        | the mesh's coordinates to pixels                   |
 //! | `svg`         | shapes, on top of the XML writer                   |
+
+use std::collections::BTreeSet;
 
 mod bodies;
 mod chart;
@@ -20,7 +21,6 @@ mod drawing;
 mod fields;
 pub mod page;
 mod raster;
-mod search;
 pub mod svg;
 pub mod view;
 
@@ -32,7 +32,7 @@ use self::bodies::{draw_bodies, legend};
 use self::colour::{ColourScale, SHADES, parts};
 use self::page::Page;
 use self::raster::Raster;
-use self::svg::{Anchor, Coloured, DARK, group, segments, text};
+use self::svg::{Anchor, Coloured, DARK, Pixel, group, segments, text};
 use self::view::{Bounds, View};
 use base::xml::Element;
 
@@ -42,26 +42,35 @@ const ENLARGED_UP_TO: f64 = 0.8;
 /// How much is shown about a contact surface, over its size.
 const ABOUT: f64 = 0.15;
 
+/// A mesh of more nodes has no numbers in its picture.
+const MOST_NUMBERED: usize = 40;
+
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {
     let mut page = Page::new(&drawing.title);
     let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
     put_panels(&mut page, drawing, &drawing.points, |view| {
         let bodies = draw_bodies(drawing, &outline, view);
-        if drawing.points.len() > search::MOST_NODES {
+        if drawing.points.len() > MOST_NUMBERED {
             return bodies;
         }
-        let numbers = search::numbers(&drawing.triangles, &view.all(&drawing.points));
-        group().with(bodies).with(numbers)
+        group().with(bodies).with(numbers(&drawing.triangles, &view.all(&drawing.points)))
     });
     page.legend(&legend(drawing));
-    if let (Some(search), Some(contact)) = (&drawing.search, &drawing.contact) {
-        search::panel(&mut page, &drawing.points, &contact.edges, search);
-    }
     if drawing.is_fine() {
         page.paragraph(raster::CAPTION);
     }
     page.finish()
+}
+
+/// Writes the number of each point that is a corner of a triangle beside it.
+fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
+    let number = |k: &usize| {
+        let [x, y] = pixels[*k];
+        text([x + 5.0, y - 5.0], Anchor::Start, &(k + 1).to_string())
+    };
+    let corners: BTreeSet<usize> = triangles.iter().flatten().copied().collect();
+    group().fill(DARK).with_all(corners.iter().map(number))
 }
 
 /// Returns what is shown of a mesh where its contact matters: the contact surface and what lies about it; the whole

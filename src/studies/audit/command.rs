@@ -50,7 +50,6 @@ Examples:
   plane-contact audit strand --finding K1
   plane-contact audit fig1 --prices
   plane-contact audit fig1 --prices --repairs --out out/prices    prices.json, prices.svg
-  plane-contact audit --prices --range
   plane-contact audit --claim P12
   plane-contact audit --reading R1=inside,R5=node_n
   plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
@@ -69,16 +68,16 @@ pub struct Args {
     claim: Option<String>,
     /// Judge the claims over the range of what the paper leaves open too: clearance, radius, mesh,
     /// shape of the stamp, unit of c_tol; takes several times as long.
-    #[arg(long, conflicts_with_all = ["scene", "finding", "claim"])]
+    #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "prices"])]
     range: bool,
     /// Run the corrected algorithm (plane-contact guide corrected), and the same with each printed fault
     /// reintroduced, and show what each costs. It takes half a minute on strand. Of --reading only what
-    /// changes the model matters (R6, R8); with --range it is done over the range, in half an hour.
+    /// changes the model matters (R6, R8).
     #[arg(long, conflicts_with_all = ["finding", "claim"])]
     prices: bool,
     /// Then repair the print one finding after the other. The order is found from the end: faults are
     /// reintroduced, each time the one that leaves the least error. It takes a few minutes on strand.
-    #[arg(long, requires = "prices", conflicts_with = "range")]
+    #[arg(long, requires = "prices")]
     repairs: bool,
     /// Print everything: verdict, claims, prices, readings, findings and variants.
     #[arg(long, conflicts_with_all = ["finding", "claim", "prices"])]
@@ -107,18 +106,15 @@ fn prices(args: &Args) -> Result<()> {
     check_folder(args, &["prices.svg", "prices.json"])?;
     let reading = args.reading.reading;
     let case = case(args)?;
-    let places = places(args)?;
     let compared = Compared::new(&case)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
-    let runs = prices::runs() + runs_of_repairs + prices::runs_over(&places);
+    let runs = prices::runs() + runs_of_repairs;
     let bar = progress("running", runs, "run {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
     let alone = compared.prices(&watch);
     let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
-    let range = prices::over_range(&places, &watch);
     bar.finish();
-    let document =
-        price_report::Document { reading, prices: &alone, repairs: &repairs, range: &range };
+    let document = price_report::Document { reading, prices: &alone, repairs: &repairs };
     let json = price_report::json(&document, &case.scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));

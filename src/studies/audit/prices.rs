@@ -12,7 +12,6 @@ use serde::Serialize;
 
 use super::Case;
 use super::evidence::Measured;
-use super::range::{ParameterValue, Range};
 use base::choices;
 use engine::contact::{Sense, Status};
 use engine::error::Error;
@@ -392,30 +391,6 @@ impl Compared {
 /// There is no solution with which they are compared: says why.
 pub fn on(case: &Case, watch: &(dyn Fn() + Sync)) -> Result<Vec<Price>, String> {
     Compared::new(case).map(|compared| compared.prices(watch)).map_err(|why| why.to_string())
-}
-
-/// The prices at a place of the range of what the paper leaves open.
-#[derive(Clone, Debug, Serialize)]
-pub struct PricesAt {
-    /// The place.
-    pub at: ParameterValue,
-    /// The prices there, or why there are none.
-    pub prices: Result<Vec<Price>, String>,
-}
-
-/// Returns the prices at each place of a range but the paper's example as we assume it. `watch` is called
-/// after each of the [`runs_over`] the range.
-pub fn over_range(places: &Range, watch: &(dyn Fn() + Sync)) -> Vec<PricesAt> {
-    others(places).map(|(at, case)| PricesAt { at: *at, prices: on(case, watch) }).collect()
-}
-
-/// The runs that [`over_range`] makes at most.
-pub fn runs_over(places: &Range) -> usize {
-    others(places).count() * runs()
-}
-
-fn others(places: &Range) -> impl Iterator<Item = &(ParameterValue, Arc<Case>)> {
-    places.iter().filter(|(at, _)| !at.own)
 }
 
 /// The runs that [`Compared::prices`] makes at most.

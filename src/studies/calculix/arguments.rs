@@ -1,7 +1,5 @@
 //! What `plane-contact compare` and `plane-contact scene export` share.
 
-use std::path::Path;
-
 use crate::calculix::{Contact, ContactKind, Pair, Part};
 use engine::error::Result;
 use engine::{self, Request, Solution};
@@ -9,14 +7,6 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{ModelArgs, ReadingArg, offered, waiting};
-
-base::choices! {
-    /// A code that a scene is exported to and compared with.
-    Code {
-        /// CalculiX.
-        Calculix = "calculix",
-    }
-}
 
 /// How CalculiX has contact.
 #[derive(clap::Args)]
@@ -28,15 +18,15 @@ pub struct DeckArgs {
     /// tied, stepped or unilateral; with --contact pair also printed [default: the scene's; beside a field,
     /// unilateral].
     #[arg(long, value_parser = offered::<Variant>(Variant::ALL))]
-    pub variant: Option<Variant>,
+    variant: Option<Variant>,
     #[command(flatten)]
-    pub reading: ReadingArg,
+    reading: ReadingArg,
     /// Pressure over penetration of a pair, stress/length [default: 10 times the largest E over the
     /// target's mean edge].
     #[arg(long, value_name = "K", value_parser = penalty)]
     pub penalty: Option<f64>,
     #[command(flatten)]
-    pub model: ModelArgs,
+    model: ModelArgs,
 }
 
 fn penalty(text: &str) -> Result<f64, String> {
@@ -46,10 +36,9 @@ fn penalty(text: &str) -> Result<f64, String> {
 }
 
 impl DeckArgs {
-    /// The run that is compared.
-    pub fn solve(&self, scene: &Path) -> Result<Solution> {
-        let scene = Scene::open(scene)?;
-        let request = self.model.request(&scene, self.variant, &self.reading)?;
+    /// The run whose contact a deck has.
+    pub fn solve(&self, scene: &Scene) -> Result<Solution> {
+        let request = self.model.request(scene, self.variant, &self.reading)?;
         if self.contact == ContactKind::Equation {
             Contact::check_equations(request.variant)?;
         }
@@ -59,7 +48,7 @@ impl DeckArgs {
     /// The run that a field is compared with: that of the variant that is asked for, else the equilibrium.
     pub fn reference(&self, scene: &Scene) -> Result<Request> {
         match self.variant {
-            Some(variant) => self.model.request(scene, Some(variant), &self.reading),
+            Some(_) => self.model.request(scene, self.variant, &self.reading),
             None => self.model.equilibrium(scene, &self.reading),
         }
     }
@@ -70,8 +59,7 @@ impl DeckArgs {
             ContactKind::Equation => Ok(Contact::parts(solution)?),
             ContactKind::Pair => {
                 let friction = solution.request.contact.friction;
-                let pair = Pair::new(&solution.model, self.penalty, friction);
-                Ok(vec![Part { contact: Contact::Pair(pair), share: 1.0 }])
+                Ok(vec![Pair::new(&solution.model, self.penalty, friction).into()])
             }
         }
     }

@@ -1,6 +1,8 @@
 //! The input deck of `ccx`.
 
-use super::problem::{Contact, Equation, Pair, Problem};
+use nalgebra::DVector;
+
+use super::contact::{Contact, Equation, Pair};
 use base::error::{InputError, Result};
 use base::files::DECK;
 use base::plain::on_a_line;
@@ -18,43 +20,49 @@ const STICKING: f64 = 1000.0;
 /// Stick slope over penalty: the manual advises about a tenth.
 const STICK_SLOPE: f64 = 0.1;
 
-/// The deck of a problem: plane triangles, the whole load in one static step; displacements and
+/// The deck of a model under a title: plane triangles, the whole load in one static step; displacements and
 /// stresses go to the `.dat` file, where ccx prints seven digits (`.frd`: six).
 ///
 /// # Errors
 /// The surfaces of a pair bound no triangle.
-pub fn deck(problem: &Problem) -> Result<String> {
-    let model = problem.model;
-    let own = Equation::of_constraints(model, &support_constraints(model, 1.0));
-    let contact = match problem.contact {
-        Contact::Equations(equations, _) => equation_cards(model, &[&own[..], equations].concat()),
-        Contact::Pair(_) if !model.has_contact() => equation_cards(model, &own),
-        Contact::Pair(pair) => equation_cards(model, &own) + &pair_cards(model, pair)?,
-    };
-    // Comment lines: what wrote it, the scene's title, the plane problem, and how the bodies touch.
-    let title: String = on_a_line(&problem.scene.title).chars().take(100).collect();
-    let touch = match problem.contact {
-        Contact::Equations(equations, _) => format!("{} equations", equations.len()),
-        Contact::Pair(Pair { penalty, friction }) => {
-            format!("contact pair, penalty {penalty:e} stress/length, friction {friction}")
+pub fn deck(title: &str, model: &Model, contact: &Contact) -> Result<String> {
+    let held = Equation::of_constraints(model, &support_constraints(model, 1.0));
+    let (touch, cards, step) = match contact {
+        Contact::Equations(equations, friction) => {
+            let load = friction.iter().fold(model.load.clone(), |load, friction| load + friction);
+            let cards = equation_cards(model, &[&held[..], equations].concat());
+            (format!("{} equations", equations.len()), cards, step(model, &load, ""))
+        }
+        Contact::Pair(pair @ Pair { penalty, friction }) => {
+            let touch =
+                format!("contact pair, penalty {penalty:e} stress/length, friction {friction}");
+            let surfaces =
+                if model.has_contact() { pair_cards(model, pair)? } else { String::new() };
+            // A tenth of the load first: from the whole of it at once ccx may settle on another contact zone.
+            (touch, equation_cards(model, &held) + &surfaces, step(model, &model.load, "0.1,1\n"))
         }
     };
-    let mut text = format!("{DECK}** {title}\n** plane {}; contact: {touch}\n", model.plane);
-    text += "*NODE, NSET=NODES\n";
-    for node in model.node_ids() {
+    let title: String = on_a_line(title).chars().take(100).collect();
+    let comments = format!("{DECK}** {title}\n** plane {}; contact: {touch}\n", model.plane);
+    Ok([comments, nodes(model), elements(model), cards, boundary(model), step].concat())
+}
+
+fn nodes(model: &Model) -> String {
+    let node = |node: NodeId| {
         let [x, y] = model.coordinates(node).map(field);
-        text += &format!("{node},{x},{y}\n");
-    }
-    text += &(elements(model) + &contact + "*BOUNDARY\n");
-    for (dof, restraint) in model.all_dofs().zip(model.restraints()) {
-        match restraint {
-            Restraint::Free => (),
-            Restraint::Fixed => {
-                text += &format!("{},{}\n", node_and_direction(dof), dof.direction() + 1);
-            }
-        }
-    }
-    Ok(text + &step(problem))
+        format!("{node},{x},{y}\n")
+    };
+    String::from("*NODE, NSET=NODES\n") + &model.node_ids().map(node).collect::<String>()
+}
+
+/// The restrained degrees of freedom.
+fn boundary(model: &Model) -> String {
+    let restraints = model.all_dofs().zip(model.restraints());
+    let fixed = restraints.filter_map(|(dof, restraint)| match restraint {
+        Restraint::Free => None,
+        Restraint::Fixed => Some(format!("{},{}\n", node_and_direction(dof), dof.direction() + 1)),
+    });
+    String::from("*BOUNDARY\n") + &fixed.collect::<String>()
 }
 
 /// The triangles of each material, in the order in which the materials come.
@@ -156,29 +164,19 @@ fn surface(model: &Model, name: &str, wanted: impl Fn([NodeId; 2]) -> bool) -> R
     Ok(text)
 }
 
-/// One static step with the loads on the displacements that are not restrained.
-fn step(problem: &Problem) -> String {
-    let mut text = String::from("*STEP\n*STATIC\n");
-    if let Contact::Pair(_) = problem.contact {
-        // A tenth of the load first: from the whole of it at once ccx may settle on another contact
-        // zone.
-        text += "0.1,1\n";
-    }
-    let model = problem.model;
-    let load = match problem.contact {
-        Contact::Equations(_, Some(friction)) => &model.load + friction,
-        Contact::Equations(_, None) | Contact::Pair(_) => model.load.clone(),
-    };
-    for (dof, force) in model.all_dofs().zip(load.iter()) {
-        if *force != 0.0 && !model.is_restrained(dof) {
-            text += &format!("*CLOAD\n{},{}\n", node_and_direction(dof), field(*force));
-        }
-    }
-    text += "*NODE PRINT, NSET=NODES\nU\n";
-    for k in 1..=materials(model).len() {
-        text += &format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n");
-    }
-    text + "*END STEP\n"
+/// One static step, with these increments, and the loads on the displacements that are not restrained.
+fn step(model: &Model, load: &DVector<f64>, increments: &str) -> String {
+    let loads = model.all_dofs().zip(load.iter());
+    let loads = loads.filter(|(dof, force)| **force != 0.0 && !model.is_restrained(*dof));
+    let loads = loads
+        .map(|(dof, force)| format!("*CLOAD\n{},{}\n", node_and_direction(dof), field(*force)));
+    let stresses =
+        (1..=materials(model).len()).map(|k| format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n"));
+    format!(
+        "*STEP\n*STATIC\n{increments}{}*NODE PRINT, NSET=NODES\nU\n{}*END STEP\n",
+        loads.collect::<String>(),
+        stresses.collect::<String>()
+    )
 }
 
 /// `x` in at most 20 characters, with as many of its digits as fit: all, or at least 13.

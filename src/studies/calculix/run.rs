@@ -1,18 +1,17 @@
-//! Runs of `ccx`, each in a temporary folder.
+//! Runs of `ccx`, each in a temporary folder, and the displacements that it printed to its `.dat` file.
 
 use std::io;
 use std::path::Path;
 use std::process::{Command, ExitStatus};
 
+use nalgebra::DVector;
+
+use super::contact::Part;
 use super::deck::deck;
-use super::fields::Fields;
-use super::problem::{Part, Problem};
-use super::results::parse;
 use base::child;
 use base::error::{InputError, Result};
 use base::files;
 use problem::model::Model;
-use problem::scene::Scene;
 
 /// How many of the last lines of a failed run are shown.
 const TAIL: usize = 12;
@@ -23,28 +22,33 @@ const PRINTED: u64 = 1 << 24;
 /// The most bytes of results: those of two million triangles in ten increments.
 const RESULTS: u64 = 1 << 31;
 
+/// The largest displacement: its energy stays finite.
+const LARGEST: f64 = 1e150;
+
+/// The time at the end of a deck's step, as it is printed.
+const END: f64 = 1.0;
+
 /// What a run of `ccx` computed.
 pub struct CalculixRun {
     /// The version that `ccx` reports.
     pub version: String,
-    /// Its displacements and stresses.
-    pub fields: Fields,
+    /// The displacements by degree of freedom, length.
+    pub u: DVector<f64>,
 }
 
-/// Runs `program` on a deck for each part and sums the results with the parts' shares.
+/// Runs `program` on a deck for each part and sums the displacements with the parts' shares.
 ///
 /// # Errors
 /// There is no such program, or it fails, with the last lines of its output; its results
 /// cannot be read; a pair's surfaces bound no triangle.
-pub fn run(program: &str, scene: &Scene, model: &Model, parts: &[Part]) -> Result<CalculixRun> {
+pub fn run(program: &str, title: &str, model: &Model, parts: &[Part]) -> Result<CalculixRun> {
     let version = version(program)?;
-    let (nodes, triangles) = (model.nodes.len(), model.triangles.len());
-    let mut fields = Fields::zero(nodes, triangles);
+    let mut u = DVector::zeros(model.dofs());
     for Part { contact, share } in parts {
-        let printed = print(program, &deck(&Problem { scene, model, contact })?)?;
-        fields.add(*share, &parse(&printed, nodes, triangles)?);
+        let printed = print(program, &deck(title, model, contact)?)?;
+        u += *share * parse(&printed, model.nodes.len())?;
     }
-    Ok(CalculixRun { version, fields })
+    Ok(CalculixRun { version, u })
 }
 
 /// Checks that `program` can be started.
@@ -114,4 +118,69 @@ fn failed(program: &str, how: &str, output: &str) -> InputError {
     let tail = lines[lines.len().saturating_sub(TAIL)..].join("\n  ");
     let what = format!("{program} {how}; the end of its output:\n  {tail}");
     InputError::new("ccx", what, "export the deck and run it by hand, or choose another penalty")
+}
+
+/// Reads the displacements of `nodes` nodes at the end of the step, by degree of freedom.
+///
+/// # Errors
+/// A node is missing, as where the file is cut; something is no number.
+pub fn parse(text: &str, nodes: usize) -> Result<DVector<f64>> {
+    if !text.ends_with('\n') {
+        return Err(cut("its last line has no end".into()));
+    }
+    let mut u = DVector::from_element(2 * nodes, f64::NAN);
+    let mut is_wanted = false;
+    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        if line.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            let is_last = line.split_whitespace().last().and_then(float) == Some(END);
+            is_wanted = is_last && line.starts_with("displacements");
+            if is_wanted {
+                u.fill(f64::NAN);
+            }
+        } else if is_wanted {
+            let node = node(line).filter(|(number, _)| (1..=nodes).contains(number));
+            let (number, displacement) = node.ok_or_else(|| {
+                let fix = "use CalculiX 2.20, which this was written for";
+                results(format!("the line {line:?} is not understood"), fix)
+            })?;
+            u.rows_mut(2 * number - 2, 2).copy_from_slice(&displacement);
+        }
+    }
+    match u.iter().position(|component| component.is_nan()) {
+        None => Ok(u),
+        Some(dof) => {
+            let node = dof / 2 + 1;
+            Err(cut(format!("node {node} is not in them at time {END}, the end of the step")))
+        }
+    }
+}
+
+fn cut(what: String) -> InputError {
+    results(
+        what,
+        "see whether the disk of TMPDIR is full; else export the deck and see what ccx says of it",
+    )
+}
+
+fn results(what: String, fix: &str) -> InputError {
+    InputError::new("the results of ccx", what, fix)
+}
+
+/// Reads a line of displacements: the number of the node, then those along x, y and z.
+fn node(line: &str) -> Option<(usize, [f64; 2])> {
+    let (number, components) = line.split_once(char::is_whitespace)?;
+    let components: Vec<f64> = components.split_whitespace().map(float).collect::<Option<_>>()?;
+    let [x, y, _] = components[..] else { return None };
+    Some((number.parse().ok()?, [x, y]))
+}
+
+/// A number as Fortran prints it: `1.0E-01`, and `1.0-101` where the exponent is long; none beyond
+/// the largest.
+pub fn float(word: &str) -> Option<f64> {
+    let plain = word.parse::<f64>().ok();
+    let short = || {
+        let sign = word.rfind(['+', '-']).filter(|&at| at > 0)?;
+        format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
+    };
+    plain.or_else(short).filter(|x| x.abs() <= LARGEST)
 }

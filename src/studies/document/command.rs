@@ -1,15 +1,14 @@
 //! `plane-contact report`.
 
 use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::audit::prices::{Compared, Price};
 use crate::audit::{Audit, Case, audit};
-use crate::calculix::table as comparison;
-use crate::calculix::{self, Comparison, Contact, Fields, Pair, Part};
+use crate::calculix::{self, Pair};
 use crate::document::page;
 use crate::document::{Contents, Run, document};
+use crate::field;
 use base::error::InputError;
 use base::files::{self, HTML, MARKDOWN};
 use base::plain::{shell_word, shown};
@@ -22,9 +21,6 @@ use problem::scene::{Scene, sha256_of};
 use report::markdown::figures_of;
 
 use commands::{offered, report_written, waiting};
-
-/// The most bytes of a chart of `trade`; one has some 30,000.
-const CHART: u64 = 1 << 24;
 
 /// The most nodes of a mesh on which the print is repaired one finding at a time unasked: it takes some
 /// hundred runs, half a second on fig1 and minutes on strand, with 1,111 nodes.
@@ -48,16 +44,13 @@ and von Mises stress, the claims by how far they reach, the faults by what they 
 unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures,
 differences from CalculiX, what could not be checked, a glossary, and the command that makes it again, versions
 and hashes. --format html and markdown say the same. The page has the fields of every run at their
-end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It takes a minute on strand, more with --repairs, and 3 times as
-long as solve with --no-audit.
+end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It takes a minute on strand, more with --repairs.
 
 Examples:
   plane-contact report
   plane-contact report fig1 --out fig1.html
   plane-contact report --format markdown                   with its figures beside it
-  plane-contact report --ccx                               CalculiX beside it
-  plane-contact report --charts out/trade-strand           with the charts that trade strand --out out/trade-strand wrote
-  plane-contact report my/scene.json --variant unilateral --no-audit")]
+  plane-contact report --ccx                               CalculiX beside it")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE", default_value = "strand")]
@@ -65,21 +58,12 @@ pub struct Args {
     /// html: one page that opens offline; markdown: figures are files of SVG beside it.
     #[arg(long, default_value_t, value_parser = offered::<Format>(Format::ALL))]
     format: Format,
-    /// The variants whose fields are shown [default: all; one that fails is left out].
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = offered::<Variant>(Variant::ALL))]
-    variant: Vec<Variant>,
-    /// Leave out claims, prices, readings and findings, and the runs that they are measured against.
-    #[arg(long)]
-    no_audit: bool,
     /// Repair the print one finding at a time on a mesh of more than 500 nodes too, in minutes on strand.
-    #[arg(long, conflicts_with = "no_audit")]
+    #[arg(long)]
     repairs: bool,
     /// Run CalculiX too, by its own contact, beside unilateral.
     #[arg(long, value_name = "PROGRAM", num_args = 0..=1, default_missing_value = "ccx")]
     ccx: Option<String>,
-    /// A folder whose charts, *.svg, are shown.
-    #[arg(long, value_name = "DIR")]
-    charts: Option<PathBuf>,
     /// The file [default: out/report, and .html or .md].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -100,33 +84,24 @@ pub fn run(args: &Args) -> Result<()> {
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
-    let case = if args.no_audit {
-        Case::new(scene)
-    } else {
-        Case::within_memory(&scene, Reading::default())?
-    };
-    let charts = args.charts.as_deref().map_or(Ok(Vec::new()), charts)?;
-    waiting("auditing", || write(args, &case, charts, &out))?;
+    let case = Case::within_memory(&scene, Reading::default())?;
+    waiting("auditing", || write(args, &case, &out))?;
     report_written(&out);
     Ok(())
 }
 
 /// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
-fn write(args: &Args, case: &Case, charts: Vec<(String, String)>, out: &Path) -> Result<()> {
-    let (found, repairs) = match args.no_audit {
-        true => (None, Vec::new()),
-        false => (Some(audit(case, &Vec::new(), true, &|| ())), repairs(args, case)),
-    };
-    let beside = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
+fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
+    let found = audit(case, &Vec::new(), true, &|| ());
+    let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
         scene: &case.scene,
         command: command(args),
-        asked: asked(args, &case.scene),
-        audit: found.as_ref(),
-        repairs,
-        runs: runs(args, case, found.as_ref()),
-        calculix: beside.as_ref().map(|beside| beside.compared(case)),
-        charts,
+        asked: asked(&case.scene),
+        audit: &found,
+        repairs: repairs(args, case),
+        runs: runs(case, &found),
+        calculix,
     };
     match args.format {
         Format::Html => files::write(out, &page::html(&contents))?,
@@ -172,22 +147,17 @@ fn repairs(args: &Args, case: &Case) -> Vec<Price> {
     Compared::new(case).map_or(Vec::new(), |compared| compared.repairs(&|| ()))
 }
 
-/// Returns the runs that are shown: those of the variants, then the reference solution and the
+/// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and the
 /// equilibrium, for which the audit measured what rounding does.
-fn runs<'a>(args: &Args, case: &'a Case, audit: Option<&Audit>) -> Vec<Run<'a>> {
-    let wanted = |variant: &&Variant| args.variant.is_empty() || args.variant.contains(variant);
-    let ran = Variant::ALL.iter().filter(wanted).filter_map(|v| case.run(*v).ok());
-    let others = match args.no_audit {
-        true => [None, None],
-        false => [case.reference(), case.equilibrium()],
-    };
+fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
+    let ran = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
+    let others = [case.reference(), case.equilibrium()];
     let runs = ran.chain(others.into_iter().flatten());
     let assessed = |solution: &'a Solution| {
-        let measured =
-            audit.map_or([None, None], |a| [&a.reference, &a.equilibrium].map(Option::as_ref));
+        let measured = [&audit.reference, &audit.equilibrium];
         let rounding = others.iter().zip(measured).find_map(|(other, measured)| {
             let same = solution.request.is_same_equilibrium(&(*other)?.request);
-            measured.filter(|_| same)?.rounding.clone()
+            measured.as_ref().filter(|_| same)?.rounding.clone()
         });
         let assessment = Assessment::against(solution, others);
         Run { solution, assessment: Assessment { rounding, ..assessment } }
@@ -202,32 +172,18 @@ fn command(args: &Args) -> String {
         shell_word(&shown(&args.scene)),
         args.format
     );
-    if !args.variant.is_empty() {
-        command += &format!(" --variant {}", variants(args));
-    }
-    if args.no_audit {
-        command += " --no-audit";
-    }
     if args.repairs {
         command += " --repairs";
     }
     if let Some(program) = &args.ccx {
         command += &format!(" --ccx {}", shell_word(program));
     }
-    if let Some(folder) = &args.charts {
-        command += &format!(" --charts {}", shell_word(&shown(folder)));
-    }
     command
 }
 
-fn variants(args: &Args) -> String {
-    args.variant.iter().map(Variant::to_string).collect::<Vec<_>>().join(",")
-}
-
 /// Says what was asked, without the place of any file.
-fn asked(args: &Args, scene: &Scene) -> Vec<(&'static str, String)> {
+fn asked(scene: &Scene) -> Vec<(&'static str, String)> {
     let model = &scene.model;
-    let variants = if args.variant.is_empty() { "all".to_string() } else { variants(args) };
     let size = format!("{} nodes, {} triangles", model.nodes.len(), model.triangles.len());
     let program = std::env::current_exe().and_then(File::open).and_then(sha256_of);
     vec![
@@ -236,7 +192,7 @@ fn asked(args: &Args, scene: &Scene) -> Vec<(&'static str, String)> {
         ("scene", format!("{} ({})", scene.name, scene.title)),
         ("mesh", size),
         ("plane problem", model.plane.to_string()),
-        ("variants", variants),
+        ("variants", "all".into()),
         ("readings", "the default of each".into()),
         ("iterations of the paper's variants", scene.iterations.to_string()),
         ("contact", format!("{}, friction {}", scene.contact.coupling, scene.contact.friction)),
@@ -244,54 +200,15 @@ fn asked(args: &Args, scene: &Scene) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// A run of CalculiX's own contact.
-struct Beside {
-    contact: Contact,
-    version: String,
-    comparison: Comparison,
-}
-
-impl Beside {
-    /// Returns what the report says of it, beside `unilateral`.
-    fn compared<'a>(&'a self, case: &'a Case) -> comparison::Compared<'a> {
-        let solution = case.run(Variant::Unilateral).expect("it was compared");
-        comparison::Compared {
-            scene: &case.scene,
-            model: &solution.model,
-            variant: Variant::Unilateral,
-            certainty: Certainty::Unchecked,
-            contact: &self.contact,
-            decks: 1,
-            version: &self.version,
-            comparison: &self.comparison,
-        }
-    }
-}
-
 /// Runs CalculiX's own contact beside `unilateral`.
-fn calculix(program: &str, case: &Case) -> Result<Beside> {
+fn calculix<'a>(program: &str, case: &'a Case) -> Result<field::Compared<'a>> {
     let solution: &Solution = case.run(Variant::Unilateral).map_err(|why| {
         let what = format!("unilateral, which stands beside CalculiX, does not run: {why}");
         InputError::new("--ccx", what, "leave --ccx out")
     })?;
-    let model = &solution.model;
-    let contact = Contact::Pair(Pair::new(model, None, solution.request.contact.friction));
-    let parts = [Part { contact: contact.clone(), share: 1.0 }];
-    let ran = calculix::run(program, &case.scene, model, &parts)?;
-    let comparison = Comparison::new(model, Fields::from_solution(solution), ran.fields);
-    Ok(Beside { contact, version: ran.version, comparison })
-}
-
-/// Reads the charts of a folder, by name.
-fn charts(folder: &Path) -> Result<Vec<(String, String)>> {
-    let fault = |why: io::Error| {
-        let what = format!("the charts cannot be read: {why}");
-        InputError::new(shown(folder), what, "give a folder that trade wrote")
-    };
-    let read = |name: String| {
-        let text = files::read_in(folder, Path::new(&name), CHART).and_then(files::text);
-        let text = text.map_err(|why| fault(io::Error::other(format!("{name}: {why}"))))?;
-        Ok((name.trim_end_matches(".svg").into(), text))
-    };
-    files::names(folder, "svg").map_err(fault)?.into_iter().map(read).collect()
+    let pair = Pair::new(&solution.model, None, solution.request.contact.friction);
+    let parts = [pair.into()];
+    let ran = calculix::run(program, &case.scene.title, &solution.model, &parts)?;
+    let certainty = Certainty::Unchecked;
+    Ok(field::Compared::with_calculix(solution, certainty, &parts, ran, None)?)
 }

@@ -18,28 +18,18 @@ use report::model::Report;
 /// Returns the head of the page and its first screen.
 pub fn html(contents: &Contents, menu: &str) -> String {
     let scene = contents.scene;
-    let on = format!(" On scene {} ({})", scene.name, scene.title);
-    let (title, parts) = match contents.audit {
-        Some(audit) => {
-            let on = on + &claims::under(&audit.conclusion.reading) + ".";
-            let judged = [JUDGED[0].to_string() + &on, JUDGED[1].to_string()];
-            let judged = judged.map(|words| format!("<p>{}</p>", escape(&words))).concat();
-            (PAPER.to_string() + &judged, audited(audit))
-        }
-        None => (format!("<h1>{}</h1>", escape(&runs_title(contents))), String::new()),
-    };
+    let under = claims::under(&contents.audit.conclusion.reading);
+    let on = format!(" On scene {} ({}){under}.", scene.name, scene.title);
+    let judged = [JUDGED[0].to_string() + &on, JUDGED[1].to_string()];
+    let judged = judged.map(|words| format!("<p>{}</p>", escape(&words))).concat();
+    let parts = audited(contents.audit);
     let pictures: String = pictures(contents).iter().map(Picture::html).collect();
     let again =
         format!("<p class=\"again\">Make it again: <code>{}</code></p>", escape(&contents.command));
     format!(
-        "<header><div>{title}</div>{menu}</header>\n<section id=\"first\" aria-label=\"Verdict and evidence\">\n{parts}<div class=\"pictures\">{pictures}</div>\n\
+        "<header><div>{PAPER}{judged}</div>{menu}</header>\n<section id=\"first\" aria-label=\"Verdict and evidence\">\n{parts}<div class=\"pictures\">{pictures}</div>\n\
          {again}</section>\n"
     )
-}
-
-/// Returns the title of a report without an audit.
-pub fn runs_title(contents: &Contents) -> String {
-    format!("Runs of scene {} ({})", contents.scene.name, contents.scene.title)
 }
 
 /// Who is judged.

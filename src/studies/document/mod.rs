@@ -14,7 +14,7 @@ use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
 use crate::audit::words::{Depth, evidence, report as audit_report};
 use crate::audit::{Audit, relative_radius};
-use crate::calculix::table::{self as comparison, Compared};
+use crate::field::{Compared, table as comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use paper::listings::Which;
 use problem::modelling::Variant;
@@ -35,16 +35,14 @@ pub struct Contents<'a> {
     pub command: String,
     /// What was asked, in words: what, and what it was set to.
     pub asked: Vec<(&'static str, String)>,
-    /// The audit, where it was asked for.
-    pub audit: Option<&'a Audit>,
+    /// The audit.
+    pub audit: &'a Audit,
     /// The print, repaired one finding at a time; empty where that was not asked for.
     pub repairs: Vec<Price>,
     /// The runs: of the variants, then the reference solution and the equilibrium where these are known.
     pub runs: Vec<Run<'a>>,
     /// The run beside CalculiX.
     pub calculix: Option<Compared<'a>>,
-    /// Charts of `trade`: name and SVG.
-    pub charts: Vec<(String, String)>,
 }
 
 /// A run of a report.
@@ -69,28 +67,21 @@ impl Picture {
 
 /// Returns the audit report as one document: the first screen, and what it rests on.
 pub fn document(contents: &Contents) -> Report {
-    let first = match contents.audit {
-        Some(found) => audit_report(found, Depth::Page),
-        None => Report::titled(first::runs_title(contents)),
-    };
-    let first = pictures(contents)
+    pictures(contents)
         .into_iter()
-        .fold(first, |report, Picture { title, svg }| report.figure(title, svg));
-    first.then(parts(contents))
+        .fold(audit_report(contents.audit, Depth::Page), |report, Picture { title, svg }| {
+            report.figure(title, svg)
+        })
+        .then(parts(contents))
 }
 
 /// Returns what the first screen rests on, and what makes it again.
 fn parts(contents: &Contents) -> Report {
-    let Contents { audit, charts, .. } = contents;
-    let report = audit.map_or(Report::default(), |found| audited(found, &contents.repairs));
-    let charts =
-        charts.iter().fold(Report::default(), |report, (name, svg)| report.figure(name, svg));
     what_was_audited()
-        .then(report)
+        .then(audited(contents.audit, &contents.repairs))
         .then(figures(contents))
         .then(other_codes(contents))
-        .then(audit.map_or(Report::default(), unchecked))
-        .then(charts)
+        .then(unchecked(contents.audit))
         .then(glossary::report())
         .then(origin(contents))
 }
@@ -128,16 +119,14 @@ fn what_was_audited() -> Report {
         .line("Every term is defined in the glossary at the end.")
 }
 
-/// Returns the runs of the pictures under short names: the paper's, then the equilibrium; without an audit all.
+/// Returns the runs of the pictures under short names: the paper's, then the equilibrium.
 fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
-    let known = contents.audit.is_some_and(|found| found.equilibrium.is_some());
-    let equilibrium = known.then(|| contents.runs.len() - 1);
+    let equilibrium = contents.audit.equilibrium.as_ref().map(|_| contents.runs.len() - 1);
     let name = |(k, run): (usize, &Run)| {
         let variant = run.solution.request.variant;
-        let is_shown = contents.audit.is_none() || Variant::OF_THE_PAPER.contains(&variant);
         match equilibrium == Some(k) {
             true => Some("equilibrium".into()),
-            false => is_shown.then(|| variant.to_string()),
+            false => Variant::OF_THE_PAPER.contains(&variant).then(|| variant.to_string()),
         }
     };
     let runs = contents.runs.iter().enumerate();
@@ -146,7 +135,7 @@ fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
 
 /// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not known.
 fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
-    let fields = contents.audit.and_then(|found| found.conclusion.fields.as_ref());
+    let fields = contents.audit.conclusion.fields.as_ref();
     let nearest = fields.and_then(|fields| fields.variants.first());
     let mut runs = named(contents);
     let first = runs.iter().position(|(_, run)| Some(&run.request.variant) == nearest);

@@ -10,13 +10,18 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::{Contents, Run, first, parts};
-use crate::calculix::{Comparison, Fields};
-use engine::{TriangleState, TriangleValues};
+use engine::{Assessment, TriangleValues};
 use problem::model::{Model, NodeId};
 use report::json::document;
 use report::page::Page;
 use report::picture::{colour, points};
 use report::{ResultFile, pressure, quantities};
+
+/// The contact nodes of a result, and what `quantities` calls what stands there.
+const CONTACT: (&str, &str) = ("contact", "contact");
+
+/// The tables of a run.
+const TABLES: [(&str, &str); 3] = [("iterations", "iteration"), ("bodies", "body"), CONTACT];
 
 /// Returns the page of a report.
 pub fn html(contents: &Contents) -> String {
@@ -26,8 +31,13 @@ pub fn html(contents: &Contents) -> String {
         .replace("FIRST", &first::html(contents, &first::menu(&parts)))
         .replace("PARTS", &parts.html());
     let quantities = quantities::on_pages();
-    let runs = contents.runs.par_iter().map(|own| run(own, &quantities)).collect::<Vec<Value>>();
-    let calculix = contents.calculix.as_ref().map(|compared| calculix_run(compared.comparison));
+    let own = |own: &Run| run(&pressure::name(own.solution), own, &TABLES, &quantities);
+    let runs = contents.runs.par_iter().map(own).collect::<Vec<Value>>();
+    let calculix = contents.calculix.as_ref().map(|compared| {
+        let solution = &compared.beside.field;
+        let theirs = Run { solution, assessment: Assessment::none(solution) };
+        run("CalculiX", &theirs, &[CONTACT], &quantities)
+    });
     let own = json!({
         "mesh": mesh(&scene.model),
         "runs": runs.into_iter().chain(calculix).collect::<Vec<_>>(),
@@ -84,13 +94,14 @@ fn mesh(model: &Model) -> Value {
     })
 }
 
-fn run(run: &Run, known: &Value) -> Value {
+/// Returns a run under a name, with these tables of its result.
+fn run(name: &str, run: &Run, tables: &[(&str, &str)], known: &Value) -> Value {
     let solution = run.solution;
     let result = json!(ResultFile::new(solution, &run.assessment, None));
-    let tables = [("iterations", "iteration"), ("bodies", "body"), ("contact", "contact")];
-    let tables = tables.map(|(table, place)| (table, rows(&result[table], &known[place])));
+    let tables =
+        tables.iter().map(|(table, place)| (*table, rows(&result[*table], &known[*place])));
     json!({
-        "name": pressure::name(solution),
+        "name": name,
         "result": Value::from_iter(tables),
         "u": floats(solution.u.iter().copied()),
         "triangles": triangles(&TriangleValues::all(solution, run.assessment.mesh_error().as_deref())),
@@ -116,18 +127,4 @@ fn triangles(values: &[TriangleValues]) -> Value {
         Some((quantity.name, base64(&first.collect::<Vec<u8>>())))
     });
     Value::from_iter(known)
-}
-
-/// Returns CalculiX's fields as a run.
-fn calculix_run(comparison: &Comparison) -> Value {
-    let Fields { u, sigma } = &comparison.theirs;
-    let state = |(&[x, y, z, xy, ..], von_mises): (&[f64; 6], &f64)| {
-        TriangleValues::new(&TriangleState::stressed([x, y, xy, z], *von_mises))
-    };
-    let values: Vec<_> = sigma.iter().zip(&comparison.von_mises[1]).map(state).collect();
-    json!({
-        "name": "CalculiX",
-        "u": floats(u.as_flattened().iter().copied()),
-        "triangles": triangles(&values),
-    })
 }

@@ -23,8 +23,6 @@ pub struct Beside<'a> {
     pub bodies: Vec<BodyDifference>,
     /// The difference of each node's displacement, length.
     pub differences: Vec<f64>,
-    /// The largest difference that counts as none, over the largest displacement, and in the energy norm.
-    pub tolerance: f64,
 }
 
 /// The largest difference of the displacements in a body.
@@ -45,7 +43,7 @@ impl<'a> Beside<'a> {
     ///
     /// # Errors
     /// The contact surfaces bound no body.
-    pub fn new(reference: &'a Solution, u: DVector<f64>, tolerance: f64) -> Result<Self> {
+    pub fn new(reference: &'a Solution, u: DVector<f64>) -> Result<Self> {
         let Implied { solution: field, unbalanced } = implied(reference, u)?;
         let size = |[x, y]: [f64; 2]| x.hypot(y);
         let apart = reference.by_node(&(&field.u - &reference.u));
@@ -62,13 +60,12 @@ impl<'a> Beside<'a> {
         });
         let bodies = bodies.collect();
         let distance = distance(&field, reference);
-        Ok(Beside { reference, field, unbalanced, distance, bodies, differences, tolerance })
+        Ok(Beside { reference, field, unbalanced, distance, bodies, differences })
     }
 
-    /// Returns whether the field is the reference solution within the tolerance.
-    pub fn is_same(&self) -> bool {
-        self.distance.energy_relative <= self.tolerance
-            && self.distance.displacement_relative <= self.tolerance
+    /// Returns whether the field is the reference solution within a part of it, in the energy norm and in displacements.
+    pub fn is_within(&self, part: f64) -> bool {
+        self.distance.energy_relative <= part && self.distance.displacement_relative <= part
     }
 
     /// Returns the nodes with the largest differences, the largest first.

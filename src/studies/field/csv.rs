@@ -1,8 +1,8 @@
 //! Displacements in a table of comma-separated values, as this program, spreadsheets and ParaView write it.
 
-use super::{HOW, Kind, Row, Rows, is_number, plain};
+use super::{HOW, Row, Rows, is_number, plain};
 use base::error::{InputError, Result};
-use base::files;
+use base::{files, limits};
 
 /// The names of the columns, as [`plain`] leaves them: x, y, and the displacements along x, y and, where
 /// there are any, z.
@@ -14,6 +14,9 @@ const COLUMNS: [&[&str]; 5] = [
     &["uz", "u3", "dz", "dispz", "displacementz", "displacementuz", "displacement2"],
 ];
 
+/// The most characters of the first line that an error shows.
+const MOST_SHOWN: usize = 300;
+
 /// Reads a table: its first line names the columns, which commas, semicolons or tabs separate.
 ///
 /// # Errors
@@ -22,6 +25,8 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
     let wrong = |what: String| InputError::new(place, what, HOW);
     let text =
         files::text(bytes).map_err(|why| wrong(format!("the field cannot be read: {why}")))?;
+    let separators = text.bytes().filter(|byte| b",;\t\n".contains(byte)).count();
+    limits::CELLS.check(separators, place)?;
     let mut lines = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let (_, heading) = lines.next().ok_or_else(|| wrong("the file is empty".into()))?;
     let separator = [';', '\t'].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
@@ -45,7 +50,7 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
     let ([x, y, Some(ux), Some(uy), uz], true) =
         (columns, number.is_some() || columns[0].is_some() && columns[1].is_some())
     else {
-        let named = headings.join(" | ");
+        let named: String = headings.join(" | ").chars().take(MOST_SHOWN).collect();
         return Err(wrong(format!(
             "the first line names the columns {named:?}, which do not say what is where"
         )));
@@ -92,7 +97,6 @@ pub fn read(bytes: Vec<u8>, place: &str) -> Result<Rows> {
     };
     Ok(Rows {
         place: place.into(),
-        kind: Kind::Line,
         names: named(&columns),
         taken: format!("columns {}", [named(&[number]), named(&columns)].concat().join(" | ")),
         rows,

@@ -1,18 +1,20 @@
-//! The displacements that another code computed on the mesh of a scene, beside the reference solution.
+//! The displacements that another code computed on the mesh of a scene, beside a solution of it.
 //!
 //! ```text
-//!  FIELD.csv --csv--+
-//!  FIELD.vtu --vtu--+--> Rows --on_mesh--> u --implied--> Solution --+
-//!  SCENE ------------------------solve----------------> reference ---+--> Beside --> tables, JSON
+//!  FIELD.csv --csv--> Rows --on_mesh--> u --+
+//!  deck --------------ccx-------------> u --+--implied--> Solution --+
+//!  SCENE ----------------------solve--------------> reference -------+--> Beside --> tables, JSON
 //! ```
 
 mod beside;
-pub mod command;
+mod by_calculix;
+pub(crate) mod command;
 mod csv;
-mod table;
-mod vtu;
+pub mod table;
 
 pub use beside::{AtNode, Beside, BodyDifference, ContactValues};
+pub use by_calculix::ByCalculix;
+pub use table::Compared;
 
 use std::path::Path;
 
@@ -28,25 +30,13 @@ use problem::scene::{Scene, Units};
 const NEAR: f64 = 1e-6;
 
 /// How a file that cannot be read is written.
-const HOW: &str = "write it as CSV with the columns node, ux, uy or x, y, ux, uy, or as VTU, in ASCII, base64 or raw, \
-                   compressed by zlib or not (meshio convert FIELD field.vtu)";
-
-base::choices! {
-    /// What a row of a file is.
-    Kind {
-        /// A line of a table, whose numbers of nodes are its author's.
-        Line = "line",
-        /// A point of a VTU file, whose numbers may be those that a viewer gave it.
-        Point = "point",
-    }
-}
+const HOW: &str = "write it as CSV with the columns node, ux, uy or x, y, ux, uy; in Python, \
+                   plane_contact.compare(SCENE, meshio.read(FIELD).point_data[NAME]) takes all that meshio reads";
 
 /// The displacements in a file.
 pub struct Rows {
     /// The path of the file.
     pub place: String,
-    /// What a row is called.
-    kind: Kind,
     /// The names of what was taken for places and displacements, which may have a unit.
     names: Vec<String>,
     /// What was taken for the displacements.
@@ -56,7 +46,7 @@ pub struct Rows {
 
 /// The displacement of a node.
 struct Row {
-    /// The number of its line or point in the file.
+    /// The number of its line in the file.
     line: usize,
     /// The number of the node.
     number: Option<usize>,
@@ -73,15 +63,18 @@ impl Rows {
     /// It cannot be read, or has no displacements.
     pub fn read(path: &Path) -> Result<Self> {
         let place = shown(path);
+        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("csv")) {
+            return Err(InputError::new(
+                place,
+                "the file is no .csv, the only kind that is read",
+                HOW,
+            ));
+        }
         let bytes = disk::read(path).map_err(|why| {
             let what = format!("the field cannot be read: {why}");
-            InputError::new(&place, what, "give the path of a .csv or .vtu file")
+            InputError::new(&place, what, "give the path of a .csv file")
         })?;
-        match path.extension().map(|extension| extension.to_ascii_lowercase()) {
-            Some(extension) if extension == "csv" => csv::read(bytes, &place),
-            Some(extension) if extension == "vtu" => vtu::read(&bytes, &place),
-            _ => Err(InputError::new(place, "the file is neither .csv nor .vtu", HOW)),
-        }
+        csv::read(bytes, &place)
     }
 
     /// Returns the displacements by degree of freedom of the scene's model, and how their nodes were found, in words.
@@ -99,23 +92,17 @@ impl Rows {
                 continue;
             }
             if let Some(before) = found[node.index()].replace(row) {
-                let what = format!(
-                    "node {node} is that of {kind} {} and of {kind} {}",
-                    before.line,
-                    row.line,
-                    kind = self.kind
-                );
+                let what =
+                    format!("node {node} is that of line {} and of line {}", before.line, row.line);
                 return Err(self.wrong(what, "give each node one row"));
             }
             if !row.u.iter().all(|u| u.is_finite()) {
-                let what =
-                    format!("{} {} (node {node}) has no finite displacement", self.kind, row.line);
+                let what = format!("line {} (node {node}) has no finite displacement", row.line);
                 return Err(self.wrong(what, "give a number for each node of the mesh"));
             }
             if row.u[2].abs() > NEAR * size {
                 let what = format!(
-                    "{} {} (node {node}) moves along z by {}, and the scene is plane",
-                    self.kind,
+                    "line {} (node {node}) moves along z by {}, and the scene is plane",
                     row.line,
                     six_digits(row.u[2])
                 );
@@ -140,42 +127,17 @@ impl Rows {
         Ok((DVector::from_column_slice(u.as_flattened()), how))
     }
 
-    /// Returns the node of each row.
+    /// Returns the node of each row: by number where the rows have one, else by coordinates.
     fn nodes(&self, scene: &Scene, model: &Model) -> Result<(Vec<NodeId>, String)> {
         let near = NEAR * model.bounds().larger_side();
         let is_at = |row: &Row, node: NodeId| {
             let [nx, ny] = model.coordinates(node);
             row.at.is_none_or(|[x, y]| (x - nx).hypot(y - ny) <= near)
         };
-        let is_numbered = self.rows.iter().all(|row| row.number.is_some());
-        if is_numbered {
-            let numbered = self.by_its_numbers(scene, model, is_at);
-            match (self.kind, &numbered) {
-                (Kind::Line, _) | (Kind::Point, Ok(_)) => return numbered,
-                (Kind::Point, Err(_)) => {}
-            }
-            // A viewer or a script may count from 0, as points of a VTU file do.
-            let is_first = |row: &Row| row.number == Some(0);
-            if self.rows.iter().any(is_first)
-                && let Ok(nodes) = self.by_number(model, Some, is_at)
-            {
-                return Ok((nodes, "by number, counted from 0".into()));
-            }
+        match self.rows.iter().all(|row| row.number.is_some()) {
+            true => self.by_its_numbers(scene, model, is_at),
+            false => Ok((self.by_coordinates(model, near, is_at)?, "by coordinates".into())),
         }
-        let how = |place: &str| match is_numbered {
-            false => place.to_string(),
-            true => format!("{place}; its node numbers are not the mesh's"),
-        };
-        let used = || model.node_ids().filter(|node| !model.is_dropped(*node));
-        // A dropped node has no place that matters.
-        let is_here = |(row, node): (&Row, NodeId)| model.is_dropped(node) || is_at(row, node);
-        for nodes in [model.node_ids().collect(), used().collect::<Vec<_>>()] {
-            let mut pairs = self.rows.iter().zip(nodes.iter().copied());
-            if self.rows.len() == nodes.len() && pairs.all(is_here) {
-                return Ok((nodes, how("in the order of the mesh, at the same coordinates")));
-            }
-        }
-        Ok((self.by_coordinates(model, near, is_at)?, how("by coordinates")))
     }
 
     /// Returns the node of each row by its number in the mesh file, or here, whichever fits.
@@ -213,15 +175,15 @@ impl Rows {
             let number = row.number.unwrap_or_default();
             let node = index(number).filter(|index| *index < model.nodes.len()).map(NodeId::new);
             let node = node.ok_or_else(|| {
-                let what = format!("{} {}: the mesh has no node {number}", self.kind, row.line);
+                let what = format!("line {}: the mesh has no node {number}", row.line);
                 self.wrong(what, "give the field of the scene's own mesh, whose nodes count from 1")
             })?;
             if !is_at(row, node) {
                 let [x, y] = row.at.unwrap_or_default().map(six_digits);
                 let [nx, ny] = model.coordinates(node).map(six_digits);
                 let what = format!(
-                    "{} {} has node {number} at {x}, {y}; in the scene it is at {nx}, {ny}",
-                    self.kind, row.line
+                    "line {} has node {number} at {x}, {y}; in the scene it is at {nx}, {ny}",
+                    row.line
                 );
                 let fix = "give the field of the scene's own mesh, with undeformed coordinates in its unit";
                 return Err(self.wrong(what, fix));
@@ -238,23 +200,23 @@ impl Rows {
         near: f64,
         is_at: impl Fn(&Row, NodeId) -> bool,
     ) -> Result<Vec<NodeId>> {
-        let mut sorted: Vec<NodeId> = model.node_ids().filter(|n| !model.is_dropped(*n)).collect();
+        let mut sorted: Vec<NodeId> = model.node_ids().collect();
         sorted.sort_by(|a, b| model.coordinates(*a)[0].total_cmp(&model.coordinates(*b)[0]));
         let node = |row: &Row| {
             let [x, y] = row.at.unwrap_or_default();
             let from = sorted.partition_point(|n| model.coordinates(*n)[0] < x - near);
             let column =
                 sorted[from..].iter().take_while(|n| model.coordinates(**n)[0] <= x + near);
-            let all: Vec<NodeId> = column.copied().filter(|n| is_at(row, *n)).collect();
-            let place =
-                format!("{} {} at {}, {}", self.kind, row.line, six_digits(x), six_digits(y));
+            let mut all: Vec<NodeId> = column.copied().filter(|n| is_at(row, *n)).collect();
+            if all.len() > 1 {
+                all.retain(|node| !model.is_dropped(*node));
+            }
+            let place = format!("line {} at {}, {}", row.line, six_digits(x), six_digits(y));
             match all[..] {
                 [node] => Ok(node),
                 [a, b, ..] => {
                     let what = format!("{place} is that of node {a} and of node {b}");
-                    let fix = "add a column node with their numbers to a CSV, or an array node to a VTU; or list all nodes in the \
-                               mesh's order";
-                    Err(self.wrong(what, fix))
+                    Err(self.wrong(what, "add a column node with their numbers"))
                 }
                 [] => {
                     let what = format!("{place} is at no node of the scene");
@@ -290,7 +252,7 @@ fn unit(name: &str) -> Option<&str> {
     Some(unit.trim_matches([' ', ')', ']'])).filter(|unit| !unit.is_empty())
 }
 
-/// Returns whether a name is that of a column or an array of node numbers.
+/// Returns whether a name is that of a column of node numbers.
 fn is_number(name: &str) -> bool {
     const NAMES: [&str; 9] =
         ["node", "n", "id", "ids", "nodeid", "nodeids", "nodenumber", "nodelabel", "globalnodeid"];

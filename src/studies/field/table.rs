@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{AtNode, Beside, BodyDifference, ContactValues, Rows};
+use super::{AtNode, Beside, BodyDifference, ByCalculix, ContactValues};
 use engine::{Distance, Overlap};
 use problem::model::NodeId;
 use problem::modelling::{ContactModel, Variant};
@@ -20,28 +20,40 @@ const WORST: usize = 10;
 /// The part of the largest force on a node from which a force without balance is said to spoil the tractions.
 const UNBALANCED: f64 = 1e-3;
 
-/// What was compared: a file, how its nodes were found, and what came of it.
+/// What was compared, and what came of it.
 pub struct Compared<'a> {
-    /// The file.
-    pub rows: &'a Rows,
-    /// How the nodes of its rows were found, in words.
-    pub how: &'a str,
+    /// Where the field is from: a file, or CalculiX with its version.
+    pub other: String,
+    /// How it was found or made, in lines.
+    pub about: Vec<String>,
+    /// How CalculiX came to it; nothing of a file.
+    pub calculix: Option<ByCalculix>,
+    /// The largest difference that counts as none, over the largest displacement and in the energy norm; without
+    /// one, differences are not judged.
+    pub tolerance: Option<f64>,
     /// The field beside the reference solution.
     pub beside: Beside<'a>,
 }
 
+impl Compared<'_> {
+    /// Returns whether the field is the reference solution within the tolerance; nothing without one.
+    pub fn is_same(&self) -> Option<bool> {
+        self.tolerance.map(|tolerance| self.beside.is_within(tolerance))
+    }
+}
+
 /// Reports the distance of a field, its largest differences, and what it implies of contact.
 pub fn report(compared: &Compared) -> Report {
-    let Compared { rows, how, beside } = compared;
-    let (reference, model) = (beside.reference, &*beside.reference.model);
+    let beside = &compared.beside;
+    let reference = beside.reference;
     let request = &reference.request;
-    let nodes = model.nodes.len();
     let others = reference.has_others().then_some(
         "NOTE: the solution compared with is not the only equilibrium: solve says which others there are",
     );
-    Report::titled(&request.scene.title)
-        .line(format!("scene {} beside {}", request.scene.name, rows.place))
-        .line(format!("{}; {nodes} nodes, found {how}", rows.taken))
+    let report = Report::titled(&request.scene.title)
+        .line(format!("scene {} beside {}", request.scene.name, compared.other));
+    let report = compared.about.iter().fold(report, Report::line);
+    report
         .line(format!(
             "compared with {}, {} geometry",
             pressure::name(reference),
@@ -50,8 +62,8 @@ pub fn report(compared: &Compared) -> Report {
         .notes(request.scene.adapted().to_vec())
         .heading("Result")
         .notes(overlap(reference))
-        .notes(verdict(beside))
-        .notes(hidden(beside))
+        .notes(verdict(compared))
+        .notes(hidden(compared))
         .notes(others)
         .notes(unbalanced(beside))
         .table("Largest differences, by body", bodies(beside))
@@ -59,16 +71,21 @@ pub fn report(compared: &Compared) -> Report {
         .then(worst(beside))
 }
 
-/// Says whether the field is the reference solution, and how far it is.
-fn verdict(beside: &Beside) -> [String; 2] {
-    let Distance { displacement, displacement_relative, energy_relative, .. } = beside.distance;
-    let verdict = if beside.is_same() { "Same within" } else { "Differs by more than" };
-    let units = &beside.reference.request.scene.units;
+/// Says how far the field is from the reference solution and, where that is judged, whether it is the same.
+fn verdict(compared: &Compared) -> [String; 2] {
+    let Beside { distance, reference, .. } = &compared.beside;
+    let Distance { displacement, displacement_relative, energy_relative, .. } = *distance;
+    let judged = |tolerance: f64| {
+        let is_same = compared.beside.is_within(tolerance);
+        let verdict = if is_same { "Same within" } else { "Differs by more than" };
+        let tolerance = six_digits(tolerance);
+        format!("{verdict} --rtol {tolerance} (energy norm {})", part(energy_relative))
+    };
+    let units = &reference.request.scene.units;
     [
-        format!(
-            "{verdict} --rtol {} (energy norm {})",
-            six_digits(beside.tolerance),
-            part(energy_relative)
+        compared.tolerance.map_or_else(
+            || format!("Distance in the energy norm: {}", part(energy_relative)),
+            judged,
         ),
         format!(
             "Largest difference of a displacement: {}, {} of the largest",
@@ -80,13 +97,11 @@ fn verdict(beside: &Beside) -> [String; 2] {
 
 /// Names the body in which the largest von Mises stress differs by more than ten times the tolerance, where both norms,
 /// which are those of all bodies together, take the field for the same.
-fn hidden(beside: &Beside) -> Option<String> {
-    let largest = beside
-        .distance
-        .bodies
-        .iter()
-        .max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs()))?;
-    let is_hidden = beside.is_same() && largest.relative.abs() > 10.0 * beside.tolerance;
+fn hidden(compared: &Compared) -> Option<String> {
+    let Beside { distance, .. } = &compared.beside;
+    let bodies = distance.bodies.iter();
+    let largest = bodies.max_by(|a, b| a.relative.abs().total_cmp(&b.relative.abs()))?;
+    let is_hidden = compared.is_same()? && largest.relative.abs() > 10.0 * compared.tolerance?;
     is_hidden.then(|| {
         format!(
             "NOTE: both are of all bodies together; the largest von Mises stress of body {:?} differs by {}",
@@ -208,8 +223,14 @@ struct Document<'a> {
     variant: Variant,
     #[serde(flatten)]
     modelled: ContactModel,
-    is_same: bool,
-    rtol: f64,
+    /// How CalculiX came to the field; absent of a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    calculix: Option<&'a ByCalculix>,
+    /// Absent, as `rtol` is, where differences are not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    is_same: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rtol: Option<f64>,
     /// Whether the solution compared with is not the only equilibrium.
     has_others: bool,
     /// Where its bodies lie in each other outside the groups of contact; null where they do not.
@@ -238,11 +259,12 @@ pub fn json(compared: &Compared) -> String {
     let document = Document {
         scene: &request.scene.name,
         title: &request.scene.title,
-        field: &compared.rows.place,
+        field: &compared.other,
         variant: request.variant,
         modelled: request.contact,
-        is_same: beside.is_same(),
-        rtol: beside.tolerance,
+        calculix: compared.calculix.as_ref(),
+        is_same: compared.is_same(),
+        rtol: compared.tolerance,
         has_others: beside.reference.has_others(),
         overlap: &beside.reference.overlap,
         distance: &beside.distance,

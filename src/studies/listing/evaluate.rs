@@ -13,6 +13,7 @@ use engine::error::{Error, Result};
 use mathcad::{
     Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file,
     json::{self, Written},
+    unsupported::is_unit,
 };
 
 use commands::{print, print_either, read_listing, report_error, waiting};
@@ -68,6 +69,11 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     }
     let call = Listing::parse("--call", &format!("_() :=\n  {call}"))
         .map_err(|error| InputError::new("--call", error.to_string(), notation))?;
+    let is_unknown = |name: &&str| is_unit(name) && !sheet.has(name);
+    if let Some(name) = call.free_names().into_iter().find(is_unknown) {
+        let what = format!("{name} is not defined");
+        return Err(InputError::new("--call", what, "give its value by --inputs").into());
+    }
     let limits = Limits { steps: args.limit, ..Limits::default() };
     let outcome =
         waiting("executing", || call.runner_in(&sheet, &args.settings, &limits).call(&[]));

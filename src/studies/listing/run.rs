@@ -1,6 +1,7 @@
 //! `plane-contact listing run`.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use base::error::InputError;
 use base::files::PER_CENT;
@@ -14,6 +15,7 @@ use paper::edited::{Edited, Interpreter};
 use paper::listings;
 use paper::mirror::Reading;
 use problem::model::Model;
+use problem::modelling::Variant;
 use problem::scene::Scene;
 use report::{json, matrix_market, tables};
 
@@ -36,8 +38,9 @@ pub enum Which {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in
-contact), then the rows of k_cnt that are not zero. --json: {\"ct\": [...], \"yt\": [...], \"dy\":
-[...], \"k_cnt\": [[master, weight, master, weight], ...]}.
+contact), then the rows of k_cnt that are not zero. --json: {\"cnt\": [...], \"ct\": [...],
+\"yt\": [...], \"dy\": [...], \"k_cnt\": [[master, weight, master, weight], ...]}; cnt is as the
+scene lists it.
 
 Examples:
   plane-contact listing run c_cnt fig1
@@ -96,10 +99,15 @@ pub fn run(which: &Which) -> Result<()> {
     }
 }
 
+/// Returns the model with the scene's contact nodes as it lists them, whatever its variant.
+fn model(scene: &Scene, reading: Reading) -> Result<Arc<Model>> {
+    Ok(Request::new(scene).variant(Variant::Printed).reading(reading).model()?)
+}
+
 fn c_cnt(args: &CCntArgs) -> Result<()> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
-    let model = Request::new(&scene).reading(reading).model()?;
+    let model = model(&scene, reading)?;
     let call = match interpreter(&args.listing, listings::Which::CCnt, &model, &reading)? {
         None => Call::c_cnt(&model, &reading, &model.nodes)?,
         Some(edited) => {
@@ -108,7 +116,7 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
         }
     };
     if args.tables.json {
-        return print(&json::line(Some(&scene), &json::found(&call.pairs)));
+        return print(&json::line(Some(&scene), &json::found(&call)));
     }
     args.tables.print(tables::pairs(&scene, &model, &reading, &call))
 }
@@ -121,7 +129,7 @@ fn km(args: &KmArgs) -> Result<()> {
 fn matrix(args: &KmArgs) -> Result<String> {
     let reading = args.reading.reading;
     let scene = Scene::open(&args.scene)?;
-    let model = Request::new(&scene).reading(reading).model()?;
+    let model = model(&scene, reading)?;
     limits::DENSE.check(model.dofs(), "the mesh")?;
     check_restraints(&model)?;
     let call = match args.coupled_by {

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use crate::calculix::{Problem, deck};
+use crate::calculix::arguments::DeckArgs;
+use crate::calculix::deck;
 use base::files::DECK;
 use engine::error::Result;
+use problem::scene::Scene;
 
-use crate::calculix::arguments::{Code, DeckArgs};
-use commands::{offered, write_or_print};
+use commands::write_or_print;
 
 /// Write a scene as an input deck of CalculiX.
 #[derive(clap::Args)]
@@ -25,9 +26,6 @@ pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The code.
-    #[arg(long, value_name = "CODE", default_value = "calculix", value_parser = offered::<Code>(Code::ALL))]
-    to: Code,
     #[command(flatten)]
     deck: DeckArgs,
     /// Write to a file in place of standard output.
@@ -36,12 +34,11 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let Code::Calculix = args.to;
     write_or_print(&args.out, DECK, || {
-        let solution = args.deck.solve(&args.scene)?;
+        let scene = Scene::open(&args.scene)?;
+        let solution = args.deck.solve(&scene)?;
         let parts = args.deck.parts(&solution)?;
         let last = parts.last().expect("a run has an iteration");
-        let (scene, model) = (&solution.request.scene, &solution.model);
-        Ok(deck(&Problem { scene, model, contact: &last.contact })?)
+        Ok(deck(&scene.title, &solution.model, &last.contact)?)
     })
 }

@@ -12,6 +12,7 @@ use report::failure::Failure;
 use report::json::{self, pretty};
 use report::layout::{counted, first_line};
 use report::model::Report;
+use report::text::COLUMNS;
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct VerifiedFile {
@@ -177,7 +178,7 @@ fn outcome_of(kind: &'static str, message: String, words: &str) -> Element {
 }
 
 /// Returns what verifying found as JSON: whether something was compared in every file and nothing differs, and file by
-/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them.
+/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them; and [`report`].
 pub fn json(checked: &[VerifiedFile]) -> String {
     let run = |run: &VerifiedRun| {
         json!({
@@ -204,5 +205,6 @@ pub fn json(checked: &[VerifiedFile]) -> String {
     };
     let same = checked.iter().all(VerifiedFile::is_same);
     let files: Vec<Value> = checked.iter().map(file).collect();
-    json::line(None, &json!({ "same": same, "files": files }))
+    let text = report(checked, true).text(COLUMNS);
+    json::line(None, &json!({ "same": same, "files": files, "text": text }))
 }

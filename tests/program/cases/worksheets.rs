@@ -183,6 +183,33 @@ const CASES: &[Case] = &[
     ),
     case!("", program!("f(x) := 3*cm", "f(1)") => 2, ["unsupported: units: cm"], ["not defined", "correct the program"]),
     case!("", program!("f(cm) := 3*cm", "f(2)"), ["6\n"], []),
+    // In a call it is a name that --inputs lacks.
+    case!("", program!("f(m) := 3*m", "f(m)") => 2, ["m is not defined", "--inputs"], ["unsupported", "panicked"]),
+    case!("", "printf 'f(A) := 3*A' > p.txt && plane-contact listing evaluate p.txt" => 2, ["A is not defined", "--inputs"], ["unsupported"]),
+    case!(
+        "",
+        "printf 'f(A) := 3*A' > p.txt && plane-contact listing evaluate p.txt --inputs '{\"A\": 2}'",
+        ["6\n"],
+        []
+    ),
+    // The listings take the contact nodes as the scene lists them, whatever its variant; a listing's name is compared whole.
+    case!(
+        "",
+        "plane-contact scene copy fig1 --out s >log; for variant in tied unilateral; do \
+         sed \"s/5, 6, 7, 8, 9/9, 8, 7, 6, 5, 9/; s/stepped/$variant/\" s/scene.json >s/$variant.json; \
+         plane-contact listing run c_cnt s/$variant.json --json | sed 's/.*\"cnt\"/\"cnt\"/; s/,\"k_cnt.*//' || exit; \
+         plane-contact listing run Km s/$variant.json | grep -v scene | cksum; done | sort | uniq -c",
+        ["2 \"cnt\":[9,8,7,6,5,9],\"ct\":[3,3,2,2,1,3],", "\"dy\":[1,0,1,1,1,1]"],
+        []
+    ),
+    case!(
+        "",
+        "for name in Kmeans c_cnts Km2 Km_ kM; do printf \"$name(x) :=\\n  x\\n\" > p.txt; \
+         plane-contact listing run Km fig1 --listing p.txt; echo $name $?; done; \
+         plane-contact solve fig1 --variant tied --no-pictures --out o --km p.txt" => 2,
+        ["begins with neither c_cnt nor Km", "Kmeans 2", "c_cnts 2", "Km2 2", "Km_ 2", "kM 2"],
+        ["panicked"]
+    ),
     case!(
         "",
         "printf 'f(x) := x*kN' > p.txt && plane-contact listing evaluate p.txt --call 'f(2)' --inputs '{\"kN\": 3}'",

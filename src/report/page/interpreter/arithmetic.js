@@ -2,9 +2,10 @@
 // of IEEE 754 after another in the printed order, so that it has the bits of the Rust interpreter
 // (src/mathcad); what cannot be had to the last bit, such as a sine, is refused by its name.
 
-/** A finite number, or the overflow that Mathcad reports. */
+/** A finite number, or the overflow that Mathcad reports: no number comes of an overflow before. */
 function finite(x) {
   if (Number.isFinite(x)) return x;
+  if (Number.isNaN(x)) return finite(Infinity);
   throw new Cause(`Found a number beyond 10^307. («Найдено число величиной более 10^307» in Mathcad 14.1.) The result is ${inDigits(x)}.`);
 }
 
@@ -106,31 +107,37 @@ function magnitude(value) {
   if (value.rows !== value.cols || value.rows === 0) throw wrongKind("a square matrix", value);
   const [a, b, c, d] = value.entries;
   if (value.rows === 2) return finite(a * d - b * c);
-  const { rows, order, sign } = factors(value);
-  return finite(order.reduce((product, i, k) => product * rows[i][k], sign));
+  const { rows, sign } = factors(value);
+  return finite(rows.reduce((product, row, k) => product * row[k], sign));
 }
 
-/** The rows of an eliminated matrix, each with the factors left of its pivot; the order in which they are
- * pivots, each the largest of its column; and the sign of that order. */
+/** A number over a pivot: times its reciprocal, where that is a number. */
+const overPivot = (x, pivot) => (Number.isFinite(1 / pivot) ? x * (1 / pivot) : x / pivot);
+
+/** The rows of an eliminated matrix in the order in which they are pivots, each the largest of its column, with
+ * the factors left of the pivot; their places before; and the sign of that order. The products of an entry are
+ * added up before they are subtracted from it. */
 function factors(matrix) {
   const n = matrix.rows;
   const rows = Array.from({ length: n }, (_, i) => matrix.entries.slice(i * n, (i + 1) * n));
+  const sums = rows.map((row) => row.map(() => 0));
   const order = rows.map((_, i) => i);
   let sign = 1;
   for (let k = 0; k < n; k += 1) {
+    for (let i = k; i < n; i += 1) rows[i][k] -= sums[i][k];
     let largest = k;
-    for (let at = k + 1; at < n; at += 1) if (Math.abs(rows[order[at]][k]) > Math.abs(rows[order[largest]][k])) largest = at;
+    for (let at = k + 1; at < n; at += 1) if (Math.abs(rows[at][k]) > Math.abs(rows[largest][k])) largest = at;
     if (largest !== k) {
-      [order[k], order[largest]] = [order[largest], order[k]];
+      for (const all of [rows, sums, order]) [all[k], all[largest]] = [all[largest], all[k]];
       sign = -sign;
     }
-    const pivot = rows[order[k]];
-    if (pivot[k] === 0) continue;
-    for (const row of order.slice(k + 1).map((i) => rows[i])) {
+    const pivot = rows[k];
+    for (let j = k + 1; j < n; j += 1) pivot[j] -= sums[k][j];
+    for (let i = k + 1; i < n; i += 1) {
+      const row = rows[i];
       if (row[k] === 0) continue;
-      const factor = row[k] / pivot[k];
-      row[k] = factor;
-      for (let j = k + 1; j < n; j += 1) row[j] -= factor * pivot[j];
+      row[k] = overPivot(row[k], pivot[k]);
+      for (let j = k + 1; j < n; j += 1) sums[i][j] += row[k] * pivot[j];
     }
   }
   return { rows, order, sign };
@@ -148,12 +155,11 @@ function lsolve(a, b) {
 function substituted({ rows, order }, b) {
   const n = order.length;
   const x = order.map((i) => b.entries[i]);
-  for (let k = 0; k < n; k += 1) for (let j = 0; j < k; j += 1) x[k] -= rows[order[k]][j] * x[j];
+  for (let k = 0; k < n; k += 1) x[k] -= sum(k, (j) => rows[k][j] * x[j]);
   for (let k = n - 1; k >= 0; k -= 1) {
-    const row = rows[order[k]];
-    if (row[k] === 0) throw new Cause("The matrix is singular.");
-    for (let j = k + 1; j < n; j += 1) x[k] -= row[j] * x[j];
-    x[k] = finite(x[k] / row[k]);
+    if (rows[k][k] === 0) throw new Cause("The matrix is singular.");
+    const known = sum(n - 1 - k, (j) => rows[k][k + 1 + j] * x[k + 1 + j]);
+    x[k] = finite(overPivot(x[k] - known, rows[k][k]));
   }
   return new Grid(n, 1, x);
 }

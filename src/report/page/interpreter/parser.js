@@ -114,8 +114,8 @@ class LineParser {
     if (!isSign(this.token, "if")) return false;
     let depth = 0;
     for (const token of this.tokens.slice(this.next + 1)) {
-      if (isSign(token, "(", "[", "⟨")) depth += 1;
-      if (isSign(token, ")", "]", "⟩")) depth -= 1;
+      if (isSign(token, "(", "[", "⟨", "{")) depth += 1;
+      if (isSign(token, ")", "]", "⟩", "}")) depth -= 1;
       if (depth <= 0) return false;
       if (depth === 1 && isSign(token, ",")) return true;
     }
@@ -320,10 +320,13 @@ function lineOf(number, inFile, text) {
   return { number, inFile, level, text: text.slice(2 * level).trimEnd() };
 }
 
-/** The lines of a text, those that start with `#` left out. */
+/** A line that has no string without its remark. */
+const withoutRemark = (line) => line.split("#")[0].trimEnd();
+
+/** The lines of a text, those that are a remark alone left out. */
 function linesOf(text) {
   const all = text.replace(/\n$/, "").split("\n").map((line, k) => [k + 1, line.replace(/\r$/, "")]);
-  const kept = all.filter(([, line]) => !line.startsWith("#") && line.trim() !== "");
+  const kept = all.filter(([, line]) => withoutRemark(line) !== "");
   return kept.map(([inFile, line], k) => lineOf(k + 1, inFile, line));
 }
 
@@ -388,7 +391,7 @@ class ListingReader {
     if (statement.fallback) {
       const between = this.lines[this.next];
       const last = this.lines[this.next - 1];
-      if (between?.level !== line.level || between.text !== "on error") this.refuse(last, last.text.length, "expected a line `on error` below, beside its `try`");
+      if (between?.level !== line.level || withoutRemark(between.text) !== "on error") this.refuse(last, last.text.length, "expected a line `on error` below, beside its `try`");
       this.next += 1;
       statement.fallback = this.block(line.level + 1);
     }

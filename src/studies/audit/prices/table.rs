@@ -6,8 +6,7 @@ use serde::Serialize;
 
 use crate::audit::claims::table::under;
 use crate::audit::evidence::BY_ROUNDING;
-use crate::audit::prices::{NOTHING, Outcome, Price, PricesAt, Weight, needed};
-use crate::audit::range::ParameterValue;
+use crate::audit::prices::{NOTHING, Outcome, Price, Weight, needed};
 use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::json;
@@ -26,9 +25,6 @@ pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the s
     to. Its price is that of the fault in the corrected algorithm, which comes to other shapes: so a finding \
     that is not triggered may cost something, and one that is present nothing.";
 
-/// What is said in place of a price of what is none.
-const NO_FAULT: &str = "no effect, as nothing slides";
-
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize)]
 pub struct Document<'a> {
@@ -39,9 +35,6 @@ pub struct Document<'a> {
     /// The corrected algorithm with all faults reintroduced, then a repair a row, with those above it; empty
     /// where that was not asked for.
     pub repairs: &'a [Price],
-    /// The prices at the other places of the range of what the paper leaves open; empty where that was not
-    /// asked for.
-    pub range: &'a [PricesAt],
 }
 
 /// Returns the prices as JSON.
@@ -57,7 +50,7 @@ pub fn section(
     scene: &Scene,
 ) -> Report {
     let report = match prices {
-        Ok(prices) => report(&Document { reading, prices, repairs, range: &[] }, scene).deeper(1),
+        Ok(prices) => report(&Document { reading, prices, repairs }, scene).deeper(1),
         Err(why) => {
             Report::default().heading("What the printed faults cost").line(not_measured(why))
         }
@@ -71,7 +64,7 @@ pub fn section(
 /// Reports the prices: a row for the corrected algorithm and one for each fault; then, where they were
 /// asked for, a row for the print and one for each repair.
 pub fn report(document: &Document, scene: &Scene) -> Report {
-    let Document { reading, prices, repairs, range } = document;
+    let Document { reading, prices, repairs } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.name.as_deref().unwrap_or("-"))
         .column("fault reintroduced", |price| price.fault.clone());
@@ -109,9 +102,6 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         Some(why) => vec![format!("{why}: no fault is priced.")],
         None => without_cost(prices).iter().map(Cost::to_string).collect(),
     });
-    if !range.is_empty() {
-        return report.then(over_range(prices, range));
-    }
     if repairs.is_empty() {
         return report.line(format!(
             "audit {} --prices --repairs repairs the print one finding at a time.",
@@ -125,65 +115,6 @@ pub fn report(document: &Document, scene: &Scene) -> Report {
         )
         .line(ORDER)
         .line(way(repairs))
-}
-
-/// A place of the range with its prices; none of a parameter for the paper's example as we assume it.
-type Place<'a> = (Option<&'a ParameterValue>, &'a [Price]);
-
-/// Reports the least and the greatest cost of each fault over the range, of the places where the corrected
-/// algorithm is at the solution.
-fn over_range(own: &[Price], range: &[PricesAt]) -> Report {
-    let known = range
-        .iter()
-        .filter_map(|PricesAt { at, prices }| Some((Some(at), prices.as_deref().ok()?)));
-    let places: Vec<Place> = std::iter::once((None, own))
-        .chain(known)
-        .filter(|(_, prices)| unsound(prices).is_none())
-        .collect();
-    let rows = own.iter().enumerate().skip(1);
-    let rows = rows.filter_map(|(k, price)| Some((k, price, extremes(&places, k)?)));
-    let table = Table::from_rows(rows)
-        .column("finding", |(_, price, _)| price.name.as_deref().unwrap_or("-"))
-        .column("fault reintroduced", |(_, price, _)| price.fault.clone())
-        .column("least error in energy, %", |(k, _, [least, _])| error(least, *k))
-        .column("where it is least", |(_, _, [least, _])| place(least.0))
-        .column("greatest error in energy, %", |(k, _, [_, greatest])| error(greatest, *k))
-        .column("where it is greatest", |(_, _, [_, greatest])| place(greatest.0));
-    let left_out = range.iter().filter_map(|PricesAt { at, prices }| {
-        let why = match prices {
-            Ok(prices) => unsound(prices)?,
-            Err(why) => why.clone(),
-        };
-        Some(format!("Left out: {}: {why}", place(Some(at))))
-    });
-    let title = format!("Over {} places of the range of what the paper leaves open", places.len());
-    Report::default().table(title, table).notes(left_out)
-}
-
-/// Returns the places where fault `k` costs least and most, each the first of those where it costs the same;
-/// nothing without places.
-fn extremes<'a>(places: &'a [Place<'a>], k: usize) -> Option<[&'a Place<'a>; 2]> {
-    let order = |a: &&Place, b: &&Place| {
-        let [a, b] = [a, b].map(|(_, prices)| prices[k].outcome.error());
-        a.total_cmp(&b)
-    };
-    Some([places.iter().min_by(order)?, places.iter().rev().max_by(order)?])
-}
-
-fn error((_, prices): &Place, k: usize) -> Cell {
-    match &prices[k].outcome {
-        Outcome::Failure { .. } => Cell::from("stops"),
-        Outcome::Rounding {} => Cell::from(BY_ROUNDING),
-        Outcome::NoFault {} => Cell::from(NO_FAULT),
-        outcome @ Outcome::Result { .. } => Cell::decimals(100.0 * outcome.error(), 2),
-    }
-}
-
-fn place(at: Option<&ParameterValue>) -> String {
-    match at {
-        None => "the paper's example".into(),
-        Some(at) => format!("{}: {}", at.parameter.meaning(), at.value),
-    }
 }
 
 /// Adds the columns of what came of a run.
@@ -350,7 +281,7 @@ fn ends(outcome: &Outcome) -> String {
         }
         Outcome::Failure { .. } => "stops".into(),
         Outcome::Rounding {} => BY_ROUNDING.into(),
-        Outcome::NoFault {} => NO_FAULT.into(),
+        Outcome::NoFault {} => "no effect, as nothing slides".into(),
     }
 }
 

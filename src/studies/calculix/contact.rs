@@ -1,15 +1,13 @@
-//! What a deck describes: the scene, and how its bodies touch.
+//! How the bodies of a deck touch.
 
 use nalgebra::DVector;
 
 use base::choices;
 use base::error::{InputError, Result};
-use engine::Detail;
-use engine::{Constraint, Motion, Solution};
+use engine::{Constraint, Detail, Motion, Solution};
 use paper::mirror::Schedule;
 use problem::model::{Dof, Model, NodeId};
 use problem::modelling::{Friction, Variant};
-use problem::scene::Scene;
 
 choices! {
     /// How the deck has the bodies touch.
@@ -19,16 +17,6 @@ choices! {
         /// `*CONTACT PAIR`: node to surface, linear penalty.
         Pair = "pair",
     }
-}
-
-/// What `ccx` is asked to solve.
-pub struct Problem<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// The scene's model under the reading that was asked for.
-    pub model: &'a Model,
-    /// How its contact is given to `ccx`.
-    pub contact: &'a Contact,
 }
 
 /// How contact is given to `ccx`.
@@ -48,6 +36,12 @@ pub struct Pair {
     pub penalty: f64,
     /// The coefficient of friction, or that nothing slides.
     pub friction: Friction,
+}
+
+impl From<Pair> for Part {
+    fn from(pair: Pair) -> Self {
+        Part { contact: Contact::Pair(pair), share: 1.0 }
+    }
 }
 
 /// One of the problems whose sum is a run: the whole load on one contact state.
