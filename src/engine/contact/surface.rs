@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
-use super::search::{dot, minus};
+use super::search::{Segment, dot, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
 use problem::model::{Body, EdgeId, Model, NodeId, unordered};
@@ -17,6 +17,9 @@ pub const BEND: f64 = 0.866;
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
 /// the two do not face each other.
 pub(super) const FACING: f64 = 0.1;
+
+/// The distance from another side of a body, over the depth behind an edge, up to which a point is beside that side.
+const BESIDE: f64 = 0.1;
 
 /// The nodes and edges that may touch, and the side of each edge on which its body lies.
 pub struct Surfaces {
@@ -81,23 +84,29 @@ impl Surface {
     }
 
     /// Returns whether an edge is seen from behind, through its body: from a point deeper behind it than the edge is long
-    /// that lies in no body of the surface in a shape, given by the place of each node.
+    /// that lies in no body of the surface in a shape, given by the place of each node, or beside another side of it.
     pub(super) fn is_seen_through(
         &self,
         edge: &PlacedEdge,
         p: Vector,
         shape: impl Fn(NodeId) -> Vector,
     ) -> bool {
-        if edge.outside(p) >= -edge.length {
+        let depth = -edge.outside(p);
+        if depth <= edge.length {
             return false;
         }
-        // A node of the outline itself is of the body, however it is rounded; else the sides above the point are counted.
-        let ends = self.outline.iter().map(|nodes| nodes.map(&shape));
-        let crosses = |[a, b]: &[Vector; 2]| {
-            (a[1] > p[1]) != (b[1] > p[1]) && (f64::orientation(*a, *b, p) > 0.0) == (b[1] > a[1])
+        let sides: Vec<[Vector; 2]> = self.outline.iter().map(|nodes| nodes.map(&shape)).collect();
+        // A node of the outline itself.
+        if sides.iter().any(|[a, _]| *a == p) {
+            return false;
+        }
+        let near = (BESIDE * depth).powi(2);
+        let is_beside = |ends: &[Vector; 2]| Segment::new(*ends).closest(p).distance_square < near;
+        // Of the sides that a line from the point upwards crosses there is an odd number where it lies inside.
+        let is_above = |[a, b]: &[Vector; 2]| {
+            (a[0] > p[0]) != (b[0] > p[0]) && (f64::orientation(*a, *b, p) > 0.0) == (b[0] < a[0])
         };
-        let is_node = ends.clone().any(|[a, _]| a == p);
-        !is_node && ends.filter(crosses).count() % 2 == 0
+        sides.iter().any(is_beside) || sides.iter().filter(|side| is_above(side)).count() % 2 == 0
     }
 
     /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that
