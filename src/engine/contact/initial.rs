@@ -111,7 +111,8 @@ impl Surfaces {
         let outline = Outline::new(&self.target, &model.nodes);
         let faced = |&node: &NodeId| {
             let normal = self.contact.node_normals.get(&node).copied();
-            Some((node, outline.closest_point(model.coordinates(node), normal)?))
+            let at = model.coordinates(node);
+            Some((node, outline.closest_point(at, at, normal)?))
         };
         self.nodes.iter().filter_map(faced).collect()
     }

@@ -82,7 +82,6 @@ impl Surfaces {
         let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
         let search = Search {
             surfaces: self,
-            shape,
             target: &target,
             tree,
             margin: bounds.fold(0.0, f64::max),
@@ -90,7 +89,9 @@ impl Surfaces {
         let mut unsure = Vec::new();
         let cover = |edge: &Edge| {
             let placed = edge.in_shape(shape);
-            let (stretches, left) = compared(|| search.cover(&placed));
+            let ends = edge.nodes.map(|node| self.at_rest[node.index()]);
+            let middle = [0, 1].map(|d| (ends[0][d] + ends[1][d]) / 2.0);
+            let (stretches, left) = compared(|| search.cover(&placed, middle));
             unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
             Covered { stretches, length: placed.length }
         };
@@ -164,8 +165,6 @@ struct Covered<T> {
 /// The target in a shape, for the search of what contact edges cover.
 struct Search<'a, T> {
     surfaces: &'a Surfaces,
-    /// The coordinates of each node, length.
-    shape: &'a [[T; 2]],
     target: &'a [PlacedEdge<T>],
     tree: Tree,
     /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
@@ -173,13 +172,13 @@ struct Search<'a, T> {
 }
 
 impl<T: Scalar> Search<'_, T> {
-    /// Returns the stretches of a contact edge that face a target edge. Where several target edges
+    /// Returns the stretches of a contact edge, whose middle is at rest in the undeformed shape, that face a target edge. Where several target edges
     /// face the same stretch, the nearest one counts.
     ///
     /// Which edges face each other is decided in the shape itself, other than under node to segment:
     /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
     /// still cover the target, and a folded shape would pass for an equilibrium.
-    fn cover(&self, contact: &PlacedEdge<T>) -> Vec<Stretch<T>> {
+    fn cover(&self, contact: &PlacedEdge<T>, middle: [f64; 2]) -> Vec<Stretch<T>> {
         let mut facing: Vec<(T, Stretch<T>)> = Vec::new();
         let (start, tangent) = (contact.start.map(T::to_f64), contact.tangent.map(T::to_f64));
         let across = |b: Bounds| {
@@ -198,12 +197,7 @@ impl<T: Scalar> Search<'_, T> {
             let ends = [T::zero(), one].map(|eta| contact.along(placed.at(eta)));
             let from = Scalar::max(Scalar::min(ends[0], ends[1]), T::zero());
             let to = Scalar::min(Scalar::max(ends[0], ends[1]), one);
-            let seen_from = contact.at((from + to) / two).map(T::to_f64);
-            let placed_in_f64 = placed.map(T::to_f64);
-            let is_seen_through = || {
-                let place = |n: NodeId| self.shape[n.index()].map(T::to_f64);
-                self.surfaces.target.is_seen_through(&placed_in_f64, seen_from, place)
-            };
+            let is_seen_through = || self.surfaces.target.is_seen_through(edge, middle);
             if to - from > T::from_f64(ROUNDING) && !is_seen_through() {
                 let distance = distance(contact, placed, (from + to) / two);
                 facing.push((distance, Stretch { edge, from, to, ends, length: contact.length }));
@@ -238,8 +232,9 @@ impl<T: Scalar> Search<'_, T> {
                 let is_wall = away(&next) < WALL && away(&last) >= WALL;
                 let goes_on = self.goes_on(last.edge, next.edge) && !is_wall;
                 let measured = if is_wall { vec![start, end] } else { vec![start] };
+                let bend = if is_wall { 0.0 } else { BEHIND };
                 let is_behind =
-                    |at: usize| self.is_behind(contact.length, last.foot(end), next.foot(at));
+                    |at: usize| self.is_behind(contact.length, last.foot(end), next.foot(at), bend);
                 if goes_on || !measured.into_iter().any(is_behind) {
                     kept.push(next);
                     last = next;
@@ -261,7 +256,7 @@ impl<T: Scalar> Search<'_, T> {
         };
         let feet = last(&other.stretches, 1 - node).zip(last(&own.stretches, node));
         feet.is_some_and(|(last, next)| {
-            !self.goes_on(last.edge, next.edge) && self.is_behind(own.length, last, next)
+            !self.goes_on(last.edge, next.edge) && self.is_behind(own.length, last, next, BEHIND)
         })
     }
 
@@ -272,13 +267,13 @@ impl<T: Scalar> Search<'_, T> {
     }
 
     /// Returns whether a place on the target lies behind a jump of it: behind the line of the edge that was covered `last`,
-    /// farther than the target bends between them. So in this shape and in the undeformed one, in which bodies side by
+    /// farther than by `bend` of the distance between them. So in this shape and in the undeformed one, in which bodies side by
     /// side may be flush. `length` is that of the contact edge.
-    fn is_behind(&self, length: T, last: Foot<T>, next: Foot<T>) -> bool {
+    fn is_behind(&self, length: T, last: Foot<T>, next: Foot<T>, bend: f64) -> bool {
         let depth = |[line, other]: [PlacedEdge<T>; 2]| {
             let (from, to) = (line.at(last.eta), other.at(next.eta));
             let apart = Scalar::abs(dot([to[0] - from[0], to[1] - from[1]], line.tangent));
-            -line.outside(to).to_f64() - BEHIND * apart.to_f64()
+            -line.outside(to).to_f64() - bend * apart.to_f64()
         };
         let ends = [last.edge, next.edge];
         let undeformed = ends.map(|k| self.surfaces.target.undeformed[k].map(T::from_f64));

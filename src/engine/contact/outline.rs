@@ -24,7 +24,7 @@
 //!    [`HANGING`], even with a closed gap. Otherwise a node there would be released because it is
 //!    closed, and closed again because it then penetrates, without end.
 //!
-//! 6. An edge that the node sees from behind, through the body, does not count.
+//! 6. An edge that the node sees from behind, through the body, before any load does not count.
 //!
 //! No rule depends on the order or direction of the edges or on the axes; a choice jumps only where
 //! a node leaves the neighbourhood [`TIE`] of rule 3, and at the limits of rules 4 and 5.
@@ -56,8 +56,6 @@ const HANGING: f64 = 0.05;
 /// The edges of a body's surface in a shape, for the search of what a node faces.
 pub(super) struct Outline<'a> {
     surface: &'a Surface,
-    /// The coordinates of each node, length.
-    shape: &'a [Vector],
     placed: Vec<PlacedEdge>,
     /// The mean normal at each edge's two nodes, over the edges that meet there in a bend.
     normals: Vec<[Vector; 2]>,
@@ -93,19 +91,24 @@ enum Part {
 
 impl<'a> Outline<'a> {
     /// Places the edges of a surface in `shape`.
-    pub(super) fn new(surface: &'a Surface, shape: &'a [Vector]) -> Self {
+    pub(super) fn new(surface: &'a Surface, shape: &[Vector]) -> Self {
         let Surface { edges, once, .. } = surface;
         let placed: Vec<PlacedEdge> = edges.iter().map(|edge| edge.in_shape(shape)).collect();
         let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.iter().map(ends));
         let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
         let normals = normals(surface, &placed);
-        Outline { surface, shape, placed, normals, tree, tie }
+        Outline { surface, placed, normals, tree, tie }
     }
 
-    /// Returns what a node at `p` faces; `own` is the normal out of the node's own body in the
+    /// Returns what a node at `p` faces, `at_rest` in the undeformed shape; `own` is the normal out of the node's own body in the
     /// undeformed shape, None where it bounds no edge and so faces every edge.
-    pub(super) fn closest_point(&self, p: Vector, own: Option<Vector>) -> Option<FacedPoint> {
+    pub(super) fn closest_point(
+        &self,
+        p: Vector,
+        at_rest: Vector,
+        own: Option<Vector>,
+    ) -> Option<FacedPoint> {
         let node = FacingNode { outline: self, p, own };
         let best = Cell::new(f64::INFINITY);
         let near: RefCell<Vec<(f64, Part)>> = RefCell::default();
@@ -113,7 +116,7 @@ impl<'a> Outline<'a> {
         self.tree.visit(&key, &mut |k| {
             if let Some((distance, part)) = node.part(k)
                 && distance <= best.get() + self.tie
-                && !node.sees_through(part)
+                && !matches!(part, Part::Edge(k) if self.surface.is_seen_through(k, at_rest))
             {
                 best.set(best.get().min(distance));
                 near.borrow_mut().push((distance, part));
@@ -187,15 +190,6 @@ impl FacingNode<'_> {
         let ends = edge.nodes.into_iter().filter(|end| *end == v || xi == 0.5);
         let tip = ends.filter(|end| self.in_tip(*end)).min()?;
         Some((self.distance(tip), Part::Tip(tip)))
-    }
-
-    /// Returns whether the node sees an edge from behind, through its body.
-    fn sees_through(&self, part: Part) -> bool {
-        let Outline { surface, shape, placed, .. } = self.outline;
-        match part {
-            Part::Edge(k) => surface.is_seen_through(&placed[k], self.p, |n| shape[n.index()]),
-            Part::Vertex(_) | Part::Tip(_) => false,
-        }
     }
 
     fn distance(&self, v: NodeId) -> f64 {

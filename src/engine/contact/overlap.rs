@@ -81,7 +81,8 @@ impl Surfaces {
                 // Whether the node lies over an edge of the other group, not past its end.
                 let over = |own: &Surface, other: &Outline| {
                     let normal = own.node_normals.get(&node).copied();
-                    let faced = other.closest_point(shape[node.index()], normal);
+                    let faced =
+                        other.closest_point(shape[node.index()], model.coordinates(node), normal);
                     Some(faced.filter(|faced| body.has(faced.masters[0].0))?.over)
                 };
                 let watched = if facing.contains(&node)

@@ -25,6 +25,8 @@ const BESIDE: f64 = 0.1;
 pub struct Surfaces {
     /// The entries of the contact surface.
     pub(super) nodes: Vec<NodeId>,
+    /// The undeformed coordinates of each node of the model, length.
+    pub(super) at_rest: Vec<Vector>,
     pub(super) contact: Surface,
     pub(super) target: Surface,
 }
@@ -43,8 +45,8 @@ pub(super) struct Surface {
     pub(super) node_normals: FxHashMap<NodeId, Vector>,
     /// The direction across the line of symmetry on which the surface ends, as that of half a scene, by the node there.
     across: FxHashMap<NodeId, Vector>,
-    /// The sides that bound the surface's bodies.
-    outline: Vec<[NodeId; 2]>,
+    /// The sides that bound the surface's bodies, in the undeformed shape.
+    outline: Vec<[Vector; 2]>,
 }
 
 /// An edge of a body's surface.
@@ -79,34 +81,29 @@ impl Surface {
         let has_surface = |body: &&Body| edges.iter().any(|edge| body.has(edge.nodes[0]));
         let bodies: Vec<&Body> = model.bodies.iter().filter(has_surface).collect();
         let sides = model.sides.outline().map(|side| side.nodes);
-        let outline = sides.filter(|nodes| bodies.iter().any(|body| body.has(nodes[0]))).collect();
+        let own = sides.filter(|nodes| bodies.iter().any(|body| body.has(nodes[0])));
+        let outline = own.map(|nodes| nodes.map(|node| model.coordinates(node))).collect();
         Surface { edges, once, at, undeformed, node_normals, across, outline }
     }
 
-    /// Returns whether an edge is seen from behind, through its body: from a point deeper behind it than the edge is long
-    /// that lies in no body of the surface in a shape, given by the place of each node, or beside another side of it.
-    pub(super) fn is_seen_through(
-        &self,
-        edge: &PlacedEdge,
-        p: Vector,
-        shape: impl Fn(NodeId) -> Vector,
-    ) -> bool {
+    /// Returns whether edge `k` is seen from behind, through its body, from a place in the undeformed shape: from deeper behind
+    /// it than it is long, and from no body of the surface, or from beside another side of it. An intermediate shape of the
+    /// iterations, in which bodies may have passed through each other, does not decide that.
+    pub(super) fn is_seen_through(&self, k: usize, p: Vector) -> bool {
+        let edge = &self.undeformed[k];
         let depth = -edge.outside(p);
-        if depth <= edge.length {
-            return false;
-        }
-        let sides: Vec<[Vector; 2]> = self.outline.iter().map(|nodes| nodes.map(&shape)).collect();
-        // A node of the outline itself.
-        if sides.iter().any(|[a, _]| *a == p) {
+        // A node of the outline itself is of the body.
+        if depth <= edge.length || self.outline.iter().any(|[a, _]| *a == p) {
             return false;
         }
         let near = (BESIDE * depth).powi(2);
         let is_beside = |ends: &[Vector; 2]| Segment::new(*ends).closest(p).distance_square < near;
         // Of the sides that a line from the point upwards crosses there is an odd number where it lies inside.
-        let is_above = |[a, b]: &[Vector; 2]| {
+        let is_above = |[a, b]: &&[Vector; 2]| {
             (a[0] > p[0]) != (b[0] > p[0]) && (f64::orientation(*a, *b, p) > 0.0) == (b[0] < a[0])
         };
-        sides.iter().any(is_beside) || sides.iter().filter(|side| is_above(side)).count() % 2 == 0
+        let above = self.outline.iter().filter(is_above).count();
+        above.is_multiple_of(2) || self.outline.iter().any(is_beside)
     }
 
     /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that
@@ -246,7 +243,7 @@ impl Surfaces {
         let target: Vec<Edge> =
             model.contact.target.iter().map(target).collect::<Result<_, InputError>>()?;
         let [contact, target] = [contact, target].map(|edges| Surface::new(model, edges));
-        Ok(Surfaces { nodes, contact, target })
+        Ok(Surfaces { nodes, at_rest: model.nodes.clone(), contact, target })
     }
 
     /// Returns the edges of both surfaces in a shape: their nodes, their normal and their length.
