@@ -44,7 +44,8 @@ fn golden_snapshots_are_verified() {
         assert_eq!(found.input, snapshot.input, "{name} is not of the scene beside it");
         let same = found.is_same();
         let file = file.display().to_string();
-        let report = report::report(&[VerifiedFile { file, scene: None, verified: Ok(found) }], true);
+        let report =
+            report::report(&[VerifiedFile { file, scene: None, verified: Ok(found) }], true);
         assert!(same, "{}", report.text(usize::MAX));
         verified.insert(name);
     }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueHint;
 use nalgebra::DVector;
 
 use super::table::{self, Compared};
@@ -53,7 +54,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// calculix, which is run, or a .csv file of displacements.
-    #[arg(long, value_name = "CODE|FIELD", default_value = "calculix", value_parser = source)]
+    #[arg(long, value_name = "CODE|FIELD", default_value = "calculix", value_parser = source, value_hint = ValueHint::FilePath)]
     with: Source,
     /// The largest difference that is none, over the largest displacement and in the energy norm [default:
     /// with a field 1e-3, with calculix any].
