@@ -30,7 +30,7 @@ const TARGET: [&str; 2] = ["master", "primary"];
 const MUCH_FINER: f64 = 0.5;
 
 /// The part of their length by which edges of equal length may differ.
-const EQUAL: f64 = 0.01;
+const EQUAL: f64 = 0.1;
 
 /// The most edges, about, that are compared with those that they face.
 const SAMPLE: usize = 200;
@@ -137,7 +137,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     }
     if !inner.is_empty() {
         notes.push(format!(
-            "left over: {inner}, with edges that bound no triangle or two: no surface of a body"
+            "left over: {inner}, with edges that bound no triangle or two: for restraints alone"
         ));
     }
     let of = |curves: &[Curve]| curves.iter().flat_map(|curve| curve.bodies.clone()).collect();
@@ -448,7 +448,7 @@ fn contact_surface(a: &Curve, b: &Curve) -> (bool, String) {
         );
     }
     let is_shorter = a.lengths().sum::<f64>() <= b.lengths().sum();
-    (is_shorter, "it is the shorter surface, and their edges are equally long".into())
+    (is_shorter, "it is the shorter surface, and their edges are about as long".into())
 }
 
 /// Returns whether the mesh has numbers of Gmsh's surfaces, which other programs leave out.
