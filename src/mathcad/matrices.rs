@@ -89,7 +89,7 @@ pub fn inverse(value: &Value) -> Result<Value, Cause> {
     let (rows, order, _) = factor(a);
     let mut x = vec![vec![0.0; n]; n];
     for j in 0..n {
-        if rows[j][j] == 0.0 {
+        if finite(rows[j][j])? == 0.0 {
             return Err(Cause::Singular);
         }
         let reciprocal = 1.0 / rows[j][j];
@@ -128,7 +128,7 @@ fn substituted((rows, order, _): &Factors, b: &[f64]) -> Result<Vec<f64>, Cause>
         x[k] -= sum((0..k).map(|j| rows[k][j] * x[j]));
     }
     for k in (0..n).rev() {
-        if rows[k][k] == 0.0 {
+        if finite(rows[k][k])? == 0.0 {
             return Err(Cause::Singular);
         }
         let known = sum((k + 1..n).map(|j| rows[k][j] * x[j]));

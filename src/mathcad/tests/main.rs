@@ -2,6 +2,7 @@
 
 extern crate plane_contact_mathcad as mathcad;
 
+mod edges;
 mod evidence;
 mod limits;
 mod notation;

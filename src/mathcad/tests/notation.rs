@@ -20,14 +20,6 @@ fn a_remark_stands_behind_any_line_or_alone() {
 }
 
 #[test]
-fn a_block_if_may_have_commas_within_its_condition() {
-    assert_eq!(value("if ({for i in 1, 2 {x}; 3} > 0)\n  7"), "7");
-    assert_eq!(value("if (max({for i in 1, 2 {x}; 3}, 2) > 0)\n  7"), "7");
-    assert_eq!(value("7 if ({for i in 1, 2 {x}; 3} > 0)"), "7");
-    assert_eq!(value("if({for i in 1, 2 {x}; 3} > 4, 7, 8)"), "8");
-}
-
-#[test]
 fn rows_are_separated_by_spaces() {
     assert_eq!(value("(0 0 0 0 0 0)ᵀ"), "0; 0; 0; 0; 0; 0");
     assert_eq!(value("(x − 1   x + 2)"), "4 7");

@@ -279,6 +279,18 @@ fn a_name_defined_anew_is_what_it_was_defined_as() {
     );
 }
 
+/// A name of a unit that is called is no unit, whether a function's definition calls it or an evaluation does.
+#[test]
+fn a_unit_is_not_called() {
+    let function = format!("<function>{}<boundVars>{}</boundVars></function>", id("f"), id("t"));
+    let call = |name: &str| format!("<apply>{}{}</apply>", id(name), real(2.0));
+    let unknown = "`m`, which nothing above defines";
+    let checked = executed(&[eval(&call("m"), Some(1.0)), define(&function, &call("m"))]);
+    assert_eq!(verdicts(&checked), [unsupported(unknown), unsupported(unknown)]);
+    let product = apply("mult", &[&id("t"), &id("m")]);
+    assert_eq!(executed(&[define(&function, &product)])[0].verdict, unsupported("units: m"));
+}
+
 /// The saved value of a definition that is unsupported goes on; that of a name that
 /// nothing defines does not, for it may be a unit.
 #[test]

@@ -157,7 +157,7 @@ function substituted({ rows, order }, b) {
   const x = order.map((i) => b.entries[i]);
   for (let k = 0; k < n; k += 1) x[k] -= sum(k, (j) => rows[k][j] * x[j]);
   for (let k = n - 1; k >= 0; k -= 1) {
-    if (rows[k][k] === 0) throw new Cause("The matrix is singular.");
+    if (finite(rows[k][k]) === 0) throw new Cause("The matrix is singular.");
     const known = sum(n - 1 - k, (j) => rows[k][k + 1 + j] * x[k + 1 + j]);
     x[k] = finite(overPivot(x[k] - known, rows[k][k]));
   }
