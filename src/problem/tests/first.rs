@@ -52,7 +52,7 @@ fn a_first_scene_leaves_exactly_what_only_its_author_knows() {
     assert!(why.contains(&format!("where: {open}\n")), "{why}");
     let chosen = scene.text.replace("\"nu\":null", "\"nu\":0.2").replace("null", "1.0");
     let built = build(&chosen, &file).unwrap();
-    assert!(!built.friction_is_missing && built.model.has_contact());
+    assert!(built.check_friction().is_ok() && built.model.has_contact());
 }
 
 #[test]

@@ -78,10 +78,10 @@ fn a_scene_in_code_runs_the_contact_solution() {
     };
     let own = scene(None);
     assert_eq!((own.variant, own.coupling(own.variant)), (Variant::Unilateral, Coupling::Mortar));
-    assert!(own.friction_is_missing);
+    assert!(own.check_friction().is_err());
     let paper = scene(Some(Variant::Stepped));
     assert_eq!((paper.variant, paper.coupling(paper.variant)), (Variant::Stepped, Coupling::Nts));
-    assert!(!paper.friction_is_missing);
+    assert!(paper.check_friction().is_ok());
 }
 
 #[test]
