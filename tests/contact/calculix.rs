@@ -334,7 +334,6 @@ fn export_writes_the_deck() {
     assert!(text.contains("friction stick"), "{text}");
     let printed = ["scene", "export", "fig1", "--variant", "printed"];
     fails(&folder, &printed, &["the variant printed", "contact pair"]);
-    fails(&folder, &["scene", "export", "fig1", "--to", "abaqus"], &["none of calculix"]);
     let negative = ["scene", "export", "fig1", "--penalty=-1"];
     fails(&folder, &negative, &["it is not positive"]);
 }
