@@ -324,22 +324,17 @@ fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
 #[test]
 fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
-    let printed = program::run(
-        folder.path(),
-        &["scene", "export", "fig1", "--to", "calculix", "--variant", "tied"],
-    );
+    let printed = program::run(folder.path(), &["scene", "export", "fig1", "--variant", "tied"]);
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
-    let args =
-        ["scene", "export", "fig1", "--to", "calculix", "--contact", "pair", "--out", "deck.inp"];
+    let args = ["scene", "export", "fig1", "--contact", "pair", "--out", "deck.inp"];
     assert!(program::run(folder.path(), &args).stdout.is_empty());
     let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();
     assert!(text.contains("friction stick"), "{text}");
-    let printed = ["scene", "export", "fig1", "--to", "calculix", "--variant", "printed"];
+    let printed = ["scene", "export", "fig1", "--variant", "printed"];
     fails(&folder, &printed, &["the variant printed", "contact pair"]);
-    fails(&folder, &["scene", "export", "fig1", "--to", "abaqus"], &["none of calculix"]);
-    let negative = ["scene", "export", "fig1", "--to", "calculix", "--penalty=-1"];
+    let negative = ["scene", "export", "fig1", "--penalty=-1"];
     fails(&folder, &negative, &["it is not positive"]);
 }
 
@@ -383,7 +378,7 @@ fn compare_prints_tables_or_json_and_writes_tables() {
     assert_eq!(exact.status.code(), Some(1));
     let printed = String::from_utf8(exact.stdout).unwrap();
     assert!(printed.contains("Differs by more than --rtol 0 (energy norm"), "{printed}");
-    assert_eq!(std::fs::read_dir(folder.path().join("tables")).unwrap().count(), 3);
+    assert!(folder.path().join("tables/the-worst-nodes.csv").is_file());
 }
 
 /// Bodies that lie flush at c_tll = 1e-17: who is in contact is decided by rounding in f64, and not in

@@ -214,7 +214,7 @@ fn dropped_nodes_leave_the_others_their_numbers() {
     assert_eq!(nodes, [6, 7, 8, 9, 10]);
 }
 
-/// A result of -1e308 in the file of ccx, which the pictures could not draw.
+/// A result of -1e308 in the file of ccx, whose energy would be no number.
 #[cfg(unix)]
 #[test]
 fn an_absurd_result_of_calculix_is_refused() {
@@ -229,7 +229,7 @@ fn an_absurd_result_of_calculix_is_refused() {
     std::fs::write(&ccx, script).expect("it is written");
     std::fs::set_permissions(&ccx, std::fs::Permissions::from_mode(0o755)).expect("executable");
     let ccx = ccx.display().to_string();
-    let args = ["compare", "fig1", "--with", "calculix", "--ccx", &ccx, "--out", "o"];
+    let args = ["compare", "fig1", "--with", "calculix", "--ccx", &ccx];
     let output = run(folder.path(), &args);
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");

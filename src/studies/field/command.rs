@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueHint;
 use nalgebra::DVector;
 
 use super::table::{self, Compared};
@@ -27,20 +28,20 @@ const FARTHEST: f64 = 1e9;
 /// Put displacements from another code beside a solution, and show the differences.
 #[derive(clap::Args)]
 #[command(after_help = "\
---with FIELD: displacements on the scene's mesh, in its unit of length, as CSV (columns node or x, y, then ux, uy,
-as nodes.csv of solve --csv), beside the equilibrium (unilateral with mortar and the scene's friction),
-or the run of --variant. Other files go through Python (guide scenes).
+--with FIELD: displacements on the scene's mesh, in its unit of length, as CSV (columns node or
+x, y, then ux, uy, as the nodes.csv of solve --csv), beside the equilibrium (unilateral with mortar
+and the scene's friction), or the run of --variant. Other files go through Python (guide scenes).
 
---with calculix: exports the scene to a temporary folder, runs ccx there, and puts its displacements beside
-the run of --variant, else of the scene's. Where rounding in f64 may decide who is in contact, it is the run
-in double-doubles.
+--with calculix: exports the scene to a temporary folder, runs ccx there, and puts its displacements
+beside the run of --variant, else of the scene's. Where rounding in f64 may decide who is in
+contact, it is the run in double-doubles.
 --contact equation: the same linear systems solved by both; where the load is stepped, a deck for
 each contact state, summed.
 --contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for
 contact.
 
-Stresses, penetration, traction and forces are those that the displacements imply. The exit status tells a
-difference beyond --rtol. Nothing is written but --csv.
+Stresses, penetration, traction and forces are those that the displacements imply. The exit status
+tells a difference beyond --rtol. Nothing is written but --csv.
 
 Examples:
   plane-contact compare my/block.json --with other.csv
@@ -53,7 +54,7 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// calculix, which is run, or a .csv file of displacements.
-    #[arg(long, value_name = "CODE|FIELD", default_value = "calculix", value_parser = source)]
+    #[arg(long, value_name = "CODE|FIELD", default_value = "calculix", value_parser = source, value_hint = ValueHint::FilePath)]
     with: Source,
     /// The largest difference that is none, over the largest displacement and in the energy norm [default:
     /// with a field 1e-3, with calculix any].
