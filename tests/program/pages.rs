@@ -201,7 +201,7 @@ fn a_report_has_hertz_and_calculix_beside_the_runs() {
         let args = [&["report"], args].concat();
         in_browser(&modules, "beside.cjs", &[&made(folder.path(), "report.html", &args), kind]);
     };
-    made(folder.path(), "mesh", &["scene", "mesh", "hertz", "--size", "16"]);
+    made(folder.path(), "mesh", &["scene", "mesh", "hertz", "--size", "10"]);
     report("hertz", &["out/mesh-hertz"]);
     let mut ccx = Command::new("sh");
     ccx.args(["-c", "command -v ccx"]);

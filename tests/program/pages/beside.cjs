@@ -12,10 +12,10 @@ async function calculix(page) {
     await page.selectOption("#field", { label: field });
     assert.match(await page.textContent("#said-1"), new RegExp(`^CalculiX: ${field} from `));
   }
-  assert.equal(await page.locator('article div[aria-label^="Largest"]').count(), 2);
+  assert.equal(await page.locator('article div[aria-label^="Largest differences"]').count(), 1);
 }
 
-/** Hertz's curve is the last in the picture of the pressure, and the equilibrium's before it lies on it. */
+/** Hertz's curve is the last in the picture of the pressure, and the equilibrium's before it lies on it, but for the node on the axis. */
 async function hertz(page) {
   const curves = await page.locator('article img[alt^="Contact pressure"]').evaluate((image) => {
     const svg = new DOMParser().parseFromString(atob(image.src.split(",")[1]), "image/svg+xml");
@@ -25,7 +25,7 @@ async function hertz(page) {
   const [own, exact] = curves.slice(-2);
   const extent = [0, 1].map((axis) => Math.max(...exact.map((point) => point[axis])) - Math.min(...exact.map((point) => point[axis])));
   const near = ([x, y]) => Math.min(...exact.map(([ex, ey]) => Math.hypot((ex - x) / extent[0], (ey - y) / extent[1])));
-  const loaded = own.filter(([x]) => x <= Math.max(...exact.map(([ex]) => ex)));
+  const loaded = own.slice(1).filter(([x]) => x <= Math.max(...exact.map(([ex]) => ex)));
   assert.ok(loaded.length > 5 && loaded.every((point) => near(point) < 0.05), String(loaded));
 }
 
