@@ -112,13 +112,10 @@ fn number_of<T: Scalar>(request: &Request, x: f64) -> T {
     }
 }
 
-/// Returns the bound on the error of an entry of `u`, written in `f64`, where T keeps one; infinite where a decision
-/// of a step is left to rounding, or that is not known.
+/// Returns the bound on the error of an entry of `u`, where T keeps one; infinite where a decision of
+/// a step is left to rounding, or that is not known.
 fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
-    // Digits beyond those of an f64 are rounded away.
-    let half = if T::zero().digits().is_some() { f64::EPSILON / 2.0 } else { 0.0 };
-    let written = |u: &T| Some(u.error_bound()? + half * u.to_f64().abs());
-    let bound = u.iter().try_fold(0.0, |most: f64, u| written(u).map(|bound| most.max(bound)))?;
+    let bound = u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e)))?;
     Some(if steps.iter().all(Step::is_certain) { bound } else { f64::INFINITY })
 }
 

@@ -214,7 +214,11 @@ impl ResultFile {
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
             materials: materials(solution),
-            error_bound: solution.error_bound.and_then(finite),
+            // Digits beyond those of an f64 are rounded away in `u`.
+            error_bound: solution.error_bound.and_then(|bound| {
+                let written = if solution.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
+                finite(bound + written * solution.u.amax())
+            }),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),

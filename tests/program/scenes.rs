@@ -554,5 +554,5 @@ fn r8_multiplies_the_tolerance_by_the_units_of_a_metre() {
         let model = under(unit).expect("a unit that is known");
         assert_eq!(door::worksheet(&model, |x| x).c_tll, expected, "{unit}");
     }
-    says(&under("inch").unwrap_err(), "R8", &["what a metre is", "inch"]);
+    says(&under("furlong").unwrap_err(), "R8", &["what a metre is", "furlong"]);
 }

@@ -80,12 +80,8 @@ impl Surfaces {
         let at = |n: NodeId| shape[n.index()].map(T::to_f64);
         let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
         let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
-        let search = Search {
-            surfaces: self,
-            target: &target,
-            tree,
-            margin: bounds.fold(0.0, f64::max),
-        };
+        let search =
+            Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
         let mut unsure = Vec::new();
         let cover = |edge: &Edge| {
             let placed = edge.in_shape(shape);
@@ -218,30 +214,30 @@ impl<T: Scalar> Search<'_, T> {
     /// parts from that one. A wall joins no others, and lies behind one where either of its ends does.
     fn before_jumps(&self, contact: &PlacedEdge<T>, covered: Vec<Stretch<T>>) -> Vec<Stretch<T>> {
         let Some(&nearest) = covered.first() else { return covered };
-        let is_before = |stretch: &Stretch<T>| in_order(stretch.from, nearest.from).is_lt();
-        let (mut before, mut after): (Vec<_>, Vec<_>) =
-            covered[1..].iter().copied().partition(is_before);
-        before.sort_by(|a, b| in_order(b.from, a.from));
-        after.sort_by(|a, b| in_order(a.from, b.from));
+        let is_before = |k: &usize| in_order(covered[*k].from, nearest.from).is_lt();
+        let (mut before, mut after): (Vec<usize>, Vec<usize>) =
+            (1..covered.len()).partition(is_before);
+        before.sort_by(|a, b| in_order(covered[*b].from, covered[*a].from));
+        after.sort_by(|a, b| in_order(covered[*a].from, covered[*b].from));
         let away =
             |stretch: &Stretch<T>| -dot(self.target[stretch.edge].normal, contact.normal).to_f64();
-        let mut kept = vec![nearest];
+        let mut is_kept = vec![true; covered.len()];
         for (side, [start, end]) in [(before, [1, 0]), (after, [0, 1])] {
             let mut last = nearest;
-            for next in side {
+            for k in side {
+                let next = covered[k];
                 let is_wall = away(&next) < WALL && away(&last) >= WALL;
                 let goes_on = self.goes_on(last.edge, next.edge) && !is_wall;
                 let measured = if is_wall { vec![start, end] } else { vec![start] };
                 let bend = if is_wall { 0.0 } else { BEHIND };
                 let is_behind =
                     |at: usize| self.is_behind(contact.length, last.foot(end), next.foot(at), bend);
-                if goes_on || !measured.into_iter().any(is_behind) {
-                    kept.push(next);
-                    last = next;
-                }
+                is_kept[k] = goes_on || !measured.into_iter().any(is_behind);
+                last = if is_kept[k] { next } else { last };
             }
         }
-        kept
+        let kept = covered.into_iter().zip(is_kept).filter(|(_, is_kept)| *is_kept);
+        kept.map(|(stretch, _)| stretch).collect()
     }
 
     /// Returns whether node `node`, 0 or 1, of a contact edge does not count for what the edge covers, as that lies behind

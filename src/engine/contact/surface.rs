@@ -77,7 +77,7 @@ impl Surface {
         }
         let means = sums.into_iter().map(|(n, sum)| (n, unit(sum)));
         let node_normals = means.collect();
-        let across = across(model, &at);
+        let across = across(model, &edges, &at);
         let has_surface = |body: &&Body| edges.iter().any(|edge| body.has(edge.nodes[0]));
         let bodies: Vec<&Body> = model.bodies.iter().filter(has_surface).collect();
         let sides = model.sides.outline().map(|side| side.nodes);
@@ -150,21 +150,31 @@ impl Surface {
 
 /// Returns the direction along which a node at the end of a surface is held, where the outline goes on from it along a line
 /// across that direction that is held so too.
-fn across(model: &Model, at: &FxHashMap<NodeId, Vec<usize>>) -> FxHashMap<NodeId, Vector> {
+fn across(
+    model: &Model,
+    edges: &[Edge],
+    at: &FxHashMap<NodeId, Vec<usize>>,
+) -> FxHashMap<NodeId, Vector> {
     let held = |node: NodeId| model.restraints_of(node);
     let axis = |[a, b]: [NodeId; 2]| match [0, 1].map(|d| held(a)[d] && held(b)[d]) {
         [true, false] => Some([1.0, 0.0]),
         [false, true] => Some([0.0, 1.0]),
         [true, true] | [false, false] => None,
     };
-    let is_end = |node: &NodeId| at.get(node).is_some_and(|edges| edges.len() == 1);
+    // A surface that goes on along the line itself ends there all the same.
+    let is_end = |node: &NodeId, side: [NodeId; 2]| {
+        let own = at.get(node).into_iter().flatten();
+        own.filter(|k| unordered(edges[**k].nodes) != unordered(side)).count() == 1
+    };
     let mut found = FxHashMap::default();
     for side in model.sides.outline().map(|side| side.nodes) {
         let Some(across) = axis(side) else { continue };
         let [from, to] = side.map(|node| model.coordinates(node));
         let is_line = dot(minus(to, from), across) == 0.0;
         found.extend(
-            side.into_iter().filter(|node| is_line && is_end(node)).map(|node| (node, across)),
+            side.into_iter()
+                .filter(|node| is_line && is_end(node, side))
+                .map(|node| (node, across)),
         );
     }
     found

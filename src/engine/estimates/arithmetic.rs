@@ -109,7 +109,9 @@ fn repeated_run_rounding(solution: &Solution) -> Rounding {
     });
     let is_certain = decisions.as_ref().is_some_and(Vec::is_empty);
     let bound = again.error_bound.filter(|_| is_certain).unwrap_or(f64::INFINITY);
-    let u = again.u.map(|u| Bounded::new(u, bound));
+    // Digits beyond those of an f64 are rounded away in `u`.
+    let written = if again.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
+    let u = again.u.map(|u| Bounded::new(u, bound + written * u.abs()));
     let first = decisions.iter().flatten().map(|decision| decision.iteration).min();
     let is_before = |k: usize| decisions.is_some() && first.is_none_or(|first| k < first);
     let pairs = solution.steps.iter().zip(&again.steps);

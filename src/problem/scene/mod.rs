@@ -51,6 +51,7 @@ pub use units::length_in_metres;
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
 use base::error::{InputError, Result};
+use base::limits::check_steps;
 use base::plain::{shell_word, six_digits};
 
 /// A scene that passed all checks.
@@ -237,6 +238,9 @@ impl Scene {
         let contact = description.contact.as_ref();
         // A scene of one's own asks for contact as it is, not for the paper's algorithm.
         let variant = description.variant.unwrap_or(Variant::Unilateral);
+        if variant != Variant::Unilateral {
+            check_steps(description.iterations, mesh.nodes.len(), "iterations")?;
+        }
         Ok(Scene {
             name: name.into(),
             word: name.into(),

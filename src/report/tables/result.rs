@@ -97,6 +97,13 @@ fn passes_on(solution: &Solution) -> Option<String> {
                 false => " without a load",
             };
             let (size, towards) = (fx.hypot(fy), towards([fx, fy]));
+            if size == 0.0 {
+                let all = solution.in_contact().filter_map(|node| node.force).sum();
+                return Some(format!(
+                    "Contact presses{why}: its forces balance, and sum to {}",
+                    force(all)
+                ));
+            }
             format!("Contact presses{why}: force on the target {}{towards}", force(size))
         }
     })

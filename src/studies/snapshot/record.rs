@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::Run;
 use super::numbers::{Error as Rounded, Numbers};
 use super::{Entry, Quantity};
-use engine::contact::ContactNode;
+use engine::contact::{ContactNode, Sense, Status};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
 use engine::options::Options;
@@ -198,7 +198,7 @@ impl Recorded<'_> {
                 // Where a node closes divides a step, so that this is a number like others.
                 let load = Rounded { bound: None, floor: ROUNDED };
                 run.numbers.insert(of(Quantity::Load), Numbers::list("", [own.load], load));
-                let statuses: Vec<String> = own.statuses.iter().map(ToString::to_string).collect();
+                let statuses: Vec<&str> = own.statuses.iter().map(recorded).collect();
                 run.facts.insert(of(Quantity::Statuses), json!(statuses));
             }
         }
@@ -375,5 +375,16 @@ fn errors(
         force,
         gap: scale.distance(displacement),
         pressure: solution.contact.iter().filter_map(pressure).fold(0.0, f64::max),
+    }
+}
+
+/// Returns the word for a status in a snapshot, with the sense in which a node slides.
+fn recorded(status: &Status) -> &'static str {
+    match status {
+        Status::Open => "open",
+        Status::Stick => "stick",
+        Status::Slip(Sense::Forward) => "slip +",
+        Status::Slip(Sense::Backward) => "slip -",
+        Status::Slip(Sense::Free) => "slip",
     }
 }

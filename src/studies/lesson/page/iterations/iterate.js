@@ -19,12 +19,12 @@ function called(listing, worksheet, settings, value) {
 function solved(matrix, f) {
   const n = matrix.rows;
   const eliminated = factors(matrix);
-  const isLost = (i, k) => {
+  const isLost = (row, k) => {
     let largest = 0;
     for (let at = 0; at < n; at += 1) largest = Math.max(largest, Math.abs(matrix.entries[at * n + k]));
-    return !(Math.abs(eliminated.rows[i][k]) > 16 * n * Number.EPSILON * largest);
+    return !(Math.abs(row[k]) > 16 * n * Number.EPSILON * largest);
   };
-  if (eliminated.order.some(isLost)) throw new Cause("The matrix is singular.");
+  if (eliminated.rows.some(isLost)) throw new Cause("The matrix is singular.");
   return substituted(eliminated, new Grid(n, 1, f)).entries;
 }
 
