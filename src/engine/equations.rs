@@ -209,10 +209,10 @@ impl<'a, T: Precision> Equations<'a, T> {
             direction: dof.axis(),
             pivot: singular.pivot,
             in_contact,
-            no_contact: first.then(|| self.no_contact()).flatten(),
+            no_contact: first.then(|| self.no_contact()).flatten().map(Into::into),
             scalar: self.request.arithmetic.scalar,
             slits: None,
-            body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)),
+            body: body.map_or(String::new(), |b| format!(" of body {:?}", b.name)).into(),
         }
         .into()
     }

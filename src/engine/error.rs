@@ -62,9 +62,7 @@ impl Error {
             Error::Equilibrium(NoEquilibrium { cause, what }) => {
                 NoEquilibrium { cause, what: what + &added }.into()
             }
-            Error::Singular(why) => {
-                SingularMatrix { slits: cause.map(str::to_owned), ..why }.into()
-            }
+            Error::Singular(why) => SingularMatrix { slits: cause.map(Into::into), ..why }.into(),
             Error::Listing(_) | Error::Execution(_) => self,
         }
     }
@@ -170,13 +168,13 @@ pub struct SingularMatrix {
     /// The number of contact nodes with dy = 1.
     pub in_contact: usize,
     /// Where the first contact fails, why, and what to do, in words.
-    pub no_contact: Option<String>,
+    pub no_contact: Option<Box<str>>,
     /// The scalar of the run, whose rounding may be the cause.
     pub scalar: ScalarName,
     /// Where the mesh has slits, in words.
-    pub slits: Option<String>,
+    pub slits: Option<Box<str>>,
     /// The text ` of body "stamp"`, or no text where no body has the node.
-    pub body: String,
+    pub body: Box<str>,
 }
 
 /// Says that displacements or stresses cannot be represented.

@@ -114,7 +114,7 @@ pub(super) fn escape(
     if left.amax() <= OPPOSED * load.amax() {
         return None;
     }
-    Some(model.all_dofs().nth(motions.displacements(&left).iamax())?)
+    model.all_dofs().nth(motions.displacements(&left).iamax())
 }
 
 /// Where rigid bodies that overlap come to touch, by the displacements of each degree of freedom, length.
@@ -218,10 +218,10 @@ pub(super) fn turns(
             let middle =
                 |d| nodes.iter().map(|n| motions.motion(b, *n, d)).sum::<Vector3<f64>>() / 2.0;
             let normal = middle(*normal);
-            across += &normal * normal.transpose();
+            across += normal * normal.transpose();
             for direction in [[1.0, 0.0], [0.0, 1.0]] {
                 let row = middle(direction);
-                all += &row * row.transpose();
+                all += row * row.transpose();
             }
         }
         let [across, all] = [across, all].map(|gram| basis.tr_mul(&(gram * basis)));

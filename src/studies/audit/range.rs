@@ -173,7 +173,7 @@ pub fn recorded() -> Recorded {
             known.iter().copied().fold(f64::MAX, f64::min),
             known.iter().copied().fold(0.0, f64::max),
         ],
-        by_rounding: errors.iter().filter(|error| **error == BY_ROUNDING).count(),
+        by_rounding: errors.iter().filter(|error| error.starts_with(BY_ROUNDING)).count(),
     }
 }
 
