@@ -271,6 +271,11 @@ impl Compared {
             let faults = (0..FAULTS.len()).filter(|k| put_back.contains(k));
             faults.map(|k| FAULTS[k].edit).collect()
         };
+        // What rounding decides of a fault alone is not nothing, whatever a run has.
+        let alone = self.prices(&|| ());
+        let is_rounded = |k: usize| {
+            alone.get(1 + k).is_some_and(|price| matches!(price.outcome, Outcome::Rounding {}))
+        };
         let (mut left, mut put_back): (Vec<usize>, _) = ((0..FAULTS.len()).collect(), Vec::new());
         let mut own = vec![self.run(&Worksheet::new(&self.exact.model, Bound::Normal), &[])];
         watch();
@@ -288,8 +293,13 @@ impl Compared {
             // One worksheet for each thread: to begin one takes as long as a run.
             let part = left.len().div_ceil(rayon::current_num_threads());
             let mut outcomes: Vec<Outcome> = left.par_chunks(part).flat_map_iter(with).collect();
-            let mut errors: Vec<f64> = outcomes.iter().map(Outcome::error).collect();
-            let least = self.least(&mut errors, |k| edits(&[&put_back[..], &[left[k]]].concat()));
+            // Rounding is not to decide which comes first.
+            let error = |k: &usize| {
+                let least = if is_rounded(left[*k]) { 2.0 } else { 0.0 };
+                (outcomes[*k].error() / NOTHING).round().max(least)
+            };
+            let least = (0..left.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
+            let least = least.expect("a fault is left");
             own.push(outcomes.remove(least));
             put_back.push(left.remove(least));
             runs.push(edits(&put_back));
@@ -307,27 +317,6 @@ impl Compared {
         repaired.last_mut().expect("all are reintroduced").fault = "all are reintroduced".into();
         repaired.reverse();
         repaired
-    }
-
-    /// Returns the run with the least error, the first of those that have the same. Rounding is not to decide which: a run
-    /// has the largest error of those that mean the same input, which are made of the one that leads until that stays.
-    fn least<'e>(&self, errors: &mut [f64], edits: impl Fn(usize) -> Vec<&'e str>) -> usize {
-        let mut is_sure = vec![false; errors.len()];
-        loop {
-            let rounded = |k: usize| (errors[k] / NOTHING).round();
-            let least = (0..errors.len()).min_by(|a, b| rounded(*a).total_cmp(&rounded(*b)));
-            let least = least.expect("a fault is left");
-            if is_sure[least] {
-                return least;
-            }
-            is_sure[least] = true;
-            let edits = edits(least);
-            let again = |model: &Arc<Model>| {
-                self.run(&Worksheet::new(model, Bound::Normal), &edits).error()
-            };
-            let others: Vec<f64> = self.equivalents.par_iter().map(again).collect();
-            errors[least] = others.into_iter().fold(errors[least], f64::max);
-        }
     }
 
     fn price(&self, fault: Option<&Fault>, outcome: Outcome) -> Price {
