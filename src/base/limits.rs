@@ -2,7 +2,9 @@
 //! Each is set so that a run stays below some 8 GB; the measured bytes stand beside it.
 
 use crate::error::{InputError, Result};
-use crate::files::MOST;
+
+/// The most bytes of a file: 268 MB.
+pub const FILE: u64 = 1 << 28;
 
 /// The most that there may be of something.
 pub struct Limit {
@@ -29,7 +31,7 @@ pub const VALUES: Limit =
 
 /// Bytes of a file that is read whole.
 pub const BYTES: Limit =
-    Limit { most: MOST as usize, of: "bytes in one file", fix: "give a smaller file" };
+    Limit { most: FILE as usize, of: "bytes in one file", fix: "give a smaller file" };
 
 /// Bytes of the values of all jobs of a sweep, as JSON: a value of two bytes takes some 32.
 pub const JOBS: Limit =

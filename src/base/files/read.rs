@@ -8,8 +8,8 @@ use std::sync::{Mutex, PoisonError};
 #[cfg(unix)]
 use std::time::SystemTime;
 
-/// The bytes of a text that is read whole.
-pub const MOST: u64 = 1 << 28;
+/// The most bytes of a file that is read.
+pub const MOST: u64 = crate::limits::FILE;
 
 /// What this process has opened to read.
 static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());

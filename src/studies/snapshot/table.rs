@@ -178,7 +178,7 @@ fn outcome_of(kind: &'static str, message: String, words: &str) -> Element {
 }
 
 /// Returns what verifying found as JSON: whether something was compared in every file and nothing differs, and file by
-/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them; and [`report`].
+/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them; and [`report()`].
 pub fn json(checked: &[VerifiedFile]) -> String {
     let run = |run: &VerifiedRun| {
         json!({
