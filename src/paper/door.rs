@@ -21,7 +21,7 @@ use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use problem::element;
 use problem::model::{EdgeId, Element, Model, NodeId, Restraint, Row, TriangleId};
-use problem::scene::length_in_metres;
+use problem::units::length_in_metres;
 
 /// The column of `EL` and `elem` where the nodes start.
 const IND_1: usize = 6;

@@ -8,3 +8,4 @@ pub mod modelling;
 #[cfg(feature = "scenes")]
 pub mod scene;
 pub mod tree;
+pub mod units;

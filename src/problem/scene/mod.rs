@@ -46,7 +46,6 @@ pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags
 pub use refine::Refined;
 pub use scene_file::SceneFile;
 pub use surface::Surface;
-pub use units::length_in_metres;
 
 use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
