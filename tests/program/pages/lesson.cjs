@@ -469,13 +469,18 @@ async function repairs(browser) {
   const { page, said } = await open(browser, file);
   const { repairs } = read(ofRepairs);
   const listings = read(ofListings);
-  const needed = repairs.findLastIndex(({ energy_relative }) => energy_relative > 1e-9) + 1;
+  // A row that rounding decides has no figure, and is not at the answer.
+  const needed = repairs.findLastIndex(({ energy_relative }) => !(energy_relative <= 1e-9)) + 1;
   await select(page, "#chapter", 1);
   assert.equal(await page.textContent("#title"), `From the print to the right answer in ${needed} edits`);
   const rows = await page.locator("#repairs tbody tr").evaluateAll((all) => all.map(({ cells }) => [...cells].map(({ textContent, dataset }) => dataset.exact ?? textContent)));
   assert.deepEqual(rows.map(([count]) => Number(count)), [...Array(needed + 1).keys(), repairs.length - 1]);
   for (const [k, [count, finding, error, transmitted, inContact, words]] of rows.entries()) {
     const row = repairs[count];
+    if (row.energy_relative === undefined) {
+      assert.ok(Number.isNaN(Number(error)), error);
+      continue;
+    }
     assert.ok(Math.abs(error - row.energy_relative) < 1e-9, `${error}, ${row.energy_relative}`);
     assert.deepEqual([Number(transmitted), Number(inContact)], [row.transmitted, row.in_contact]);
     if (k < rows.length - 1) assert.ok(finding === (row.finding ?? "–") && words.startsWith(row.fault), words);
