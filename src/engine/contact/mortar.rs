@@ -83,15 +83,14 @@ impl Surfaces {
         let search =
             Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
         let mut unsure = Vec::new();
-        let cover = |edge: &Edge| {
+        let cover = |(edge, at_rest): (&Edge, &PlacedEdge)| {
             let placed = edge.in_shape(shape);
-            let ends = edge.nodes.map(|node| self.at_rest[node.index()]);
-            let middle = [0, 1].map(|d| (ends[0][d] + ends[1][d]) / 2.0);
-            let (stretches, left) = compared(|| search.cover(&placed, middle));
+            let (stretches, left) = compared(|| search.cover(&placed, at_rest.at(0.5)));
             unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
             Covered { stretches, length: placed.length }
         };
-        let covered: Vec<Covered<T>> = self.contact.edges.iter().map(cover).collect();
+        let covered: Vec<Covered<T>> =
+            self.contact.edges.iter().zip(&self.contact.undeformed).map(cover).collect();
         for (i, edge) in self.contact.edges.iter().enumerate() {
             let Some(integrals) = Integrals::over(&covered[i].stretches) else { continue };
             for (k, node) in edge.nodes.into_iter().enumerate() {
@@ -168,8 +167,8 @@ struct Search<'a, T> {
 }
 
 impl<T: Scalar> Search<'_, T> {
-    /// Returns the stretches of a contact edge, whose middle is at rest in the undeformed shape, that face a target edge. Where several target edges
-    /// face the same stretch, the nearest one counts.
+    /// Returns the stretches of a contact edge that face a target edge; `middle` is that of the contact edge in the
+    /// undeformed shape, length. Where several target edges face the same stretch, the nearest one counts.
     ///
     /// Which edges face each other is decided in the shape itself, other than under node to segment:
     /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
