@@ -25,9 +25,6 @@ const PARABOLA: f64 = 0.05;
 /// The half width over a radius, of both surfaces or relative, beyond which the theory does not apply.
 const SHALLOW: f64 = 0.3;
 
-/// The size of a normal's component along a restraint that is on a line of symmetry: facets of a curved surface slope.
-const ACROSS: f64 = 0.1;
-
 /// The part of the load that other stretches of contact may carry.
 const ALONE: f64 = 1e-3;
 
@@ -138,10 +135,15 @@ impl Pressed {
         let pairings = surfaces.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
-        // Half of a scene that is symmetric about the first point of contact carries half the load.
-        let sides = match surfaces.ends()[0].contains(&model.contact.nodes[first.entry]) {
-            false => 1.0,
-            true => is_half(model, pairings[first.entry].as_ref()?).then_some(2.0)?,
+        // Where the first point of contact is at the end of what faces the target, that is half of a symmetric scene, which
+        // carries half the load, or the edge of a body.
+        let at_an_end =
+            [&gaps[0], &gaps[gaps.len() - 1]].iter().any(|end| end.entry == first.entry);
+        let on_line = surfaces.ends_on_symmetry(model.contact.nodes[first.entry]);
+        let sides = match (at_an_end, on_line) {
+            (false, _) => 1.0,
+            (true, true) => 2.0,
+            (true, false) => return None,
         };
         let load = sides * normal_load(solution)? / model.thickness;
         let modulus = modulus(model, pairings[first.entry].as_ref()?)?;
@@ -177,13 +179,6 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
         below += square * (g.gap - least);
     }
     (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
-}
-
-/// Returns whether a restraint holds a contact node along the target's tangent, as on the line of symmetry of half a scene.
-fn is_half(model: &Model, pairing: &Pairing) -> bool {
-    let Pairing { node, normal: [nx, ny], .. } = pairing;
-    let [x, y] = model.restraints_of(*node);
-    x && nx.abs() <= ACROSS || y && ny.abs() <= ACROSS
 }
 
 /// Returns the sum of the normal forces of the contact nodes, force; None where they do not press, or not in one

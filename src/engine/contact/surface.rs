@@ -268,6 +268,11 @@ impl Surfaces {
         [&self.contact, &self.target].map(Surface::ends)
     }
 
+    /// Returns whether the contact surface ends at a node on a line of symmetry, as that of half a scene.
+    pub fn ends_on_symmetry(&self, node: NodeId) -> bool {
+        self.contact.across.contains_key(&node)
+    }
+
     /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length; 0 where
     /// edges meet at less than an angle, rad.
     pub fn facet_height(&self, nodes: &[NodeId], shape: &[Vector], least: f64) -> f64 {
