@@ -40,7 +40,8 @@ pub struct Stretch {
 pub fn stretches(solution: &Solution) -> Vec<Stretch> {
     let model = &*solution.model;
     let nodes: Vec<&ContactNode> = solution.in_contact().collect();
-    let bodies: Vec<_> = nodes.iter().map(|at| bodies(solution, at.node)).collect();
+    let known = bodies(solution);
+    let bodies: Vec<_> = nodes.iter().map(|at| known.get(&at.node).copied()).collect();
     let entry: HashMap<NodeId, usize> = nodes.iter().map(|at| at.node).zip(0..).collect();
     let pair = |side: [NodeId; 2]| Some([*entry.get(&side[0])?, *entry.get(&side[1])?]);
     let is_one = |[a, b]: &[usize; 2]| bodies[*a].is_some() && bodies[*a] == bodies[*b];
@@ -74,27 +75,27 @@ pub fn resultant(solution: &Solution) -> Option<Resultant> {
     if solution.transmits_nothing() || contact.iter().any(|body| target.contains(body)) {
         return None;
     }
-    let is_last = |at: &&ContactNode| {
-        bodies(solution, at.node).is_some_and(|[_, faced]| target.contains(&faced))
-    };
-    Some(
-        Forces::new(solution).resultant(&solution.in_contact().filter(is_last).collect::<Vec<_>>()),
-    )
+    let bodies = bodies(solution);
+    let is_last =
+        |at: &&ContactNode| bodies.get(&at.node).is_some_and(|[_, faced]| target.contains(faced));
+    let nodes: Vec<&ContactNode> = solution.in_contact().filter(is_last).collect();
+    Some(Forces::new(solution).resultant(&nodes))
 }
 
-/// Returns the indices of the body of a contact node and of the one that it faces at the end.
-fn bodies(solution: &Solution, node: NodeId) -> Option<[usize; 2]> {
-    let master = match &solution.last().detail {
+/// Returns the indices of the body of each node that faces another body at the end, and of that body.
+fn bodies(solution: &Solution) -> HashMap<NodeId, [usize; 2]> {
+    let faced: Vec<[NodeId; 2]> = match &solution.last().detail {
         Detail::Unilateral(own) => {
-            own.pairings.iter().flatten().find(|p| p.node == node)?.masters[0].0
+            own.pairings.iter().flatten().map(|p| [p.node, p.masters[0].0]).collect()
         }
         Detail::Published(own) => {
-            let row = own.pairs.masters.iter().find(|(number, _)| *number == node.number())?.1;
-            NodeId::from_number(row[0] as usize)
+            let rows = own.pairs.masters.iter().filter(|(_, row)| row[0] >= 1.0);
+            rows.map(|(node, row)| [*node, row[0] as usize].map(NodeId::from_number)).collect()
         }
     };
     let body_of = |node| solution.model.bodies.iter().position(|body| body.has(node));
-    Some([body_of(node)?, body_of(master)?])
+    let bodies = |[node, master]: [NodeId; 2]| Some((node, [body_of(node)?, body_of(master)?]));
+    faced.into_iter().filter_map(bodies).collect()
 }
 
 /// The forces of contact on the contact nodes, force: what stresses, loads and restraints leave.
