@@ -75,7 +75,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let mut notes = Vec::new();
     let materials = materials(name, &mesh, &groups, &mut notes)?;
     let body = bodies(&mesh);
-    let (mut curves, inner): (Vec<Curve>, Vec<Curve>) =
+    let (mut curves, mut inner): (Vec<Curve>, Vec<Curve>) =
         curves(&mesh, &groups, &body)?.into_iter().partition(|curve| curve.is_outline);
     let contact = match pair(&curves) {
         Some((gap, [cnt, trg], why)) => {
@@ -105,9 +105,12 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
             None
         }
     };
-    curves.sort_by(|a, b| a.height.total_cmp(&b.height));
-    let mut rest = curves.iter();
-    let (lowest, highest) = (rest.next(), rest.next_back());
+    for group in [&mut curves, &mut inner] {
+        group.sort_by(|a, b| a.height.total_cmp(&b.height));
+    }
+    let (mut rest, mut inner) = (curves.iter(), inner.iter());
+    // Edges that bound no triangle or two can be restrained, too.
+    let (lowest, highest) = (rest.next().or_else(|| inner.next()), rest.next_back());
     let guess = |what: &str, curve: Option<&Curve>, extreme: &str| match curve {
         None => format!("{what}: no group of edges is left for it"),
         Some(curve) => format!("{what}: on {}, the {extreme}", curve.group),
@@ -131,7 +134,7 @@ pub fn first(name: &str, file: &[u8]) -> Result<FirstScene> {
     let names = |rest: &mut dyn Iterator<Item = &Curve>| {
         rest.map(|curve| curve.group.to_string()).collect::<Vec<_>>().join(", ")
     };
-    let (rest, inner) = (names(&mut rest), names(&mut inner.iter()));
+    let (rest, inner) = (names(&mut rest), names(&mut inner));
     if !rest.is_empty() {
         notes.push(format!("left for more restraints and loads: {rest}"));
     }
