@@ -163,7 +163,8 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
     };
-    let repairs = Compared::new(&Case::new(scene.clone())).unwrap().repairs(&|| ());
+    let compared = Compared::new(&Case::new(scene.clone())).unwrap();
+    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
     let mut put_back: Vec<String> = vec![];
     for pair in repairs.windows(2).rev() {
         let [before, repaired] = pair else { unreachable!("pairs") };
@@ -222,7 +223,8 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
     let roof = roof.build().unwrap();
     let compared = Compared::new(&Case::new(roof.clone())).unwrap();
-    let (prices, repairs) = (compared.prices(&|| ()), compared.repairs(&|| ()));
+    let prices = compared.prices(&|| ());
+    let repairs = compared.repairs(&prices, &|| ());
     let document = studies::audit::prices::table::Document {
         reading: Reading::default(),
         prices: &prices,
@@ -242,7 +244,8 @@ fn without_a_load_no_fault_is_weighed() {
     let finding = FINDINGS.iter().find(|finding| finding.id == "C10").expect("a finding");
     let scene = finding.scene();
     assert!(scene.model.load.iter().all(|f| *f == 0.0));
-    let repairs = Compared::new(&Case::new(scene.clone())).expect("a solution").repairs(&|| ());
+    let compared = Compared::new(&Case::new(scene.clone())).expect("a solution");
+    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
     assert_eq!(prices::needed(&repairs), None);
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let why = studies::audit::prices::table::unsound(&prices).expect("a reason");

@@ -87,7 +87,8 @@ fn prices() {
     let alone =
         Compared::new(&Case::new(STRAND.clone())).expect("strand has a solution").prices(&|| ());
     let fig1 = Scene::open("fig1").expect("an embedded scene");
-    let repairs = Compared::new(&Case::new(fig1)).expect("fig1 has a solution").repairs(&|| ());
+    let compared = Compared::new(&Case::new(fig1)).expect("fig1 has a solution");
+    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
     assert_eq!(studies::audit::prices::table::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
     for price in &alone {

@@ -112,7 +112,7 @@ fn prices(args: &Args) -> Result<()> {
     let bar = progress("running", runs, "run {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
     let alone = compared.prices(&watch);
-    let repairs = if args.repairs { compared.repairs(&watch) } else { Vec::new() };
+    let repairs = if args.repairs { compared.repairs(&alone, &watch) } else { Vec::new() };
     bar.finish();
     let document = price_report::Document { reading, prices: &alone, repairs: &repairs };
     let json = price_report::json(&document, &case.scene);

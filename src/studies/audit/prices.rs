@@ -264,15 +264,14 @@ impl Compared {
     /// Runs the corrected algorithm with all faults reintroduced, then repairs one at a time. The order is
     /// found from the end: into the corrected algorithm the faults are reintroduced one at a time, of those
     /// that are left the one that leaves the least error, and the first in [`FAULTS`] of those that
-    /// leave the same; the last one is repaired first. `watch` is called after each of the
+    /// leave the same; the last one is repaired first. `alone` are the [`Self::prices`]. `watch` is called after each of the
     /// [`runs_of_repairs`].
-    pub fn repairs(&self, watch: &(dyn Fn() + Sync)) -> Vec<Price> {
+    pub fn repairs(&self, alone: &[Price], watch: &(dyn Fn() + Sync)) -> Vec<Price> {
         let edits = |put_back: &[usize]| -> Vec<&str> {
             let faults = (0..FAULTS.len()).filter(|k| put_back.contains(k));
             faults.map(|k| FAULTS[k].edit).collect()
         };
         // What rounding decides of a fault alone is not nothing, whatever a run has.
-        let alone = self.prices(&|| ());
         let is_rounded = |k: usize| {
             alone.get(1 + k).is_some_and(|price| matches!(price.outcome, Outcome::Rounding {}))
         };

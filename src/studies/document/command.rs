@@ -100,7 +100,7 @@ fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
         command: command(args),
         asked: asked(&case.scene),
         audit: &found,
-        repairs: repairs(args, case),
+        repairs: repairs(args, case, &found),
         runs: runs(case, &found),
         calculix,
     };
@@ -141,11 +141,12 @@ fn place_of(out: &Path) -> Result<(&Path, &str, &str), InputError> {
 
 /// Returns the print repaired one finding at a time; nothing where that takes long and was not asked for, or
 /// there is no solution to compare with.
-fn repairs(args: &Args, case: &Case) -> Vec<Price> {
+fn repairs(args: &Args, case: &Case, audit: &Audit) -> Vec<Price> {
+    let Ok(alone) = &audit.prices else { return Vec::new() };
     if case.model().nodes.len() > MOST_NODES && !args.repairs {
         return Vec::new();
     }
-    Compared::new(case).map_or(Vec::new(), |compared| compared.repairs(&|| ()))
+    Compared::new(case).map_or(Vec::new(), |compared| compared.repairs(alone, &|| ()))
 }
 
 /// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and the

@@ -24,7 +24,7 @@ impl Repairs {
         }
         // A scene that has no solution has no way to it: the lesson shows that of fig. 1.
         let compared = Compared::new(&Case::new(scene.clone())).ok()?;
-        let rows = compared.repairs(&|| ());
+        let rows = compared.repairs(&compared.prices(&|| ()), &|| ());
         let needed = needed(&rows)?;
         Some((Repairs { rows, needed }, compared.exact.u))
     }
