@@ -30,15 +30,14 @@ pub const JUDGED: [&str; 2] = [
 ];
 
 /// What a mark at a claim says.
-const OURS: &str = "*: threshold or wording is this audit's; the paper gives none. audit --claim P12 explains one.";
+const OURS: &str = "*: threshold or wording is this audit's. audit --claim P12 explains one.";
 
 /// What the runs of the table are.
 const RUNS: &str =
     "Runs of the paper's algorithm, and the equilibrium under the scene's own friction";
 
 /// Where the row of CalculiX is from.
-const OF_CALCULIX: &str =
-    "CalculiX is not run here; how it was, and how far the variants are from it: guide calculix.";
+const OF_CALCULIX: &str = "CalculiX: a recorded run (guide calculix).";
 
 /// What the faults are, and what stands beside each.
 const FAULTS: &str = "Faults, each reintroduced alone into the corrected algorithm, by the error in energy it causes";
@@ -448,8 +447,11 @@ fn faults(audit: &Audit, depth: Depth) -> Section {
         (Ok(costs), Depth::Page) => {
             let table = Table::from_rows(costs)
                 .column("cost", |cost| cost.cost.clone())
-                .column("finding", |cost| cost.names.clone())
-                .column("fault", |cost| cost.words.clone());
+                .column("finding", |cost| match cost.words {
+                    Some(_) => Cell::from(cost.names.clone()),
+                    None => Cell::Empty,
+                })
+                .column("fault", |cost| cost.words.clone().unwrap_or(cost.names.clone()));
             let own = prices::without_any(&audit.prices);
             Section::new("faults", None, Report::default().table(FAULTS, table).notes(own))
         }

@@ -15,8 +15,7 @@ async function screen(browser) {
   const prose = await page.locator("header h1, header p, #first p, #first li").evaluateAll((all) => all.filter((one) => one.checkVisibility()).map((one) => one.innerText));
   const words = (text) => text.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
   const count = words(prose.join(" "));
-  // With where the row of CalculiX is from, and how far the corrected algorithm is from the equilibrium.
-  assert.ok(count <= 240, `${count} words`);
+  assert.ok(count <= 220, `${count} words`);
   for (const sentence of prose.flatMap((text) => text.split(/[.:;](?=\s)/))) assert.ok(words(sentence) <= 30, sentence);
   assert.deepEqual(said, []);
 }

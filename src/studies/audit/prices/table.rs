@@ -228,7 +228,7 @@ pub fn without_any(prices: &Result<Vec<Price>, String>) -> Option<String> {
     let own = prices.as_ref().ok().filter(|prices| unsound(prices).is_none())?;
     let far = own[0].outcome.from_equilibrium()?;
     Some(format!(
-        "Without any fault the corrected algorithm, which has no friction, is {} from the equilibrium.",
+        "The corrected algorithm, without friction, is {} from the equilibrium.",
         percent(far)
     ))
 }
