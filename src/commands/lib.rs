@@ -1,10 +1,15 @@
-//! The frame of the command line: the arguments that several commands have, and how a command prints.
+//! The frame of the command line: the arguments that several commands have, how a command prints, and the process in
+//! which it runs.
 #![forbid(unsafe_code)]
 
 mod arguments;
 mod offered;
 mod output;
+pub mod process;
+pub mod shells;
+mod usage;
 
 pub use arguments::*;
 pub use offered::*;
 pub use output::*;
+pub use usage::report_usage;

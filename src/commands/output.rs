@@ -13,6 +13,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
+use report::failure::failure;
 use report::model::Report;
 use report::text::{COLUMNS, fitted};
 
@@ -102,6 +103,15 @@ pub fn help(asked: &clap::Error) -> Result<()> {
 pub fn report_error(error: &Error) -> ExitStatus {
     print_stderr(&format!("error: {error}\n"));
     error.exit_status()
+}
+
+/// Prints the error that ends a command, where `json` asks for it to standard output too; returns its exit status.
+pub fn report_failure(error: &Error, json: bool) -> ExitStatus {
+    if json {
+        // The error itself counts, not that its JSON could not be printed.
+        let _ = print(&failure(error));
+    }
+    report_error(error)
 }
 
 /// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows

@@ -1,7 +1,6 @@
 //! The commands of the program, each of which stands in the folder of what it does.
 
 use clap::Subcommand;
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::{
     audit, document, extremes, field, guide, lesson, listing, scene, snapshot, solve, sweep, trade,
@@ -80,23 +79,4 @@ pub fn grouped(grammar: &clap::Command) -> String {
         format!("{heading}:\n{}", names.iter().map(row).collect::<String>())
     };
     GROUPS.iter().map(group).collect::<Vec<_>>().join("\n").trim_end().to_string()
-}
-
-/// Adds to the error about a command that is not there the names of those that are, where none of
-/// them is similar.
-pub fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
-    let is_unlike = why.kind() == ErrorKind::InvalidSubcommand
-        && why.get(ContextKind::SuggestedSubcommand).is_none();
-    if !is_unlike {
-        return;
-    }
-    let group = std::env::args_os()
-        .skip(1)
-        // `help` is no group: the words behind it name one.
-        .filter(|word| word != "help")
-        .fold(grammar, |group, word| group.find_subcommand(&word).unwrap_or(group));
-    let names = group.get_subcommands().map(clap::Command::get_name);
-    let names: Vec<&str> = names.filter(|name| *name != "help").collect();
-    let tip = format!("there are {}", names.join(", "));
-    why.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
 }
