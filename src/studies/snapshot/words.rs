@@ -3,9 +3,7 @@
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use crate::snapshot::{
-    Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun,
-};
+use super::{Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
