@@ -8,7 +8,7 @@ use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, FORMAT, Input, Options, Run, VERSION, record};
+use super::{Bounds, FORMAT, Input, Options, Quantity, Run, VERSION, record};
 use base::error::{InputError, Result};
 use base::files::{self, json};
 use base::plain::shown;
@@ -82,8 +82,8 @@ impl Snapshot {
         self.input.build().map_err(|error| error.within("the snapshot"))
     }
 
-    /// Leaves out all numbers but those of the end that `only` names ([`FIELDS`]), and all iterations.
-    pub fn keep_only(&mut self, only: &[String]) {
+    /// Leaves out all numbers but those of the end that `only` names (of [`FIELDS`](super::FIELDS)), and all iterations.
+    pub fn keep_only(&mut self, only: &[Quantity]) {
         self.runs.values_mut().for_each(|run| run.keep_only(Some(only.to_vec())));
     }
 

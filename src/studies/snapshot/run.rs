@@ -6,9 +6,8 @@ use serde_json::{Value, json};
 
 use super::numbers::{Error as Rounded, Numbers};
 use super::rounding::{Errors, ROUNDED, Scale, errors};
-use super::{Entry, FIELDS, Options, Quantity, entry};
+use super::{Entry, Options, Quantity, entry};
 use base::error::InputError;
-use base::suggestion::did_you_mean;
 use engine::contact::{Sense, Status};
 use engine::error::{Error, Result};
 use engine::estimates::arithmetic::{Rounding, bounded, rounding};
@@ -34,7 +33,7 @@ pub struct Run {
     /// The numbers of the end that were asked for, without those of the iterations; all where it is
     /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub only: Option<Vec<String>>,
+    pub only: Option<Vec<Quantity>>,
     /// What is the same or not.
     pub facts: IndexMap<Entry, Value>,
     /// What is the same within bounds.
@@ -69,7 +68,7 @@ impl Run {
     }
 
     /// Leaves out what is not among the numbers `only`, where these are given.
-    pub(super) fn keep_only(&mut self, only: Option<Vec<String>>) {
+    pub(super) fn keep_only(&mut self, only: Option<Vec<Quantity>>) {
         self.only = only;
         if let Some(kept) = self.kept() {
             self.retain(|entry| kept.contains(&entry));
@@ -79,9 +78,7 @@ impl Run {
     /// Returns the entries that the run was asked to record; None where that is all.
     pub(super) fn kept(&self) -> Option<Vec<Entry>> {
         let only = self.only.as_ref()?;
-        let is_asked = |quantity: &&Quantity| only.iter().any(|name| name == quantity.name());
-        let kept = FIELDS.iter().filter(is_asked).chain(&entry::FACTS);
-        Some(kept.map(|quantity| Entry::from(*quantity)).collect())
+        Some(only.iter().chain(&entry::FACTS).map(|quantity| Entry::from(*quantity)).collect())
     }
 
     /// Leaves out the entries that `keeps` does not keep.
@@ -93,7 +90,7 @@ impl Run {
     /// Checks what the types of its parts do not tell.
     ///
     /// # Errors
-    /// A bound is negative; a number that is asked for has no name of one.
+    /// A bound is negative.
     pub(super) fn check(&self) -> Result<(), InputError> {
         for (name, numbers) in self.numbers.iter() {
             for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
@@ -104,13 +101,7 @@ impl Run {
                 }
             }
         }
-        let known = FIELDS.map(Quantity::name);
-        let mut asked = self.only.iter().flatten();
-        asked.find(|name| !known.contains(&&***name)).map_or(Ok(()), |name| {
-            let meant = did_you_mean(name, known);
-            let what = format!("no numbers at the end of a run are named {name:?}");
-            Err(InputError::new("only", what, format!("{meant}they are: {}", known.join(", "))))
-        })
+        Ok(())
     }
 }
 

@@ -27,9 +27,9 @@ choices! {
     Presence {
         /// On both sides.
         Both = "both",
-        /// On the old side alone.
+        /// Missing: the old side alone has it.
         Missing = "missing",
-        /// On the new side alone.
+        /// New: the old side does not have it.
         New = "new",
     }
 }

@@ -36,7 +36,7 @@ impl VerifiedFile {
 /// Returns how a run compares, in a word or two.
 fn verdict(run: &VerifiedRun) -> String {
     match (run.compared, run.differences.is_empty()) {
-        _ if run.presence != Presence::Both => words::presence(run.presence).into(),
+        _ if run.presence != Presence::Both => run.presence.explained(),
         (0, _) => "nothing was compared".into(),
         (compared, true) => {
             let path = run.path.map_or(String::new(), |first| {

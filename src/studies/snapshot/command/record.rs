@@ -6,7 +6,7 @@ use crate::snapshot::{Bounds, Entry, FIELDS, Numbers, Quantity, Snapshot};
 use base::error::InputError;
 use base::files;
 use base::plain::shown;
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use engine::error::Result;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
@@ -40,11 +40,11 @@ pub struct Args {
     #[command(flatten)]
     method: MethodArgs,
     #[arg(long, value_name = "NAME,...", value_delimiter = ',',
-        value_parser = PossibleValuesParser::new(FIELDS.map(offered_name)), help = format!(
+        value_parser = PossibleValuesParser::new(FIELDS.map(offered_name)).try_map(|name| name.parse::<Quantity>()), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
         FIELDS.map(Quantity::name).join(", ")
     ))]
-    only: Vec<String>,
+    only: Vec<Quantity>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
