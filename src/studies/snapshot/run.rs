@@ -292,36 +292,32 @@ impl Recorded<'_> {
     /// iteration solved, to which `weights` went.
     fn matrix(&self, step: &Step, weights: Rounded) -> Option<Numbers> {
         let Recorded { request, model, stiffness, .. } = self;
-        let (mut diagonal, mut all, mut count) = (0.0, 0.0, 0.0);
-        let mut add = |i: usize, j: usize, value: f64| {
-            let times = if i == j { 1.0 } else { 2.0 };
-            diagonal += if i == j { value } else { 0.0 };
-            all += times * value.abs();
-            count += 1.0;
-        };
-        match (&step.detail, request.variant) {
+        let entries: Vec<(usize, usize, f64)> = match (&step.detail, request.variant) {
             (Detail::Published(own), Variant::Printed) => {
                 (model.nodes.len() <= DENSE).then_some(())?;
                 let sheet = door::worksheet(model, |x| x);
                 let matrix = Km(&sheet, &request.reading, &own.pairs.k_cnt()).ok()?;
                 let matrix = matrix.into_sparse().dense();
-                for i in 0..matrix.nrows() {
-                    (0..=i)
-                        .filter(|&j| matrix[(i, j)] != 0.0)
-                        .for_each(|j| add(i, j, matrix[(i, j)]));
-                }
+                let places = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j)));
+                let lower = places.map(|(i, j)| (i, j, matrix[(i, j)]));
+                lower.filter(|(_, _, value)| *value != 0.0).collect()
             }
             (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
                 let t = Elimination::new(model.restraints(), &step.constraints);
-                stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
+                stiffness.reduced(&t).entries().collect()
             }
             (Detail::Unilateral(_), _) => {
                 let own = support_constraints(model, 1.0);
                 let all = step.constraints.iter().cloned().chain(own).collect::<Vec<_>>();
                 let t = Elimination::closing(model.restraints(), &all);
-                stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
+                stiffness.reduced(&t).entries().collect()
             }
-        }
+        };
+        let on_diagonal = entries.iter().filter(|(i, j, _)| i == j);
+        let diagonal = on_diagonal.fold(0.0, |sum, (_, _, value)| sum + value);
+        let twice = |i, j| if i == j { 1.0 } else { 2.0 };
+        let all = entries.iter().fold(0.0, |sum, (i, j, value)| sum + twice(i, j) * value.abs());
+        let count = entries.len() as f64;
         let units = &request.scene.units;
         let unit = match (&units.force[..], &units.length[..]) {
             ("", _) | (_, "") => String::new(),
