@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use plane_contact::studies::snapshot::table::file;
 use plane_contact::studies::snapshot::{Bounds, Snapshot, verify};
 use plane_contact::{Error, Request, Scene, files};
 
@@ -14,7 +13,7 @@ pub fn check(scene: &str, path: &Path) -> Result<bool, Error> {
     if !path.exists() {
         let scene = Scene::open(scene)?;
         let snapshot = Snapshot::record(&scene, &[Request::new(&scene)], Bounds::Computed)?;
-        files::write(path, &file(&snapshot))?;
+        files::write(path, &snapshot.text())?;
     }
     let text = std::fs::read(path).expect("the snapshot was recorded");
     Ok(verify(&Snapshot::read(&text)?, None, &|| ())?.is_same())

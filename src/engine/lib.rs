@@ -34,8 +34,8 @@ pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion, support_constraints};
 pub use hertz::Hertz;
 pub use quantities::{
-    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleState,
-    TriangleValues, summaries,
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
+    summaries,
 };
 pub use range::{beyond_range, locking, locking_of};
 pub use request::Request;

@@ -9,7 +9,7 @@ use mathcad::{Failure, Outcome};
 
 /// What a program computed.
 #[derive(Serialize)]
-struct Document<'a> {
+struct Evaluation<'a> {
     /// A number, words, or a list of rows.
     value: Written<'a>,
     /// What the program's own `trace` wrote.
@@ -18,7 +18,7 @@ struct Document<'a> {
 
 /// Returns what a program computed.
 pub fn json(outcome: &Outcome) -> String {
-    json::streamed(&Document { value: Written(&outcome.value), trace: &outcome.trace_output })
+    json::streamed(&Evaluation { value: Written(&outcome.value), trace: &outcome.trace_output })
 }
 
 /// Returns why a program failed, and where: the function, its line and where the failed expression starts in it, from

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::numbers::reason;
@@ -11,43 +11,46 @@ use base::plain::controls_a_terminal;
 use paper::door::Call;
 use problem::scene::{Scene, Units};
 
-/// A document that a command prints or writes: its own value, and around it what it says of itself.
-#[derive(Serialize)]
-pub struct Document<Own> {
+/// What a document says of itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Head {
     /// The version of the format.
-    format: u32,
+    pub format: u32,
     /// The version of the program.
-    version: &'static str,
+    pub version: String,
+    /// The names of the units of the scene that it is on, each empty where the scene names none; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<Units>,
+    /// The SHA-256 of the scene, as a snapshot has it; absent for half a scene, which no file describes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene_sha256: Option<String>,
+    /// The SHA-256 of its mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh_sha256: Option<String>,
+}
+
+impl Head {
+    /// Returns what a document says of itself, and of the scene that it is on.
+    pub fn new(scene: Option<&Scene>) -> Self {
+        let hashes = scene.and_then(Scene::hashes).cloned();
+        let [scene_sha256, mesh_sha256] = hashes.map_or([None, None], |hashes| hashes.map(Some));
+        let units = scene.map(|scene| scene.units.clone());
+        Head { format: FORMAT, version: VERSION.into(), units, scene_sha256, mesh_sha256 }
+    }
+}
+
+/// A document that a command prints or writes: what it says of itself, and its own value.
+#[derive(Serialize)]
+struct Document<Own> {
     #[serde(flatten)]
-    scene: Option<OnScene>,
+    head: Head,
     #[serde(flatten)]
     own: Own,
-    /// Why fields are null, by their names; absent where none is.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    nulls: BTreeMap<String, &'static str>,
 }
 
-/// What a document on a scene says of it.
-#[derive(Serialize)]
-pub struct OnScene {
-    /// The names of the scene's units, each empty where the scene names none.
-    pub units: Units,
-    /// The SHA-256 of the scene, as a snapshot has it.
-    pub scene_sha256: String,
-    /// The SHA-256 of its mesh.
-    pub mesh_sha256: String,
-}
-
-/// Returns a document around a command's own value, with the scene, which a file describes, that it
-/// is on.
+/// Returns a document around a command's own value, with the scene that it is on, and why fields are null.
 pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
-    let own = value(own);
-    let nulls = reasons(&own);
-    let scene = scene.map(|scene| {
-        let [scene_sha256, mesh_sha256] = scene.hashes().expect("a file describes it").clone();
-        OnScene { units: scene.units.clone(), scene_sha256, mesh_sha256 }
-    });
-    value(&Document { format: FORMAT, version: VERSION, scene, own, nulls })
+    explained(&Document { head: Head::new(scene), own })
 }
 
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
@@ -58,8 +61,7 @@ pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
 /// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than its
 /// digits.
 pub fn streamed(own: &impl Serialize) -> String {
-    let document =
-        Document { format: FORMAT, version: VERSION, scene: None, own, nulls: BTreeMap::new() };
+    let document = Document { head: Head::new(None), own };
     visible(serde_json::to_string(&document).expect("a document has string keys only")) + "\n"
 }
 
@@ -79,14 +81,20 @@ fn value(document: &impl Serialize) -> Value {
     serde_json::to_value(document).expect("a document has string keys only")
 }
 
-/// Writes a document of a run over several lines, with the reasons of its nulls.
-pub fn pretty_explained(document: &impl Serialize) -> String {
+/// Returns a document with the reasons of its nulls by the names of their fields, where it has any.
+fn explained(document: &impl Serialize) -> Value {
     let mut document = value(document);
-    let nulls = reasons(&document);
+    let mut nulls = BTreeMap::new();
+    explain(&document, "", &mut nulls);
     if !nulls.is_empty() {
         document["nulls"] = value(&nulls);
     }
-    pretty(&document)
+    document
+}
+
+/// Writes a document over several lines, with the reasons of its nulls.
+pub fn pretty_explained(document: &impl Serialize) -> String {
+    pretty(&explained(document))
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for
@@ -130,13 +138,7 @@ fn depth_of(value: &Value) -> usize {
     }
 }
 
-/// Returns the names of the fields that are null in a value, each with its reason.
-fn reasons(value: &Value) -> BTreeMap<String, &'static str> {
-    let mut nulls = BTreeMap::new();
-    explain(value, "", &mut nulls);
-    nulls
-}
-
+/// Collects the names of the fields that are null in a value, each with its reason.
 fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str>) {
     match value {
         Value::Null => drop(nulls.insert(field.into(), reason(field))),

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{json, plan};
+use super::json::{self, Head};
+use super::plan;
 use base::error::{InputError, Result};
 use base::files;
-use base::files::json::{FORMAT, VERSION};
 use engine::contact::ContactNode;
 use engine::estimates::{ErrorEstimates, Perturbed};
 use engine::linear::Arithmetic;
@@ -21,8 +21,8 @@ use paper::listings::Which;
 use paper::mirror::Reading;
 use problem::model::NodeId;
 use problem::modelling::{ContactModel, Variant};
+use problem::scene::Material;
 use problem::scene::sha256;
-use problem::scene::{Material, Units};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -31,16 +31,9 @@ pub const MOST_TRIANGLES: usize = 20_000;
 /// float reads back to the same bits; one that is not finite is null, and reads back as NaN.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultFile {
-    /// The version of the format.
-    pub format: u32,
-    /// The version of the program.
-    pub version: String,
-    /// The SHA-256 of the scene and of its mesh, as a snapshot has them; absent for half a scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub scene_sha256: Option<String>,
-    /// The SHA-256 of the mesh file; null without one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_sha256: Option<String>,
+    /// The versions, the units and the scene.
+    #[serde(flatten)]
+    pub head: Head,
     /// Whether contact passes no load on at the end, beyond rounding, though there is a load: an audit
     /// result; absent where it is not so.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -73,8 +66,6 @@ pub struct ResultFile {
     /// How contact was modelled: `coupling`, `friction`, `geometry` and `status`.
     #[serde(flatten)]
     pub modelled: ContactModel,
-    /// The names of the scene's units, each empty where the scene names none.
-    pub units: Units,
     /// The scalar and the solver that were used.
     pub arithmetic: Arithmetic,
     /// The thickness across the plane, length.
@@ -179,8 +170,6 @@ impl ResultFile {
     pub fn new(solution: &Solution, assessment: &Assessment, plan: Option<&Plan>) -> Self {
         let request = &solution.request;
         let scene = &request.scene;
-        let [scene_sha256, mesh_sha256] =
-            scene.hashes().cloned().map_or([None, None], |h| h.map(Some));
         // One digit more than the scalar keeps, so that it reads back; of exact numbers forty.
         let digits = request.arithmetic.scalar.properties().digits.map_or(40, |digits| digits + 1);
         let decimal = |u| rational::decimal(u, digits as usize);
@@ -190,10 +179,7 @@ impl ResultFile {
             .map(|edited| EditedListing { listing: edited.which, sha256: sha256(&edited.text) });
         let pairs = solution.digits.as_ref().map(|digits| digits.as_chunks().0.iter());
         let result = ResultFile {
-            format: FORMAT,
-            version: VERSION.into(),
-            scene_sha256,
-            mesh_sha256,
+            head: Head::new(Some(scene)),
             transmits_nothing: solution.transmits_nothing(),
             nothing_in_contact: solution.touches_nothing(),
             overlap: solution.overlap.clone(),
@@ -208,7 +194,6 @@ impl ResultFile {
                 ..request.reading
             },
             modelled: request.contact,
-            units: scene.units.clone(),
             edited: edited.collect(),
             arithmetic: Arithmetic { solver: Some(request.solver()), ..request.arithmetic },
             thickness: solution.model.thickness,

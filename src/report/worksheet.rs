@@ -68,7 +68,7 @@ fn summary(regions: &[ExecutedRegion]) -> String {
 
 /// A worksheet that was executed, as JSON.
 #[derive(Serialize)]
-pub struct Document<'a> {
+struct Executed<'a> {
     file: &'a str,
     regions: Vec<RegionRow<'a>>,
 }
@@ -100,7 +100,7 @@ pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
         inputs: &region.inputs,
         value: region.value.as_ref().map(Written),
     });
-    json::streamed(&Document { file, regions: regions.collect() })
+    json::streamed(&Executed { file, regions: regions.collect() })
 }
 
 fn verdict(verdict: &Verdict) -> Value {

@@ -225,7 +225,7 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let compared = Compared::new(&Case::new(roof.clone())).unwrap();
     let prices = compared.prices(&|| ());
     let repairs = compared.repairs(&prices, &|| ());
-    let document = studies::audit::prices::table::Document {
+    let document = studies::audit::prices::table::PricesOnScene {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,

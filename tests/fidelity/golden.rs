@@ -10,7 +10,7 @@ use plane_contact::paper::door;
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{SCENES, Scene};
-use plane_contact::studies::snapshot::table::{self as report, VerifiedFile};
+use plane_contact::studies::snapshot::verified_file::{self as report, VerifiedFile};
 use plane_contact::studies::snapshot::{Snapshot, verify};
 
 /// A float for a golden file: 12 significant digits, 0 as `0`.

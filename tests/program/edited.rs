@@ -133,8 +133,8 @@ fn solve_changes_its_scene() {
     assert_eq!(half.load, whole.load.map(|force| force / 2.0));
     let changed = result(at, &["two-blocks", "--c-tll", "0.5", "--iterations", "3"]);
     assert_eq!((changed.c_tll, changed.iterations.len()), (Some(0.5), 3));
-    assert_ne!(changed.scene_sha256, own.scene_sha256, "it is another scene");
-    assert_eq!(changed.mesh_sha256, own.mesh_sha256);
+    assert_ne!(changed.head.scene_sha256, own.head.scene_sha256, "it is another scene");
+    assert_eq!(changed.head.mesh_sha256, own.head.mesh_sha256);
     for (args, words) in [(["--c-tll", "-1"], "c_tll"), (["--iterations", "0"], "iterations")] {
         let (status, _, why) = solve(at, &[&["two-blocks"], &args[..]].concat());
         assert_eq!(status, 2, "{args:?}");

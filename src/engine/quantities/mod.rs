@@ -24,8 +24,8 @@ use serde::{Deserialize, Serialize};
 use crate::contact::{ContactPlace, Status};
 use crate::solution::{Cycle, Solution};
 use base::choices;
-use places::{BodyPlace, IterationPlace, SupportPlace};
-pub use places::{TriangleState, summaries};
+pub use places::summaries;
+use places::{BodyPlace, IterationPlace, SupportPlace, TrianglePlace};
 use problem::model::{NodeId, TriangleId};
 use problem::scene::Units;
 pub use value::Value;
@@ -185,14 +185,14 @@ quantities! {
 
 quantities! {
     /// The stresses and strains of a triangle.
-    TriangleValues from at: &TriangleState {
-        sigma: [f64; 4] = at.sigma, "stress" ["σ_x", "σ_y", "τ_xy", "σ_z"] Stress,
+    TriangleValues from at: &TrianglePlace<'_> {
+        sigma: [f64; 4] = at.sigma(), "stress" ["σ_x", "σ_y", "τ_xy", "σ_z"] Stress,
             "The stresses sigma_x, sigma_y, tau_xy, sigma_z.";
-        epsilon: [f64; 4] = at.epsilon, "strain" ["ε_x", "ε_y", "γ_xy", "ε_z"] One,
+        epsilon: [f64; 4] = at.epsilon(), "strain" ["ε_x", "ε_y", "γ_xy", "ε_z"] One,
             "The strains e_xx, e_yy, g_xy, e_zz; the shear strain is the engineering one.";
-        von_mises_stress: f64 = at.von_mises_stress, "von Mises stress" ["σ_v"] Stress,
+        von_mises_stress: f64 = at.state.von_mises_stress, "von Mises stress" ["σ_v"] Stress,
             "The von Mises stress.";
-        von_mises_strain: f64 = at.von_mises_strain, "von Mises strain" ["ε_v"] One,
+        von_mises_strain: f64 = at.state.von_mises_strain, "von Mises strain" ["ε_v"] One,
             "The von Mises strain.";
         #[serde(default, skip_serializing_if = "Option::is_none")]
         mesh_error: Option<f64> = at.mesh_error, "mesh error" [] One,

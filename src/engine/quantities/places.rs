@@ -96,32 +96,28 @@ impl SupportForce {
     }
 }
 
-/// The state of a triangle.
-pub struct TriangleState {
-    /// sigma_x, sigma_y, tau_xy, sigma_z.
-    pub sigma: [f64; 4],
-    /// e_xx, e_yy, g_xy, e_zz.
-    pub epsilon: [f64; 4],
-    /// The von Mises stress, stress.
-    pub von_mises_stress: f64,
-    /// The von Mises strain, without unit.
-    pub von_mises_strain: f64,
+/// A triangle of a solution.
+pub(crate) struct TrianglePlace<'a> {
+    model: &'a Model,
+    id: TriangleId,
+    pub(super) state: &'a State,
     /// The error of the mesh there, where it is estimated.
-    pub mesh_error: Option<f64>,
+    pub(super) mesh_error: Option<f64>,
 }
 
-impl TriangleState {
-    /// Returns the state of triangle `id` of a model.
-    pub fn new(model: &Model, id: TriangleId, state: &State, mesh_error: Option<f64>) -> Self {
-        let nu = model.triangle(id).material.nu;
-        let ([x, y, xy], [ex, ey, exy]) = (state.sigma.into(), state.epsilon.into());
-        TriangleState {
-            sigma: [x, y, xy, out_of_plane_stress(model.plane, nu, &state.sigma)],
-            epsilon: [ex, ey, exy, out_of_plane_strain(model.plane, nu, &state.epsilon)],
-            von_mises_stress: state.von_mises_stress,
-            von_mises_strain: state.von_mises_strain,
-            mesh_error,
-        }
+impl TrianglePlace<'_> {
+    pub(super) fn sigma(&self) -> [f64; 4] {
+        let [x, y, xy] = self.state.sigma.into();
+        [x, y, xy, out_of_plane_stress(self.model.plane, self.nu(), &self.state.sigma)]
+    }
+
+    pub(super) fn epsilon(&self) -> [f64; 4] {
+        let [x, y, xy] = self.state.epsilon.into();
+        [x, y, xy, out_of_plane_strain(self.model.plane, self.nu(), &self.state.epsilon)]
+    }
+
+    fn nu(&self) -> f64 {
+        self.model.triangle(self.id).material.nu
     }
 }
 
@@ -129,16 +125,17 @@ impl TriangleValues {
     /// Returns the values of each triangle of a solution; `mesh_error` has the error of the mesh in
     /// each, where that is estimated.
     pub fn all(solution: &Solution, mesh_error: Option<&[f64]>) -> Vec<Self> {
+        let model = &*solution.model;
         let value = |(id, state): (TriangleId, &State)| {
-            let error = mesh_error.map(|error| error[id.index()]);
-            TriangleValues::compute(&TriangleState::new(&solution.model, id, state, error))
+            let mesh_error = mesh_error.map(|error| error[id.index()]);
+            TriangleValues::compute(&TrianglePlace { model, id, state, mesh_error })
         };
-        solution.model.triangle_ids().zip(&solution.elements).map(value).collect()
+        model.triangle_ids().zip(&solution.elements).map(value).collect()
     }
 }
 
 impl NodeFields {
-    /// Collects the values of each triangle of a solution, in the order of the model.
+    /// Collects the values of each node of a solution, in the order of the model.
     pub fn new(solution: &Solution) -> Self {
         NodeFields::compute(solution)
     }

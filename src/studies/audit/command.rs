@@ -114,7 +114,7 @@ fn prices(args: &Args) -> Result<()> {
     let alone = compared.prices(&watch);
     let repairs = if args.repairs { compared.repairs(&alone, &watch) } else { Vec::new() };
     bar.finish();
-    let document = price_report::Document { reading, prices: &alone, repairs: &repairs };
+    let document = price_report::PricesOnScene { reading, prices: &alone, repairs: &repairs };
     let json = price_report::json(&document, &case.scene);
     if let Some(out) = &args.out {
         let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
@@ -174,7 +174,7 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let (judged, by_reading) = waiting("judging", || {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
-    let document = claims::Document { judged: &judged, by_reading: &by_reading };
+    let document = claims::ClaimOnScene { judged: &judged, by_reading: &by_reading };
     let json = json::line(Some(&case.scene), &document);
     if let Some(out) = &args.out {
         files::write_all(out, &[(file, &json)])?;

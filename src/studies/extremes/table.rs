@@ -1,21 +1,15 @@
 //! Stability at the extremes, for people, for machines and as a picture.
 
-use serde::Serialize;
+use serde_json::json;
 
 use crate::extremes::{Break, Column, SweepTable, Verdict};
 use report::json;
 use report::model::{Cell, Report, Table};
 use report::picture::{Axis, Series, Style, chart};
 
-/// The content of `extremes.json`: a row for each generator.
-#[derive(Serialize)]
-pub struct Document<'a> {
-    rows: &'a [SweepTable],
-}
-
-/// Returns the content of `extremes.json`.
+/// Returns the content of `extremes.json`: a row for each generator.
 pub fn json(measured: &[SweepTable]) -> String {
-    json::line(None, &Document { rows: measured })
+    json::line(None, &json!({ "rows": measured }))
 }
 
 /// Reports for each generator where its methods break down, then what came of every magnitude.

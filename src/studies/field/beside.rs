@@ -9,19 +9,23 @@ use engine::{Distance, Implied, Solution, distance, implied, max_displacement, o
 use problem::model::NodeId;
 
 /// A field beside the reference solution.
+#[derive(Serialize)]
 pub struct Beside<'a> {
     /// What is compared with.
+    #[serde(skip)]
     pub reference: &'a Solution,
     /// The field, and all that follows from it on the mesh.
+    #[serde(skip)]
     pub field: Solution,
     /// The node inside the bodies with the largest force that nothing balances in the field, and its part of the
     /// largest force that the triangles put on a node; None where nothing is deformed.
-    pub unbalanced: Option<(NodeId, f64)>,
+    pub unbalanced: Option<AtNode>,
     /// The distance of the field from the reference solution.
     pub distance: Distance,
     /// The largest difference of the displacements in each body.
     pub bodies: Vec<BodyDifference>,
     /// The difference of each node's displacement, length.
+    #[serde(rename = "nodes")]
     pub differences: Vec<f64>,
 }
 
@@ -60,6 +64,7 @@ impl<'a> Beside<'a> {
         });
         let bodies = bodies.collect();
         let distance = distance(&field, reference);
+        let unbalanced = unbalanced.map(|(node, value)| AtNode { node, value });
         Ok(Beside { reference, field, unbalanced, distance, bodies, differences })
     }
 

@@ -1,6 +1,7 @@
 //! A field beside the reference solution: tables and JSON.
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::{AtNode, Beside, BodyDifference, ByCalculix, ContactValues};
 use engine::{Distance, Overlap};
@@ -21,17 +22,23 @@ const WORST: usize = 10;
 const UNBALANCED: f64 = 1e-3;
 
 /// What was compared, and what came of it.
+#[derive(Serialize)]
 pub struct Compared<'a> {
     /// Where the field is from: a file, or CalculiX with its version.
+    #[serde(rename = "field")]
     pub other: String,
     /// How it was found or made, in lines.
+    #[serde(skip)]
     pub about: Vec<String>,
     /// How CalculiX came to it; nothing of a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub calculix: Option<ByCalculix>,
     /// The largest difference that counts as none, over the largest displacement and in the energy norm; without
     /// one, differences are not judged.
+    #[serde(rename = "rtol", skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// The field beside the reference solution.
+    #[serde(flatten)]
     pub beside: Beside<'a>,
 }
 
@@ -119,11 +126,11 @@ fn part(part: f64) -> String {
 
 /// Says where the field is not in equilibrium inside the bodies, so that its tractions are not those of contact.
 fn unbalanced(beside: &Beside) -> Option<String> {
-    let (node, size) = beside.unbalanced.filter(|(_, size)| *size > UNBALANCED)?;
+    let AtNode { node, value } = beside.unbalanced.filter(|at| at.value > UNBALANCED)?;
     Some(format!(
         "NOTE: the field is not in equilibrium under the scene's loads on this mesh of linear triangles: node {node} \
          is left with {} of the largest force on a node; tractions below are no better",
-        percent(size)
+        percent(value)
     ))
 }
 
@@ -214,68 +221,44 @@ fn worst(beside: &Beside) -> Report {
     Report::default().table(quantity("The worst nodes: displacements", &units.length), table)
 }
 
-/// The document that `--json` prints.
+/// What was compared, as `--json` prints it.
 #[derive(Serialize)]
-struct Document<'a> {
+struct Comparison<'a> {
     scene: &'a str,
     title: &'a str,
-    field: &'a str,
     variant: Variant,
     #[serde(flatten)]
     modelled: ContactModel,
-    /// How CalculiX came to the field; absent of a file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    calculix: Option<&'a ByCalculix>,
     /// Absent, as `rtol` is, where differences are not judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     is_same: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rtol: Option<f64>,
     /// Whether the solution compared with is not the only equilibrium.
     has_others: bool,
     /// Where its bodies lie in each other outside the groups of contact; null where they do not.
     overlap: &'a Option<Overlap>,
-    distance: &'a Distance,
-    bodies: &'a [BodyDifference],
-    /// The node inside the bodies with the largest force that nothing balances, and its part of the largest.
-    unbalanced: Option<AtNode>,
-    contact: ContactOfBoth,
+    /// What both imply of contact, each null without contact.
+    contact: Value,
     worst_nodes: Vec<NodeId>,
-    /// The difference of each node, length.
-    nodes: &'a [f64],
-}
-
-/// What both imply of contact; null without contact.
-#[derive(Serialize)]
-struct ContactOfBoth {
-    field: Option<ContactValues>,
-    reference: Option<ContactValues>,
+    #[serde(flatten)]
+    compared: &'a Compared<'a>,
 }
 
 /// Returns the comparison as JSON.
 pub fn json(compared: &Compared) -> String {
-    let beside = &compared.beside;
-    let request = &beside.reference.request;
-    let document = Document {
+    let Beside { reference, field, .. } = &compared.beside;
+    let request = &reference.request;
+    let [field, own] = [field, reference].map(ContactValues::of);
+    let comparison = Comparison {
         scene: &request.scene.name,
         title: &request.scene.title,
-        field: &compared.other,
         variant: request.variant,
         modelled: request.contact,
-        calculix: compared.calculix.as_ref(),
         is_same: compared.is_same(),
-        rtol: compared.tolerance,
-        has_others: beside.reference.has_others(),
-        overlap: &beside.reference.overlap,
-        distance: &beside.distance,
-        bodies: &beside.bodies,
-        unbalanced: beside.unbalanced.map(|(node, value)| AtNode { node, value }),
-        contact: ContactOfBoth {
-            field: ContactValues::of(&beside.field),
-            reference: ContactValues::of(beside.reference),
-        },
-        worst_nodes: beside.worst(WORST),
-        nodes: &beside.differences,
+        has_others: reference.has_others(),
+        overlap: &reference.overlap,
+        contact: json!({ "field": field, "reference": own }),
+        worst_nodes: compared.beside.worst(WORST),
+        compared,
     };
-    json::line(Some(&request.scene), &document)
+    json::line(Some(&request.scene), &comparison)
 }

@@ -3,8 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Run;
-use super::input::Input;
+use super::{Run, Snapshot};
 use problem::scene::{Element, Mesh, Node};
 
 /// A difference of what went into two runs.
@@ -18,11 +17,10 @@ pub struct Change {
     pub is: String,
 }
 
-/// Returns what differs in what went into two runs, in the order of computation; each is given with its snapshot's
-/// version and input.
-pub fn changes(old: (&str, &Input, &Run), new: (&str, &Input, &Run)) -> Vec<Change> {
+/// Returns what differs in what went into two runs, each of a snapshot, in the order of computation.
+pub fn changes(old: (&Snapshot, &Run), new: (&Snapshot, &Run)) -> Vec<Change> {
     let mut changes = Vec::new();
-    let [(_, was, _), (_, is, _)] = [old, new];
+    let [was, is] = [old, new].map(|(snapshot, _)| &snapshot.input);
     if was.scene_sha256 != is.scene_sha256 {
         let [was, is] = [was, is]
             .map(|input| serde_json::to_value(&input.scene).expect("a description is an object"));
@@ -32,9 +30,10 @@ pub fn changes(old: (&str, &Input, &Run), new: (&str, &Input, &Run)) -> Vec<Chan
         mesh(&mut changes, &was.mesh, &is.mesh);
     }
     let [was, is] = [old, new]
-        .map(|(_, _, run)| serde_json::to_value(&run.options).expect("options have string keys"));
+        .map(|(_, run)| serde_json::to_value(&run.options).expect("options have string keys"));
     fields(&mut changes, "option", &was, &is);
-    add(&mut changes, "version of the program".into(), [old, new].map(|side| side.0.into()));
+    let versions = [old, new].map(|(snapshot, _)| snapshot.version.clone());
+    add(&mut changes, "version of the program".into(), versions);
     changes
 }
 

@@ -3,9 +3,7 @@
 use indexmap::IndexMap;
 use serde_json::Value;
 
-use crate::snapshot::{
-    Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun,
-};
+use super::{Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun};
 
 /// The most characters of a fact that is printed whole.
 const WIDTH: usize = 70;
@@ -44,19 +42,10 @@ fn change(Change { place, was, is }: &Change) -> String {
     format!("changed: {place}: {is}, was {was}\n")
 }
 
-/// Returns where a run is that one side alone has.
-pub fn presence(presence: Presence) -> &'static str {
-    match presence {
-        Presence::Both => "on both sides",
-        Presence::Missing => "missing: the old side alone has it",
-        Presence::New => "new: the old side does not have it",
-    }
-}
-
 /// Returns the first change of what went into a run that differs, or else its first difference, in a line.
 pub fn headline(run: &VerifiedRun) -> String {
     match (run.changes.first(), run.differences.first()) {
-        _ if run.presence != Presence::Both => presence(run.presence).into(),
+        _ if run.presence != Presence::Both => run.presence.explained(),
         (Some(first), _) => change(first).trim_end().into(),
         (None, Some(first)) => difference(first),
         (None, None) => "nothing was compared".into(),

@@ -63,7 +63,7 @@ pub fn in_full(claims: &[JudgedClaim]) -> Report {
 
 /// One claim on a scene.
 #[derive(Serialize)]
-pub struct Document<'a> {
+pub struct ClaimOnScene<'a> {
     /// The claim and its verdict.
     #[serde(flatten)]
     pub judged: &'a JudgedClaim,
@@ -72,7 +72,7 @@ pub struct Document<'a> {
 }
 
 /// Reports one claim on a scene.
-pub fn explanation(claim: &Document, scene: &Scene, reading: &Reading) -> Report {
+pub fn explanation(claim: &ClaimOnScene, scene: &Scene, reading: &Reading) -> Report {
     let Claim { id, judged, .. } = claim.judged.claim;
     let report = Report::titled(format!("{id}: {judged}"))
         .line(format!("On scene {} ({}){}", scene.name, scene.title, under(reading)))

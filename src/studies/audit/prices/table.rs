@@ -27,7 +27,7 @@ pub const AND_FINDINGS: &str = "A finding is present, or not triggered, on the s
 
 /// The document that `audit --prices --json` prints.
 #[derive(Serialize)]
-pub struct Document<'a> {
+pub struct PricesOnScene<'a> {
     /// The reading, of which only what changes the model matters.
     pub reading: Reading,
     /// The corrected algorithm, then a fault reintroduced a row.
@@ -38,7 +38,7 @@ pub struct Document<'a> {
 }
 
 /// Returns the prices as JSON.
-pub fn json(document: &Document, scene: &Scene) -> String {
+pub fn json(document: &PricesOnScene, scene: &Scene) -> String {
     json::line(Some(scene), document)
 }
 
@@ -50,7 +50,7 @@ pub fn section(
     scene: &Scene,
 ) -> Report {
     let report = match prices {
-        Ok(prices) => report(&Document { reading, prices, repairs }, scene).deeper(1),
+        Ok(prices) => report(&PricesOnScene { reading, prices, repairs }, scene).deeper(1),
         Err(why) => {
             Report::default().heading("What the printed faults cost").line(not_measured(why))
         }
@@ -63,8 +63,8 @@ pub fn section(
 
 /// Reports the prices: a row for the corrected algorithm and one for each fault; then, where they were
 /// asked for, a row for the print and one for each repair.
-pub fn report(document: &Document, scene: &Scene) -> Report {
-    let Document { reading, prices, repairs } = document;
+pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
+    let PricesOnScene { reading, prices, repairs } = document;
     let faults = Table::from_rows(prices.iter())
         .column("finding", |price| price.name.as_deref().unwrap_or("-"))
         .column("fault reintroduced", |price| price.fault.clone());

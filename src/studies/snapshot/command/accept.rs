@@ -1,18 +1,17 @@
 //! `plane-contact snapshot accept`.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::snapshot::table::{self as report, VerifiedFile};
-use crate::snapshot::{accept, difference};
+use super::given_files::{GivenFile, read_all, scene_of};
+use super::record::from_folder_of;
+use crate::snapshot::verified_file::{self as report, VerifiedFile};
+use crate::snapshot::{Snapshot, accept, difference};
 use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use problem::scene::{Scene, SceneFile};
 
-use super::record::from_folder_of;
-use super::verify::{is_scene, note_skipped, scene_of, snapshot_of};
 use commands::{print_report, report_error, waiting, within};
 
 /// Record snapshots again, and print what changed.
@@ -38,11 +37,8 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<ExitStatus> {
     let given = args.scene.as_deref().map(SceneFile::read).transpose()?;
     let mut status = ExitStatus::Done;
-    for path in &args.files {
-        let text = files::read(path);
-        if args.files.len() > 1 && is_scene(&text) {
-            note_skipped(path);
-        } else if let Err(why) = record(path, text, given.as_ref()) {
+    for file in read_all(&args.files) {
+        if let Err(why) = record(&file, given.as_ref()) {
             let failed = report_error(&why);
             status = if status == ExitStatus::Done { failed } else { status };
         }
@@ -51,20 +47,19 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
 }
 
 /// Records the snapshot in a file again, on its own scene or on a `given` one.
-fn record(path: &Path, text: io::Result<Vec<u8>>, given_file: Option<&SceneFile>) -> Result<()> {
+fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) -> Result<()> {
     let file = shown(path);
     let given = given_file.map(Scene::of_file).transpose()?;
-    // What cannot be read is named below.
-    let was = text.as_ref().ok().cloned().unwrap_or_default();
-    let old = snapshot_of(path, text)?;
+    let old = Snapshot::of_file(path, text)?;
     let (scene, said) = scene_of(path, &old, given.as_ref())?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
         new.scene_file = scene.path().and_then(|scene| from_folder_of(path, scene));
     }
-    let text = report::readable(&new)?;
-    files::rewrite(path, &was, &text)?;
+    let was = text.as_deref().unwrap_or_default();
+    let text = new.readable_text()?;
+    files::rewrite(path, was, &text)?;
     let done = match text.as_bytes() == was {
         true => format!("Nothing changed: {file} stays as it was"),
         false => format!("Recorded again: {file}"),

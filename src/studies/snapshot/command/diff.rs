@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::snapshot::table::{self as report, VerifiedFile};
+use crate::snapshot::verified_file::{self as report, VerifiedFile};
 use crate::snapshot::{Bounds, Options, Snapshot, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;

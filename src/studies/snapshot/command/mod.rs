@@ -2,6 +2,7 @@
 
 mod accept;
 mod diff;
+mod given_files;
 mod record;
 mod verify;
 

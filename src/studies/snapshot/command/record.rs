@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::snapshot::table as report;
-use crate::snapshot::{Bounds, FIELDS, Quantity, Snapshot};
+use crate::snapshot::{Bounds, Entry, FIELDS, Numbers, Quantity, Snapshot};
 use base::error::InputError;
 use base::files;
 use base::plain::shown;
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use engine::error::Result;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
+use report::model::Report;
 
 use commands::{MethodArgs, offered, print_report, waiting};
 
@@ -40,11 +40,11 @@ pub struct Args {
     #[command(flatten)]
     method: MethodArgs,
     #[arg(long, value_name = "NAME,...", value_delimiter = ',',
-        value_parser = PossibleValuesParser::new(FIELDS.map(offered_name)), help = format!(
+        value_parser = PossibleValuesParser::new(FIELDS.map(offered_name)).try_map(|name| name.parse::<Quantity>()), help = format!(
         "Record these numbers of the end alone, and no iterations: {} [default: all, and the iterations]",
         FIELDS.map(Quantity::name).join(", ")
     ))]
-    only: Vec<String>,
+    only: Vec<Quantity>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -75,10 +75,41 @@ pub fn run(args: &Args) -> Result<()> {
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
         snapshot.scene_file = scene_file.path().and_then(|scene| from_folder_of(&file, scene));
-        write_new(&file, &report::readable(&snapshot)?)?;
-        print_report(report::recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
+        write_new(&file, &snapshot.readable_text()?)?;
+        print_report(recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
     Ok(())
+}
+
+/// Reports what was recorded: a line for each run.
+fn recorded(snapshot: &Snapshot) -> Report {
+    snapshot.runs.iter().fold(Report::default(), |report, (name, run)| {
+        let facts = run.facts.len();
+        let numbers: usize = run.numbers.iter().map(|(_, n)| n.places().len()).sum();
+        let failure = run.fact(Quantity::Failure).filter(|failure| !failure.is_null());
+        let failure = failure.map_or(String::new(), |failure| {
+            format!("; exit status {}: {failure}", run.exit_status().unwrap_or_default())
+        });
+        let unbounded = match run.numbers.iter().filter(|(_, n)| n.bound.is_none()).count() {
+            0 => String::new(),
+            count => format!("; {count} arrays have no bound on their rounding errors"),
+        };
+        let rounding = run
+            .numbers
+            .iter()
+            .filter(|(entry, numbers)| entry.iteration.is_none() && numbers.are_rounding());
+        let said = |(entry, numbers): (&Entry, &Numbers)| {
+            format!(
+                "{entry}: no change below {:.1e} can be seen, as rounding makes it",
+                numbers.floor
+            )
+        };
+        let line = format!(
+            "{} {name}: {facts} facts, {numbers} numbers{unbounded}{failure}",
+            snapshot.input.name
+        );
+        report.line(line).notes(rounding.map(said))
+    })
 }
 
 /// Returns the path of a scene file from the folder of a snapshot, with `/`; None where there is none, as of

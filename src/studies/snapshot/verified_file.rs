@@ -1,15 +1,13 @@
-//! Snapshots as files, and what verifying them found: for people, as JSON, Markdown and JUnit XML.
+//! Snapshots that were compared, each with its file: what was found for people, as JSON, and as JUnit XML.
 
 use serde_json::{Value, json};
 
 use super::words;
-use crate::snapshot::{Entry, Numbers, Presence, Quantity, Snapshot, Verified, VerifiedRun};
-use base::error::InputError;
-use base::files;
+use super::{Presence, Verified, VerifiedRun};
 use base::xml::Element;
 use engine::error::Error;
 use report::failure::Failure;
-use report::json::{self, pretty};
+use report::json;
 use report::layout::{counted, first_line};
 use report::model::Report;
 use report::text::COLUMNS;
@@ -35,57 +33,10 @@ impl VerifiedFile {
     }
 }
 
-/// Returns the text of a snapshot's file.
-pub fn file(snapshot: &Snapshot) -> String {
-    pretty(snapshot)
-}
-
-/// Returns the text of a snapshot's file, which can be read again.
-///
-/// # Errors
-/// It is too large.
-pub fn readable(snapshot: &Snapshot) -> Result<String, InputError> {
-    let text = file(snapshot);
-    let checked = files::json::check_size(&text, "the snapshot");
-    checked.map_err(|error| InputError { fix: "record less by --only u".into(), ..error })?;
-    Ok(text)
-}
-
-/// Reports what was recorded: a line for each run.
-pub fn recorded(snapshot: &Snapshot) -> Report {
-    snapshot.runs.iter().fold(Report::default(), |report, (name, run)| {
-        let facts = run.facts.len();
-        let numbers: usize = run.numbers.iter().map(|(_, n)| n.places().len()).sum();
-        let failure = run.fact(Quantity::Failure).filter(|failure| !failure.is_null());
-        let failure = failure.map_or(String::new(), |failure| {
-            format!("; exit status {}: {failure}", run.exit_status().unwrap_or_default())
-        });
-        let unbounded = match run.numbers.iter().filter(|(_, n)| n.bound.is_none()).count() {
-            0 => String::new(),
-            count => format!("; {count} arrays have no bound on their rounding errors"),
-        };
-        let rounding = run
-            .numbers
-            .iter()
-            .filter(|(entry, numbers)| entry.iteration.is_none() && numbers.are_rounding());
-        let said = |(entry, numbers): (&Entry, &Numbers)| {
-            format!(
-                "{entry}: no change below {:.1e} can be seen, as rounding makes it",
-                numbers.floor
-            )
-        };
-        let line = format!(
-            "{} {name}: {facts} facts, {numbers} numbers{unbounded}{failure}",
-            snapshot.input.name
-        );
-        report.line(line).notes(rounding.map(said))
-    })
-}
-
 /// Returns how a run compares, in a word or two.
 fn verdict(run: &VerifiedRun) -> String {
     match (run.compared, run.differences.is_empty()) {
-        _ if run.presence != Presence::Both => words::presence(run.presence).into(),
+        _ if run.presence != Presence::Both => run.presence.explained(),
         (0, _) => "nothing was compared".into(),
         (compared, true) => {
             let path = run.path.map_or(String::new(), |first| {

@@ -1,5 +1,8 @@
 //! Two runs compared entry by entry: facts are the same or not, numbers agree within a limit.
 
+use std::hash::Hash;
+
+use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -70,43 +73,69 @@ impl Difference {
     }
 }
 
+/// What two sides have under a name.
+pub enum Sides<'a, V> {
+    /// Both have something: the old one and the new one.
+    Both(&'a V, &'a V),
+    /// The old side alone has something.
+    Missing(&'a V),
+    /// The new side alone has something.
+    New(&'a V),
+}
+
+/// Returns what two sides have under each name, in the order of the old side.
+pub fn side_by_side<'a, K: Eq + Hash, V>(
+    old: &'a IndexMap<K, V>,
+    new: &'a IndexMap<K, V>,
+) -> impl Iterator<Item = (&'a K, Sides<'a, V>)> {
+    let beside = |(name, was)| match new.get(name) {
+        Some(is) => (name, Sides::Both(was, is)),
+        None => (name, Sides::Missing(was)),
+    };
+    let added = new.iter().filter(|(name, _)| !old.contains_key(*name));
+    old.iter().map(beside).chain(added.map(|(name, is)| (name, Sides::New(is))))
+}
+
 /// Returns the differences of two runs in the order of computation, discrete facts of an iteration in
 /// their place among its numbers, and how many facts and numbers were compared. What a run was not
 /// asked to record is not compared.
 pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
+    let kept: Vec<Vec<Entry>> = [old, new].into_iter().filter_map(Run::kept).collect();
+    let is_kept = |entry: &Entry| kept.iter().all(|kept| kept.contains(entry));
     let (mut found, mut compared) = (Vec::new(), 0);
-    let keeps = |entry: Entry| old.keeps(entry) && new.keeps(entry);
-    let mut add = |entry: &Entry, kind: Kind| {
-        if keeps(*entry) {
-            found.push(Difference { entry: *entry, kind });
-        }
-    };
-    // What one side alone has stands before what both have.
-    old.facts.keys().filter(|e| !new.facts.contains_key(*e)).for_each(|e| add(e, Kind::Missing));
-    new.facts.keys().filter(|e| !old.facts.contains_key(*e)).for_each(|e| add(e, Kind::Extra));
-    old.numbers
-        .keys()
-        .filter(|e| !new.numbers.contains_key(*e))
-        .for_each(|e| add(e, Kind::Missing));
-    new.numbers.keys().filter(|e| !old.numbers.contains_key(*e)).for_each(|e| add(e, Kind::Extra));
-    for (entry, was) in old.facts.iter().filter(|(entry, _)| keeps(**entry)) {
-        let Some(is) = new.facts.get(entry) else { continue };
-        compared += 1;
-        if was != is {
-            add(entry, Kind::Fact { was: was.clone(), is: is.clone() });
+    let mut add = |entry: &Entry, kind: Kind| found.push(Difference { entry: *entry, kind });
+    for (entry, sides) in side_by_side(&old.facts, &new.facts).filter(|(entry, _)| is_kept(entry)) {
+        match sides {
+            Sides::Missing(_) => add(entry, Kind::Missing),
+            Sides::New(_) => add(entry, Kind::Extra),
+            Sides::Both(was, is) => {
+                compared += 1;
+                if was != is {
+                    add(entry, Kind::Fact { was: was.clone(), is: is.clone() });
+                }
+            }
         }
     }
-    for (entry, was) in old.numbers.iter().filter(|(entry, _)| keeps(**entry)) {
-        let Some(is) = new.numbers.get(entry) else { continue };
-        compared += was.places().len();
-        if was.unit != is.unit {
-            add(entry, Kind::Unit { was: was.unit.clone(), is: is.unit.clone() });
+    for (entry, sides) in
+        side_by_side(&old.numbers, &new.numbers).filter(|(entry, _)| is_kept(entry))
+    {
+        match sides {
+            Sides::Missing(_) => add(entry, Kind::Missing),
+            Sides::New(_) => add(entry, Kind::Extra),
+            Sides::Both(was, is) => {
+                compared += was.places().len();
+                let kinds = [unit(was, is), bound(was, is), numbers(was, is)];
+                kinds.into_iter().flatten().for_each(|kind| add(entry, kind));
+            }
         }
-        let kinds = bound(was, is).into_iter().chain(numbers(was, is));
-        kinds.for_each(|kind| add(entry, kind));
     }
     found.sort_by_key(|difference| difference.entry.place());
     (found, compared)
+}
+
+/// Returns the units of two arrays where they differ.
+fn unit(was: &Numbers, is: &Numbers) -> Option<Kind> {
+    (was.unit != is.unit).then(|| Kind::Unit { was: was.unit.clone(), is: is.unit.clone() })
 }
 
 /// Returns the recorded bound of an array where it is beyond its numbers: no run has such a one.

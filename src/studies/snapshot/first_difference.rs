@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::Run;
-use super::compare::{Difference, Kind};
+use super::difference::{Difference, Kind};
 use super::{Entry, Quantity};
 use engine::Decision;
 use mathcad::Conjunction;

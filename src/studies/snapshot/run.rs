@@ -1,29 +1,109 @@
-//! A run recorded: its discrete facts, and its numbers, each with the bound on its rounding error.
+//! A run recorded: its discrete facts, and its numbers, each array with the bound on its rounding errors.
 
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::Run;
 use super::numbers::{Error as Rounded, Numbers};
-use super::{Entry, Quantity};
-use engine::contact::{ContactNode, Sense, Status};
+use super::rounding::{Errors, ROUNDED, Scale, errors};
+use super::{Entry, Options, Quantity, entry};
+use base::error::InputError;
+use engine::contact::{Sense, Status};
 use engine::error::{Error, Result};
-use engine::estimates::arithmetic::{Rounding, bounded, rounding, stress_bounds};
-use engine::options::Options;
+use engine::estimates::arithmetic::{Rounding, bounded, rounding};
 use engine::{
-    Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve, support_constraints,
+    Decision, Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve,
+    support_constraints,
 };
-use numbers::scalar::{Bounded, Scalar};
 use paper::door;
 use paper::mirror::Km;
-use problem::element::{self, State};
+use problem::element::State;
 use problem::model::{Body, Model, TriangleId};
 use problem::modelling::Variant;
 
-/// The relative effect of the roundings in a position, a pressure or an entry of a triangle's matrix.
-const ROUNDED: f64 = 64.0 * f64::EPSILON;
-
 /// The most nodes of a scene whose dense matrix, that of `Km`, is assembled once more.
 const DENSE: usize = 400;
+
+/// A run: what it was asked for and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// What was asked for in place of what the scene says.
+    pub options: Options,
+    /// The numbers of the end that were asked for, without those of the iterations; all where it is
+    /// absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub only: Option<Vec<Quantity>>,
+    /// What is the same or not.
+    pub facts: IndexMap<Entry, Value>,
+    /// What is the same within bounds.
+    pub numbers: IndexMap<Entry, Numbers>,
+    /// The decisions on who is in contact that rounding may have taken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub decided_by_rounding: Vec<Decision>,
+}
+
+impl Run {
+    fn new(options: Options) -> Self {
+        let (facts, numbers) = (IndexMap::new(), IndexMap::new());
+        Run { options, only: None, facts, numbers, decided_by_rounding: Vec::new() }
+    }
+
+    fn fact_is(&mut self, of: impl Into<Entry>, fact: impl Serialize) {
+        self.facts.insert(of.into(), json!(fact));
+    }
+
+    fn numbers_are(&mut self, of: impl Into<Entry>, numbers: Numbers) {
+        self.numbers.insert(of.into(), numbers);
+    }
+
+    /// Returns the exit status of `solve` on this run, where the run has that fact.
+    pub fn exit_status(&self) -> Option<u64> {
+        self.fact(Quantity::ExitStatus)?.as_u64()
+    }
+
+    /// Returns a fact that was recorded.
+    pub fn fact(&self, of: impl Into<Entry>) -> Option<&Value> {
+        self.facts.get(&of.into())
+    }
+
+    /// Leaves out what is not among the numbers `only`, where these are given.
+    pub(super) fn keep_only(&mut self, only: Option<Vec<Quantity>>) {
+        self.only = only;
+        if let Some(kept) = self.kept() {
+            self.retain(|entry| kept.contains(&entry));
+        }
+    }
+
+    /// Returns the entries that the run was asked to record; None where that is all.
+    pub(super) fn kept(&self) -> Option<Vec<Entry>> {
+        let only = self.only.as_ref()?;
+        Some(only.iter().chain(&entry::FACTS).map(|quantity| Entry::from(*quantity)).collect())
+    }
+
+    /// Leaves out the entries that `keeps` does not keep.
+    pub(super) fn retain(&mut self, keeps: impl Fn(Entry) -> bool) {
+        self.facts.retain(|entry, _| keeps(*entry));
+        self.numbers.retain(|entry, _| keeps(*entry));
+    }
+
+    /// Checks what the types of its parts do not tell.
+    ///
+    /// # Errors
+    /// A bound is negative.
+    pub(super) fn check(&self) -> Result<(), InputError> {
+        for (name, numbers) in self.numbers.iter() {
+            for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
+                if let Some(value) = value.filter(|value| *value < 0.0) {
+                    let what = format!("the {field} on a rounding error is {value}");
+                    let fix = "give a number from 0; null where no bound is known";
+                    return Err(InputError::new(format!("numbers.{name}.{field}"), what, fix));
+                }
+            }
+        }
+        Ok(())
+    }
+}
 
 /// Whether the bounds on rounding errors are computed, which takes another run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,19 +139,20 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
         let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
         of.iteration(&mut run, step, bounds);
     }
-    run.facts.insert(Quantity::Iterations.into(), json!(steps.len()));
+    run.fact_is(Quantity::Iterations, steps.len());
     let (status, failure) = match &solved {
         Ok(solution) => (solution.exit_status(), json!(solution.doubt().map(|doubt| doubt.what))),
         Err(why) => (why.exit_status(), failure(why)),
     };
-    run.facts.insert(Quantity::ExitStatus.into(), json!(status.number()));
-    run.facts.insert(Quantity::Failure.into(), failure);
+    run.fact_is(Quantity::ExitStatus, status.number());
+    run.fact_is(Quantity::Failure, failure);
     if let Some(solution) = Error::found(solved)? {
         end(&mut run, &solution, &stiffness, rounding.as_ref(), bounds);
         run.decided_by_rounding =
             rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
     }
-    run.sort();
+    run.facts.sort_by_cached_key(|entry, _| entry.place());
+    run.numbers.sort_by_cached_key(|entry, _| entry.place());
     Ok(run)
 }
 
@@ -98,57 +179,63 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     let units = &request.scene.units;
     let contact: Vec<usize> = model.contact.nodes.iter().map(|node| node.number()).collect();
     let target: Vec<usize> = model.target_edges().map(|edge| edge.number).collect();
-    run.facts.insert(Quantity::Cnt.into(), json!(contact));
-    run.facts.insert(Quantity::Trg.into(), json!(target));
+    run.fact_is(Quantity::Cnt, contact);
+    run.fact_is(Quantity::Trg, target);
     let restrained = model.all_dofs().filter(|dof| model.is_restrained(*dof));
     let oblique = model.oblique().map(|(_, hold)| {
         let [x, y] = hold.direction;
         format!("{} along {x}, {y}: {}", hold.node, hold.displacement)
     });
     let restrained = restrained.map(|dof| format!("{}{}", dof.node(), dof.axis()));
-    let restrained: Vec<String> = restrained.chain(oblique).collect();
-    run.facts.insert(Quantity::Restrained.into(), json!(restrained));
+    run.fact_is(Quantity::Restrained, restrained.chain(oblique).collect::<Vec<_>>());
     let given = Rounded { bound: Some(0.0), floor: 0.0 };
-    run.numbers.insert(
-        Quantity::Tolerance.into(),
-        Numbers::list(&units.length, [model.contact.tolerance], given),
-    );
-    let load: f64 = model.load.iter().map(|f| f.abs()).sum();
+    let tolerance = Numbers::list(&units.length, [model.contact.tolerance], given);
+    run.numbers_are(Quantity::Tolerance, tolerance);
     // An edge's load is computed with a square root and some products.
-    let bound = load * ROUNDED;
+    let bound = ROUNDED * model.load.iter().map(|f| f.abs()).sum::<f64>();
     let error = Rounded { bound: Some(bound), floor: bound };
-    run.numbers
-        .insert(Quantity::Load.into(), Numbers::list(&units.force, model.total_load(), error));
+    run.numbers_are(Quantity::Load, Numbers::list(&units.force, model.total_load(), error));
 }
 
-/// The sizes of which positions and distances are differences, length.
-struct Scale {
-    /// The largest coordinate.
-    coordinate: f64,
-    /// The largest displacement of a node in any iteration.
-    displacement: f64,
-    /// The shortest edge of the target; infinite where there is none.
-    edge: f64,
+/// The contact pairs of an iteration: the arrays of `c_cnt`, or the constraints that were imposed.
+#[derive(Default)]
+struct Pairs {
+    /// The number of each contact node's target edge; 0 for none.
+    ct: Vec<usize>,
+    /// The distance of each contact node, length.
+    yt: Vec<f64>,
+    /// Each node that has mates, with them.
+    mates: Vec<String>,
+    /// The weights of all these mates.
+    weights: Vec<f64>,
 }
 
-impl Scale {
-    fn new(model: &Model, displacement: f64) -> Self {
-        let coordinate = model.nodes.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-        let length = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let lengths =
-            model.target_edges().map(|edge| length(edge.nodes.map(|n| model.coordinates(n))));
-        Scale { coordinate, displacement, edge: lengths.fold(f64::INFINITY, f64::min) }
-    }
-
-    /// Returns the least error of a displacement, length.
-    fn displacement_error(&self) -> f64 {
-        ROUNDED * self.displacement
-    }
-
-    /// Returns the error of a node's distance from its edge where displacements are known to `moved`.
-    fn distance(&self, moved: f64) -> f64 {
-        // The node and both ends of its edge are displaced by at most 1.5 errors each.
-        6.0 * moved + ROUNDED * self.coordinate
+impl Pairs {
+    fn new(step: &Step, model: &Model) -> Self {
+        let mut pairs = Pairs::default();
+        match &step.detail {
+            Detail::Published(own) => {
+                pairs.ct.extend_from_slice(own.pairs.ct.as_slice());
+                pairs.yt.extend_from_slice(own.pairs.yt.as_slice());
+                for (node, row) in &own.pairs.masters {
+                    pairs.mates.push(format!("{node}: {} {}", row[0], row[2]));
+                    pairs.weights.extend([row[1], row[3]]);
+                }
+            }
+            Detail::Unilateral(own) => {
+                for pairing in own.pairings.iter() {
+                    pairs.ct.push(pairing.as_ref().map_or(0, |p| model.edge(p.edge).number));
+                    pairs.yt.push(pairing.as_ref().map_or(0.0, |p| p.gap));
+                }
+                for constraint in &step.constraints {
+                    let masters = constraint.masters.iter().map(|(node, _)| node.to_string());
+                    let masters = masters.collect::<Vec<_>>().join(" ");
+                    pairs.mates.push(format!("{}: {masters}", constraint.node));
+                    pairs.weights.extend(constraint.masters.iter().map(|(_, weight)| weight));
+                }
+            }
+        }
+        pairs
     }
 }
 
@@ -163,52 +250,22 @@ struct Recorded<'a> {
 impl Recorded<'_> {
     /// Records an iteration, whose numbers are known within `bounds`.
     fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
-        let units = &self.request.scene.units;
+        let length = &self.request.scene.units.length;
         let of = |quantity| Entry { iteration: Some(step.k), quantity };
         let moved = self.scale.displacement_error();
         let distance = self.scale.distance(moved);
+        let weight = distance / self.scale.edge + ROUNDED;
         let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
-        let weights = distance / self.scale.edge + ROUNDED;
-        let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weights };
-        // The number of each contact node's target edge, 0 for none, and its distance; the mates of each node that has
-        // any and their weights: the rows of `k_cnt`, or of the constraints that were imposed.
-        let (mut faced, mut distances, mut mates, mut weights_of_mates) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        match &step.detail {
-            Detail::Published(own) => {
-                faced.extend_from_slice(own.pairs.ct.as_slice());
-                distances.extend_from_slice(own.pairs.yt.as_slice());
-                for (node, row) in &own.pairs.masters {
-                    mates.push(format!("{node}: {} {}", row[0], row[2]));
-                    weights_of_mates.extend([row[1], row[3]]);
-                }
-            }
-            Detail::Unilateral(own) => {
-                for pairing in own.pairings.iter() {
-                    let edge = pairing.as_ref().map_or(0, |p| self.model.edge(p.edge).number);
-                    faced.push(edge);
-                    distances.push(pairing.as_ref().map_or(0.0, |p| p.gap));
-                }
-                for constraint in &step.constraints {
-                    let masters = constraint.masters.iter().map(|(node, _)| node.to_string());
-                    let masters = masters.collect::<Vec<_>>().join(" ");
-                    mates.push(format!("{}: {masters}", constraint.node));
-                    weights_of_mates.extend(constraint.masters.iter().map(|(_, weight)| weight));
-                }
-                // Where a node closes divides a step, so that this is a number like others.
-                let load = Rounded { bound: None, floor: ROUNDED };
-                run.numbers.insert(of(Quantity::Load), Numbers::list("", [own.load], load));
-                let statuses: Vec<&str> = own.statuses.iter().map(recorded).collect();
-                run.facts.insert(of(Quantity::Statuses), json!(statuses));
-            }
-        }
-        run.facts.insert(of(Quantity::Ct), json!(faced));
-        run.numbers.insert(of(Quantity::Yt), Numbers::list(&units.length, distances, yt));
+        let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weight };
+        let u = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
+        let pairs = Pairs::new(step, self.model);
+        run.fact_is(of(Quantity::Ct), pairs.ct);
+        run.numbers_are(of(Quantity::Yt), Numbers::list(length, pairs.yt, yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
-        run.facts.insert(of(Quantity::Dy), json!(dy));
-        run.facts.insert(of(Quantity::InContact), json!(step.contact_set(self.model)));
-        run.facts.insert(of(Quantity::Mates), json!(mates));
-        run.numbers.insert(of(Quantity::Weights), Numbers::list("", weights_of_mates, weights));
+        run.fact_is(of(Quantity::Dy), dy);
+        run.fact_is(of(Quantity::InContact), step.contact_set(self.model));
+        run.fact_is(of(Quantity::Mates), pairs.mates);
+        run.numbers_are(of(Quantity::Weights), Numbers::list("", pairs.weights, weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
             Some(cycle) => {
@@ -218,47 +275,49 @@ impl Recorded<'_> {
             None => self.matrix(step, weights),
         };
         run.numbers.extend(matrix.map(|matrix| (of(Quantity::Mjs), matrix)));
-        let error = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
-        let largest = Numbers::list(&units.length, Some(step.max_displacement), error);
-        run.numbers.insert(of(Quantity::U), largest);
-        run.facts
-            .insert(of(Quantity::Cycle), json!(step.cycle.as_ref().map(|cycle| &cycle.members)));
+        run.numbers_are(of(Quantity::U), Numbers::list(length, [step.max_displacement], u));
+        run.fact_is(of(Quantity::Cycle), step.cycle.as_ref().map(|cycle| &cycle.members));
+        if let Some(own) = step.unilateral() {
+            // Where a node closes divides a step, so that this is a number like others.
+            let load = Rounded { bound: None, floor: ROUNDED };
+            run.numbers_are(of(Quantity::Load), Numbers::list("", [own.load], load));
+            run.fact_is(
+                of(Quantity::Statuses),
+                own.statuses.iter().map(recorded).collect::<Vec<_>>(),
+            );
+        }
     }
 
     /// Returns the sum of the diagonal and the sum of the sizes of all entries of the matrix that the
     /// iteration solved, to which `weights` went.
     fn matrix(&self, step: &Step, weights: Rounded) -> Option<Numbers> {
         let Recorded { request, model, stiffness, .. } = self;
-        let (mut diagonal, mut all, mut count) = (0.0, 0.0, 0.0);
-        let mut add = |i: usize, j: usize, value: f64| {
-            let times = if i == j { 1.0 } else { 2.0 };
-            diagonal += if i == j { value } else { 0.0 };
-            all += times * value.abs();
-            count += 1.0;
-        };
-        match (&step.detail, request.variant) {
+        let entries: Vec<(usize, usize, f64)> = match (&step.detail, request.variant) {
             (Detail::Published(own), Variant::Printed) => {
                 (model.nodes.len() <= DENSE).then_some(())?;
                 let sheet = door::worksheet(model, |x| x);
                 let matrix = Km(&sheet, &request.reading, &own.pairs.k_cnt()).ok()?;
                 let matrix = matrix.into_sparse().dense();
-                for i in 0..matrix.nrows() {
-                    (0..=i)
-                        .filter(|&j| matrix[(i, j)] != 0.0)
-                        .for_each(|j| add(i, j, matrix[(i, j)]));
-                }
+                let places = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| (i, j)));
+                let lower = places.map(|(i, j)| (i, j, matrix[(i, j)]));
+                lower.filter(|(_, _, value)| *value != 0.0).collect()
             }
             (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
                 let t = Elimination::new(model.restraints(), &step.constraints);
-                stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
+                stiffness.reduced(&t).entries().collect()
             }
             (Detail::Unilateral(_), _) => {
                 let own = support_constraints(model, 1.0);
                 let all = step.constraints.iter().cloned().chain(own).collect::<Vec<_>>();
                 let t = Elimination::closing(model.restraints(), &all);
-                stiffness.reduced(&t).entries().for_each(|(i, j, value)| add(i, j, value));
+                stiffness.reduced(&t).entries().collect()
             }
-        }
+        };
+        let on_diagonal = entries.iter().filter(|(i, j, _)| i == j);
+        let diagonal = on_diagonal.fold(0.0, |sum, (_, _, value)| sum + value);
+        let twice = |i, j| if i == j { 1.0 } else { 2.0 };
+        let all = entries.iter().fold(0.0, |sum, (i, j, value)| sum + twice(i, j) * value.abs());
+        let count = entries.len() as f64;
         let units = &request.scene.units;
         let unit = match (&units.force[..], &units.length[..]) {
             ("", _) | (_, "") => String::new(),
@@ -295,18 +354,23 @@ fn end(
         None => Rounded::default(),
         Some((bound, floor)) => Rounded { bound: bound.as_ref().map(of), floor: of(floor) },
     };
-    let mut set = |of: Quantity, numbers: Numbers| run.numbers.insert(of.into(), numbers);
     let u = (1..).zip(solution.displacements());
-    set(Quantity::U, Numbers::rows(&units.length, u, error(|errors| errors.displacement)));
+    run.numbers_are(
+        Quantity::U,
+        Numbers::rows(&units.length, u, error(|errors| errors.displacement)),
+    );
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
     let stresses = (1..).zip(stresses);
-    set(Quantity::Stress, Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)));
+    run.numbers_are(
+        Quantity::Stress,
+        Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)),
+    );
     let von_mises = largest(solution, |state| state.von_mises_stress);
     let von_mises = Numbers::list(&units.stress, von_mises, error(|errors| errors.von_mises));
-    set(Quantity::VonMisesStress, von_mises);
+    run.numbers_are(Quantity::VonMisesStress, von_mises);
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains, error(|errors| errors.strain));
-    set(Quantity::VonMisesStrain, strains);
+    run.numbers_are(Quantity::VonMisesStrain, strains);
     let held = model.held_directions();
     let restrained = model.node_ids().filter(|node| held[node.index()] > 0);
     let force = stiffness.times(&solution.u) - &model.load;
@@ -316,12 +380,18 @@ fn end(
         let is_oblique = axes.iter().filter(|held| **held).count() < held[node.index()];
         (node.number(), [0, 1].map(|d| if axes[d] || is_oblique { of_node[d] } else { 0.0 }))
     });
-    set(Quantity::Reactions, Numbers::rows(&units.force, reactions, error(|errors| errors.force)));
+    run.numbers_are(
+        Quantity::Reactions,
+        Numbers::rows(&units.force, reactions, error(|errors| errors.force)),
+    );
     let nodes = || solution.contact.iter();
     let gaps = nodes().map(|c| (c.node.number(), [c.gap]));
-    set(Quantity::Gap, Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
+    run.numbers_are(Quantity::Gap, Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
     let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
-    set(Quantity::Pressure, Numbers::rows(&units.stress, known, error(|errors| errors.pressure)));
+    run.numbers_are(
+        Quantity::Pressure,
+        Numbers::rows(&units.stress, known, error(|errors| errors.pressure)),
+    );
 }
 
 /// Returns the largest value of each body, by triangle.
@@ -329,53 +399,6 @@ fn largest(solution: &Solution, value: fn(&State) -> f64) -> Vec<f64> {
     let of = |id: &TriangleId| value(&solution.elements[id.index()]);
     let of_body = |body: &Body| body.triangles.iter().map(of).fold(0.0, f64::max);
     solution.model.bodies.iter().map(of_body).collect()
-}
-
-/// The largest error of any number of each array of a solution.
-struct Errors {
-    displacement: f64,
-    stress: f64,
-    von_mises: f64,
-    strain: f64,
-    force: f64,
-    gap: f64,
-    pressure: f64,
-}
-
-/// Returns what is left of errors of the displacements, of size `displacement`, in the other numbers of a solution.
-fn errors(
-    solution: &Solution,
-    stiffness: &Stiffness<Bounded>,
-    scale: &Scale,
-    displacement: f64,
-) -> Errors {
-    let model = &*solution.model;
-    let u = solution.u.map(|u| Bounded::new(u, displacement));
-    let stresses = stiffness.stresses(&u);
-    let force = stiffness.times(&u) - model.load_in(Bounded::from_f64);
-    let force = force.iter().map(|f| f.error()).fold(0.0, f64::max);
-    let von_mises = stress_bounds(solution, stiffness, Some(displacement));
-    // A strain is at most the sum of the sizes of its components.
-    let strain = |id: TriangleId| {
-        let b = element::B(&model.corners(id)).abs().sum();
-        b * (displacement + ROUNDED * solution.u.amax())
-    };
-    // The normal turns by at most the displacement of both ends over the length of the edge.
-    let turned = 4.0 * displacement / scale.edge + ROUNDED;
-    let pressure = |c: &ContactNode| {
-        let (own, pressure) = (c.force?, c.pressure?);
-        let per_force = if own == 0.0 { 0.0 } else { (pressure / own).abs() };
-        Some(1.5 * force * per_force + turned * (pressure.abs() + c.shear.unwrap_or(0.0).abs()))
-    };
-    Errors {
-        displacement,
-        stress: stresses.iter().flat_map(|s| s.iter().map(|s| s.error())).fold(0.0, f64::max),
-        von_mises: von_mises.into_iter().fold(0.0, f64::max),
-        strain: model.triangle_ids().map(strain).fold(0.0, f64::max),
-        force,
-        gap: scale.distance(displacement),
-        pressure: solution.contact.iter().filter_map(pressure).fold(0.0, f64::max),
-    }
 }
 
 /// Returns the word for a status in a snapshot, with the sense in which a node slides.

@@ -1,0 +1,150 @@
+//! A snapshot and its file: recorded, written, and read by the one reader.
+
+use std::collections::HashSet;
+use std::io;
+use std::path::Path;
+
+use indexmap::IndexMap;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::{Bounds, FORMAT, Input, Options, Quantity, Run, VERSION, record};
+use base::error::{InputError, Result};
+use base::files::{self, json};
+use base::plain::shown;
+use engine::{Request, check};
+use problem::scene::{Scene, Units};
+use report::json::pretty;
+
+/// How a snapshot is made.
+const FIX: &str = "give a snapshot as `plane-contact snapshot record` writes it";
+
+/// What a scene gives, by runs under different options. Lengths, stresses and forces are in the units
+/// of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Snapshot {
+    /// The version of the format.
+    pub format: u32,
+    /// The version of the program that recorded it.
+    pub version: String,
+    /// The units of the scene by quantity, each empty where the scene names none.
+    pub units: Units,
+    /// The path of the scene file from the folder of the snapshot, with `/`; absent where the scene has none there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene_file: Option<String>,
+    /// The scene and its mesh, whole.
+    pub input: Input,
+    /// The runs by name.
+    pub runs: IndexMap<String, Run>,
+}
+
+impl Snapshot {
+    /// Runs requests of a scene and records what comes of each.
+    ///
+    /// # Errors
+    /// The input is at fault, or two of the requests are the same.
+    pub fn record(
+        scene: &Scene,
+        requests: &[Request],
+        bounds: Bounds,
+    ) -> engine::error::Result<Self> {
+        let mut names = HashSet::new();
+        for request in requests {
+            check(request)?;
+            let name = Options::from_request(request).name();
+            if !names.insert(name.clone()) {
+                let what = format!("{name} is asked for twice");
+                return Err(InputError::new("variant", what, "name it once").into());
+            }
+        }
+        let recorded: engine::error::Result<Vec<Run>> =
+            requests.par_iter().map(|request| record(request, bounds)).collect();
+        let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
+        Ok(Snapshot::of_runs(Input::from_scene(scene)?, None, runs))
+    }
+
+    /// Returns the snapshot of runs that this program made of an input, read from `scene_file`.
+    pub(super) fn of_runs(
+        input: Input,
+        scene_file: Option<String>,
+        runs: IndexMap<String, Run>,
+    ) -> Self {
+        let (version, units) = (VERSION.into(), input.scene.units.clone());
+        Snapshot { format: FORMAT, version, units, scene_file, input, runs }
+    }
+
+    /// Returns the scene that was recorded.
+    ///
+    /// # Errors
+    /// It was changed after it was recorded, or is at fault.
+    pub fn scene(&self) -> Result<Scene> {
+        self.input.build().map_err(|error| error.within("the snapshot"))
+    }
+
+    /// Leaves out all numbers but those of the end that `only` names (of [`FIELDS`](super::FIELDS)), and all iterations.
+    pub fn keep_only(&mut self, only: &[Quantity]) {
+        self.runs.values_mut().for_each(|run| run.keep_only(Some(only.to_vec())));
+    }
+
+    /// Returns the text of its file.
+    pub fn text(&self) -> String {
+        pretty(self)
+    }
+
+    /// Returns the text of its file, which can be read again.
+    ///
+    /// # Errors
+    /// It is too large.
+    pub fn readable_text(&self) -> Result<String> {
+        let text = self.text();
+        let checked = json::check_size(&text, "the snapshot");
+        checked.map_err(|error| InputError { fix: "record less by --only u".into(), ..error })?;
+        Ok(text)
+    }
+
+    /// Reads the snapshot in a file, of which `text` was read.
+    ///
+    /// # Errors
+    /// Those of [`Snapshot::read`], within the file; or it could not be read.
+    pub fn of_file(file: &Path, text: &io::Result<Vec<u8>>) -> Result<Self> {
+        let place = shown(file);
+        let text = text.as_ref().map_err(|why| {
+            InputError::new(&place, format!("the snapshot cannot be read: {why}"), FIX)
+        })?;
+        Snapshot::read(text).map_err(|error| error.within(&place))
+    }
+
+    /// Reads a snapshot.
+    ///
+    /// # Errors
+    /// Names the field that is wrong or lacking, a number that is out of its range, or a format that this
+    /// program does not know.
+    pub fn read(text: &[u8]) -> Result<Self> {
+        #[derive(Deserialize)]
+        struct Head {
+            format: Option<u32>,
+        }
+        let kind = json::Kind { name: "snapshot", fix: FIX, has_values: true };
+        // What cannot be read is named below.
+        let head = files::utf8(text).ok().and_then(|text| serde_json::from_str(text).ok());
+        if let Some(Head { format }) = head
+            && format != Some(FORMAT)
+        {
+            let found = format.map_or("names no format".into(), |n| format!("is of format {n}"));
+            let what = format!("the snapshot {found}; this program reads format {FORMAT}");
+            let error = InputError::new("field format", what, FIX);
+            return Err(json::instead(text, &kind).unwrap_or(error));
+        }
+        let snapshot: Self = json::read(text, &kind)?;
+        if snapshot.units != snapshot.input.scene.units {
+            let what = "the units are not those of the scene in the snapshot";
+            let fix = "undo the change; in other units a scene is recorded anew";
+            return Err(InputError::new("field units", what, fix));
+        }
+        for (name, run) in snapshot.runs.iter() {
+            run.check().map_err(|error| error.within(&format!("run {name:?}")))?;
+        }
+        Ok(snapshot)
+    }
+}

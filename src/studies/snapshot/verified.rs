@@ -1,0 +1,228 @@
+//! Two snapshots compared, run by run; a snapshot verified or accepted is one whose runs are made again.
+
+use rayon::prelude::*;
+
+use super::changes::{Change, changes};
+use super::difference::{Difference, Sides, compare, side_by_side};
+use super::first_difference::{First, first};
+use super::{Bounds, Entry, Input, Numbers, Quantity, Run, Snapshot, record};
+use base::choices;
+use engine::Request;
+use engine::error::Result;
+use engine::estimates::perturbed_requests;
+use problem::modelling::Variant;
+use problem::scene::Scene;
+
+/// What came of verifying a snapshot.
+#[derive(Clone, Debug)]
+pub struct Verified {
+    /// The input that was run.
+    pub input: Input,
+    /// The runs, in the order of the snapshot.
+    pub runs: Vec<VerifiedRun>,
+}
+
+choices! {
+    /// Where a run is.
+    Presence {
+        /// On both sides.
+        Both = "both",
+        /// Missing: the old side alone has it.
+        Missing = "missing",
+        /// New: the old side does not have it.
+        New = "new",
+    }
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct VerifiedRun {
+    /// The name of the run.
+    pub name: String,
+    /// The side that has it; what one side alone has is not compared.
+    pub presence: Presence,
+    /// The run as it is now.
+    pub run: Run,
+    /// What differs, in the order of computation.
+    pub differences: Vec<Difference>,
+    /// How many facts and numbers were compared.
+    pub compared: usize,
+    /// The iteration from which on rounding decides the path to the equilibrium, such as which of two
+    /// nodes closes first. The two runs take different paths, which are not compared from there on.
+    pub path: Option<usize>,
+    /// What went in and differs.
+    pub changes: Vec<Change>,
+    /// Where it first differs; None where it does not.
+    pub first: Option<First>,
+}
+
+impl Verified {
+    /// Returns whether anything was compared and nothing differs.
+    pub fn is_same(&self) -> bool {
+        self.runs.iter().all(VerifiedRun::is_same) && !self.runs.is_empty()
+    }
+}
+
+impl VerifiedRun {
+    /// Returns whether anything was compared and nothing differs.
+    pub fn is_same(&self) -> bool {
+        self.differences.is_empty() && self.compared > 0
+    }
+
+    /// Makes a run that one side alone has.
+    fn alone(name: &str, presence: Presence, run: &Run) -> Self {
+        let (name, run) = (name.into(), run.clone());
+        let (differences, changes) = (Vec::new(), Vec::new());
+        let (compared, path, first) = (0, None, None);
+        VerifiedRun { name, presence, run, differences, compared, path, changes, first }
+    }
+
+    /// Compares two runs, each of a snapshot.
+    fn compared(name: &str, old: (&Snapshot, &Run), new: (&Snapshot, &Run)) -> Self {
+        let (differences, compared) = compare(old.1, new.1);
+        let (changes, first) = (changes(old, new), first(old.1, new.1, &differences));
+        let run = VerifiedRun::alone(name, Presence::Both, new.1);
+        VerifiedRun { differences, compared, changes, first, ..run }
+    }
+
+    /// Leaves out the path from iteration `first` on, which rounding decides, and compares the rest with `old`.
+    fn without_path(self, old: &Run, first: usize) -> Self {
+        let [old, new] = [old, &self.run].map(|run| {
+            let mut run = run.clone();
+            run.retain(|entry| !is_of_path(entry, first));
+            run
+        });
+        let (differences, compared) = compare(&old, &new);
+        VerifiedRun { differences, compared, path: Some(first), first: None, ..self }
+    }
+}
+
+/// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
+pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
+    let both = |name: &str, was: &Run, is: &Run| VerifiedRun::compared(name, (old, was), (new, is));
+    let run = |(name, sides): (&String, Sides<Run>)| match sides {
+        Sides::Both(was, is) => both(name, was, is),
+        Sides::Missing(was) => VerifiedRun::alone(name, Presence::Missing, was),
+        Sides::New(is) => VerifiedRun::alone(name, Presence::New, is),
+    };
+    let is_single = old.runs.len() == 1 && new.runs.len() == 1;
+    let single = old.runs.first().zip(new.runs.first()).filter(|_| is_single);
+    let runs = match single.filter(|((name, _), (other, _))| name != other) {
+        Some(((name, was), (other, is))) => vec![both(&format!("{name} and {other}"), was, is)],
+        None => side_by_side(&old.runs, &new.runs).map(run).collect(),
+    };
+    Verified { input: new.input.clone(), runs }
+}
+
+/// Runs the scene of `snapshot`, or `scene` in its place, under the options of every run, and
+/// compares. `done` is called after each run.
+///
+/// # Errors
+/// The snapshot or the scene is at fault.
+pub fn verify(
+    snapshot: &Snapshot,
+    scene: Option<&Scene>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Verified> {
+    let scene = given_or_own(snapshot, scene)?;
+    let again = again(snapshot, &scene, |request, old| {
+        let run = run_to_compare(request, old);
+        done();
+        run
+    })?;
+    let verified = difference(snapshot, &again);
+    let runs = verified.runs.into_par_iter().map(|run| {
+        let old = &snapshot.runs[&run.name];
+        let path = decided_by_rounding(&old.options.request(&scene)?, &run)?;
+        Ok(match path {
+            Some(first) => run.without_path(old, first),
+            None => run,
+        })
+    });
+    Ok(Verified { runs: runs.collect::<Result<_>>()?, ..verified })
+}
+
+/// Records the runs of `snapshot` again, on its own scene or on `scene` in its place. What is recorded
+/// of each, and the tolerances that it gives, stay.
+///
+/// # Errors
+/// The snapshot or the scene is at fault.
+pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
+    again(snapshot, &given_or_own(snapshot, scene)?, |request, old| {
+        let mut run = record_again(request, old, Bounds::Computed)?;
+        for (entry, numbers) in &mut run.numbers {
+            numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
+        }
+        Ok(run)
+    })
+}
+
+/// Returns `scene`, or that of the snapshot.
+fn given_or_own(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Scene> {
+    Ok(scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?)
+}
+
+/// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what it was.
+fn again(
+    snapshot: &Snapshot,
+    scene: &Scene,
+    run: impl Fn(&Request, &Run) -> Result<Run> + Sync,
+) -> Result<Snapshot> {
+    let runs: Vec<(&String, &Run)> = snapshot.runs.iter().collect();
+    let runs = runs
+        .par_iter()
+        .map(|(name, old)| Ok(((*name).clone(), run(&old.options.request(scene)?, old)?)));
+    let runs = runs.collect::<Result<Vec<_>>>()?.into_iter().collect();
+    Ok(Snapshot::of_runs(Input::from_scene(scene)?, snapshot.scene_file.clone(), runs))
+}
+
+/// Records of a request what was recorded of an earlier run.
+fn record_again(request: &Request, old: &Run, bounds: Bounds) -> Result<Run> {
+    let mut run = record(request, bounds)?;
+    run.keep_only(old.only.clone());
+    Ok(run)
+}
+
+/// Records a run to be compared with an earlier one: equal bits need no bounds, which take another run.
+fn run_to_compare(request: &Request, old: &Run) -> Result<Run> {
+    let run = record_again(request, old, Bounds::LeftOut)?;
+    let has_bits = |(name, was): (&Entry, &Numbers)| {
+        run.numbers.get(name).is_some_and(|is| is.values == was.values)
+    };
+    match compare(old, &run).0.is_empty() && old.numbers.iter().all(has_bits) {
+        true => Ok(run),
+        false => record_again(request, old, Bounds::Computed),
+    }
+}
+
+/// Returns the first iteration of the differences of a run from an earlier one where these are of the
+/// path alone, and rounding decides it: with inputs that differ in their last digits the run takes another
+/// path there too, or before.
+///
+/// # Errors
+/// The scene with such inputs is at fault.
+fn decided_by_rounding(request: &Request, verified: &VerifiedRun) -> Result<Option<usize>> {
+    let VerifiedRun { run, differences, .. } = verified;
+    let Some(first) = first_iteration(differences) else { return Ok(None) };
+    if run.options.variant != Some(Variant::Unilateral)
+        || !differences.iter().all(|d| is_of_path(d.entry, first))
+    {
+        return Ok(None);
+    }
+    for request in perturbed_requests(request) {
+        let changed = record(&request, Bounds::LeftOut)?;
+        if first_iteration(&compare(run, &changed).0).is_some_and(|other| other <= first) {
+            return Ok(Some(first));
+        }
+    }
+    Ok(None)
+}
+
+fn is_of_path(entry: Entry, first: usize) -> bool {
+    entry == Quantity::Iterations.into() || entry.iteration.is_some_and(|k| k >= first)
+}
+
+/// Returns the first iteration of which something differs; None where nothing does.
+fn first_iteration(differences: &[Difference]) -> Option<usize> {
+    differences.iter().filter_map(|d| d.entry.iteration).min()
+}
