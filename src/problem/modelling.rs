@@ -153,9 +153,6 @@ choices! {
         /// Line 16, or a side of the node's triangles crosses the target surface, the text's other
         /// remedy.
         Intersection = "intersection",
-        /// The signed distance to the nearest target edge is c_tll or less, and the node at most
-        /// c_tll past the surface's end.
-        Projection = "projection",
     }
 }
 
@@ -164,7 +161,7 @@ impl StatusRule {
     pub fn is_printed(self) -> bool {
         match self {
             StatusRule::Signs => true,
-            StatusRule::Intersection | StatusRule::Projection => false,
+            StatusRule::Intersection => false,
         }
     }
 }

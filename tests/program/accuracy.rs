@@ -297,8 +297,8 @@ fn what_no_precision_reaches_is_refused_with_every_reason() {
     let large = open("strand");
     let mortar = ContactModel { coupling: Coupling::Mortar, ..large.contact };
     // The stamp's lowest node stands on a corner of the target: both of its edges are as near.
-    let projection = ContactModel { status: StatusRule::Projection, ..large.contact };
-    let tie = large.clone().contact(projection).variant(Variant::Tied);
+    let crossed = ContactModel { status: StatusRule::Intersection, ..large.contact };
+    let tie = large.clone().contact(crossed).variant(Variant::Tied);
     let cases: [(&str, Request, f64, &[&str]); 5] = [
         (
             "exact numbers would take too long",

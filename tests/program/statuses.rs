@@ -5,10 +5,6 @@
 //! wrong, by how deep the stamp jumped, and how many operations it takes, by the number of target
 //! edges. The listing's count is the mirror's, whose `∧` on line 7 stops early: the least that Mathcad
 //! can do. `golden/tables/statuses.md` has the numbers, and claims P6 and P8 rest on them.
-//!
-//! What projection gets wrong lies at the target's ends: its flank is no target edge, so under a
-//! sloping last edge a node beside the target may stand over the surface, and one inside past its
-//! end.
 
 mod counted;
 
@@ -86,12 +82,8 @@ impl Score {
             self.false_contacts += usize::from(!*touching && status.in_contact);
         }
         // The weights, which the listing computes at once, are no part of search and status.
-        let linked = match rule {
-            StatusRule::Projection => 0,
-            StatusRule::Signs | StatusRule::Intersection => {
-                c_cnt(&sheet, &reading, &sheet.node).expect(vertical).dy.iter().sum::<usize>()
-            }
-        };
+        let pairs = c_cnt(&sheet, &reading, &sheet.node).expect(vertical);
+        let linked = pairs.dy.iter().sum::<usize>();
         self.operations += operations - WEIGHTS * linked as u64;
     }
 }

@@ -103,7 +103,7 @@ fn every_option_that_changes_the_result_is_in_the_folder() {
         "--friction 0.3",
         "--geometry initial",
         "--load-steps 8",
-        "--status projection",
+        "--status intersection",
         "--scalar f32",
         "--solver dense-lu",
         "--inputs decimal",

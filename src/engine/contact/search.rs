@@ -35,8 +35,6 @@ pub struct Segment<T> {
 /// The point of a segment that is closest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest<T> {
-    /// Its position on the segment's line: 0 at the first end, 1 at the second.
-    pub xi: T,
     /// Twice the area of the two ends and the point, length²: > 0 on the body's side of the line.
     pub side: T,
     /// The square of the segment's length, length².
@@ -64,7 +62,7 @@ impl<T: Scalar> Segment<T> {
         } else {
             side * side / self.square
         };
-        Closest { xi, side, square: self.square, distance_square }
+        Closest { side, square: self.square, distance_square }
     }
 
     /// Returns a number > 0 where `p` lies on the body's side of its line, 0 on the line, else < 0;
@@ -75,23 +73,6 @@ impl<T: Scalar> Segment<T> {
 }
 
 impl<T: Scalar> Closest<T> {
-    /// Returns how far the point lies past the nearer end, over the segment's length, or 0.
-    pub fn past(&self) -> T {
-        let before = T::zero() - self.xi;
-        Scalar::max(Scalar::max(before, self.xi - T::one()), T::zero())
-    }
-
-    /// Returns the index of the nearer end, 0 or 1.
-    pub fn end(&self) -> usize {
-        usize::from(self.xi + self.xi > T::one())
-    }
-
-    /// Returns the distance, rounded, length; < 0 inside the body.
-    pub fn distance(&self) -> f64 {
-        let distance = T::scaled_root(T::one(), T::one(), self.distance_square);
-        if self.side.to_f64() > 0.0 { -distance } else { distance }
-    }
-
     fn is_nearer_than(&self, other: &Self) -> bool {
         let line_square = |of: &Self| of.side * of.side / of.square;
         self.distance_square < other.distance_square
@@ -100,10 +81,12 @@ impl<T: Scalar> Closest<T> {
     }
 }
 
-/// Returns the index of the segment that is closest to `p`, and its closest point.
-pub fn closest<T: Scalar>(segments: &[Segment<T>], p: [T; 2]) -> Option<(usize, Closest<T>)> {
+/// Returns the index of the segment that is closest to `p`.
+pub fn closest<T: Scalar>(segments: &[Segment<T>], p: [T; 2]) -> Option<usize> {
     let points = segments.iter().map(|segment| segment.closest(p)).enumerate();
-    points.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })
+    let nearest =
+        points.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })?;
+    Some(nearest.0)
 }
 
 pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {

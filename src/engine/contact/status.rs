@@ -1,5 +1,5 @@
-//! The rules that decide which nodes are in contact: the sign rule that the listing prints, the
-//! text's other remedy, and the exact projection.
+//! The rules that decide which nodes are in contact: the sign rule that the listing prints, and the
+//! text's other remedy.
 //!
 //! For a node that jumped deeper into the target than c_tol the text names two remedies: "the
 //! search for the point of intersection of the elements that hold this node with the neighbouring
@@ -29,8 +29,7 @@
 use std::collections::BTreeSet;
 
 use super::super::decisions::{self, Decision};
-use super::search::{Closest, Segment, closest};
-use std::collections::HashMap;
+use super::search::{Segment, closest};
 
 use mathcad::Conjunction;
 use mathcad::array::Table;
@@ -44,9 +43,7 @@ use problem::modelling::StatusRule;
 /// contains the tables of `model` in T.
 ///
 /// Under *signs* the edges and distances are those of `c_cnt`. Under *intersection* they are too,
-/// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one. Under
-/// *projection* the edge is the nearest one, None past the surface's end, and the distance is minus
-/// the signed distance to it: > 0 inside the target.
+/// but where `c_cnt` found no edge for a node in contact, the edge is the nearest one.
 ///
 /// # Errors
 /// The lines of `c_cnt` in use fail as printed: all under *signs*, 1 to 16 and the weights of 22
@@ -67,11 +64,6 @@ pub fn statuses<T: Scalar>(
                 by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status)
             };
             Ok(door::statuses(model, &pairs).into_iter().enumerate().map(by_rule).collect())
-        }
-        StatusRule::Projection => {
-            let target = Target::new(model, node_n);
-            let by_rule = |node: &NodeId| by_projection(&target, sheet.c_tll, node_n, *node);
-            Ok(model.contact.nodes.iter().map(by_rule).collect())
         }
     }
 }
@@ -117,9 +109,6 @@ pub fn decisions<T: Scalar>(
             left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
             Ok(left)
         }
-        StatusRule::Projection => Ok(unsure(rule, model, node_n, k, |target, i| {
-            by_projection(target, sheet.c_tll, node_n, model.contact.nodes[i])
-        })),
     }
 }
 
@@ -141,57 +130,26 @@ fn unsure<T: Scalar>(
         .collect()
 }
 
-/// The target edges in a shape.
-pub struct Target<T> {
-    /// The edges that bound a triangle with an area, whose inner side is therefore known.
-    edges: Vec<TargetEdge>,
+/// The target edges in a shape that bound a triangle with an area, whose inner side is therefore known.
+struct Target<T> {
+    edges: Vec<EdgeId>,
     segments: Vec<Segment<T>>,
-}
-
-/// An edge of the target surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TargetEdge {
-    /// Its place among the model's edges.
-    pub id: EdgeId,
-    /// Whether each end is shared with no other target edge. The body lies on the left.
-    pub free: [bool; 2],
-}
-
-impl TargetEdge {
-    /// Returns the square of the distance of a point past the end of the surface, along this edge,
-    /// length²; 0 over the surface.
-    pub fn past_square<T: Scalar>(&self, closest: &Closest<T>) -> T {
-        let past = if self.free[closest.end()] { closest.past() } else { T::zero() };
-        past * past * closest.square
-    }
 }
 
 impl<T: Scalar> Target<T> {
     /// Finds the target edges of `model` in the shape `node_n` (R x 4).
-    pub fn new(model: &Model, node_n: &Table<T>) -> Self {
-        let mut shared: HashMap<NodeId, usize> = HashMap::new();
-        for node in model.target_edges().flat_map(|edge| edge.nodes) {
-            *shared.entry(node).or_default() += 1;
-        }
+    fn new(model: &Model, node_n: &Table<T>) -> Self {
         let edge = |id: &EdgeId| {
             let beside = model.sides.beside(model.edge(*id).nodes).first()?;
             let place = |node: NodeId| door::coordinates(node_n, node);
-            let [a, b] = beside.nodes;
-            let inner = T::orientation(place(a), place(b), place(beside.third));
+            let [a, b] = beside.nodes.map(place);
+            let inner = T::orientation(a, b, place(beside.third));
             // A shape may be folded: the triangle's side is taken from the shape.
-            let nodes = if inner > T::zero() { [a, b] } else { [b, a] };
-            let ends = nodes.map(place);
-            let free = nodes.map(|node| shared[&node] == 1);
-            (!inner.is_zero()).then(|| (TargetEdge { id: *id, free }, Segment::new(ends)))
+            let ends = if inner > T::zero() { [a, b] } else { [b, a] };
+            (!inner.is_zero()).then(|| (*id, Segment::new(ends)))
         };
         let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();
         Target { edges, segments }
-    }
-
-    /// Returns the edge nearest to `p` and its closest point; None where the surface has no edge.
-    pub fn nearest(&self, p: [T; 2]) -> Option<(&TargetEdge, Closest<T>)> {
-        let (k, closest) = closest(&self.segments, p)?;
-        Some((&self.edges[k], closest))
     }
 }
 
@@ -204,8 +162,8 @@ fn by_intersection<T: Scalar>(
 ) -> ContactStatus<T> {
     status.in_contact = is_near || intersects(model, target, node_n, status.node);
     if status.in_contact && status.edge.is_none() {
-        let nearest = target.nearest(door::coordinates(node_n, status.node));
-        status.edge = Some(nearest.expect("a surface that is crossed has an edge").0.id);
+        let nearest = closest(&target.segments, door::coordinates(node_n, status.node));
+        status.edge = Some(target.edges[nearest.expect("a surface that is crossed has an edge")]);
     }
     status
 }
@@ -252,23 +210,4 @@ fn apart<T: Scalar>(one: [[T; 2]; 2], other: [[T; 2]; 2]) -> bool {
         let ((low, high), (other_low, other_high)) = (span(one), span(other));
         high < other_low || other_high < low
     })
-}
-
-fn by_projection<T: Scalar>(
-    target: &Target<T>,
-    c_tll: T,
-    node_n: &Table<T>,
-    node: NodeId,
-) -> ContactStatus<T> {
-    let apart = ContactStatus { node, edge: None, distance: T::zero(), in_contact: false };
-    let Some((edge, closest)) = target.nearest(door::coordinates(node_n, node)) else {
-        return apart;
-    };
-    let distance = T::from_f64(0.0 - closest.distance());
-    if edge.past_square(&closest) > c_tll * c_tll {
-        return ContactStatus { distance, ..apart };
-    }
-    // Where a node is near, it does not count on which side it is.
-    let in_contact = closest.distance_square <= c_tll * c_tll || closest.side > T::zero();
-    ContactStatus { node, edge: Some(edge.id), distance, in_contact }
 }

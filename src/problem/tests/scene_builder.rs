@@ -32,7 +32,7 @@ fn blocks() -> SceneBuilder {
             coupling: Some(Coupling::Mortar),
             friction: Some(Friction::NONE),
             geometry: Geometry::Initial,
-            status: StatusRule::Projection,
+            status: StatusRule::Intersection,
             ..Contact::new(vec![6, 7], "target", 0.001)
         })
         .iterations(3)

@@ -133,7 +133,7 @@ const CASES: &[Case] = &[
     Case {
         input: "",
         command: "plane-contact scene copy two-blocks --out d && sed -i 's/11, 11, 7, 8/11, 11, 8, 7/; s/11, 11, 8, \
-                  9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json --status projection",
+                  9/11, 11, 9, 8/' d/scene.json && plane-contact solve d/scene.json --status intersection",
         status: 0,
         contains: &["In contact at the end: nodes 10, 11, 12"],
         lacks: &["finding C1"],

@@ -176,7 +176,7 @@ const CASES: &[Case] = &[
     // What is no finite number.
     Case {
         input: "overflow",
-        command: "plane-contact snapshot record scene.json --variant tied --coupling mortar --status projection \
+        command: "plane-contact snapshot record scene.json --variant tied --coupling mortar --status intersection \
                   --solver sparse-lu --out s.json && grep -q null s.json && plane-contact snapshot verify s.json",
         status: 0,
         contains: &["same, 1 run"],
