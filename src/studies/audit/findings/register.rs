@@ -2,6 +2,7 @@
 
 use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
 use engine::contact::turned;
+use paper::findings::FindingId;
 use problem::model::{Model, Restraint};
 
 /// A repair that is a file in `listings/`.
@@ -14,7 +15,7 @@ macro_rules! edit {
 /// All findings, in the order of their ids.
 pub const FINDINGS: &[Finding] = &[
     Finding {
-        id: "C1",
+        id: FindingId::C1,
         listing: "c_cnt",
         lines: &[5, 6],
         title: "the search box grows by c_tll for an edge that runs towards +x (+y) and shrinks by \
@@ -28,7 +29,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::turned_edges,
     },
     Finding {
-        id: "C2",
+        id: FindingId::C2,
         listing: "c_cnt",
         lines: &[7],
         title: "the loop over the target edges does not stop at a hit: where boxes overlap, the \
@@ -42,7 +43,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::reversed_target,
     },
     Finding {
-        id: "C3",
+        id: FindingId::C3,
         listing: "c_cnt",
         lines: &[10],
         title: "the distance is vertical, not normal",
@@ -55,7 +56,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::vertical_distance,
     },
     Finding {
-        id: "C4",
+        id: FindingId::C4,
         listing: "c_cnt",
         lines: &[17, 18],
         title: "the sign rule is one-sided: it flags a node with yt < 0 beside one with yt > 0, \
@@ -70,7 +71,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::upside_down,
     },
     Finding {
-        id: "C5",
+        id: FindingId::C5,
         listing: "c_cnt",
         lines: &[17, 18],
         title: "the sign rule compares neighbours only: in a run of nodes deeper inside than c_tll \
@@ -84,7 +85,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::deep_runs,
     },
     Finding {
-        id: "C6",
+        id: FindingId::C6,
         listing: "c_cnt",
         lines: &[22, 23],
         title: "the weights come from initial coordinates, the partners from current ones",
@@ -100,7 +101,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::outside_the_edge,
     },
     Finding {
-        id: "C7",
+        id: FindingId::C7,
         listing: "c_cnt",
         lines: &[27, 28, 29, 30],
         title: "a target node keeps the last contact node's number and the sum of all weights; its \
@@ -113,7 +114,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::shared_nodes,
     },
     Finding {
-        id: "C8",
+        id: FindingId::C8,
         listing: "c_cnt",
         lines: &[16],
         title: "the comparison is strict: with c_tll = 0 line 16 flags nothing; lines 17 and 18 \
@@ -126,7 +127,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::strictly_less,
     },
     Finding {
-        id: "C9",
+        id: FindingId::C9,
         listing: "c_cnt",
         lines: &[5, 6, 7, 9, 17, 18],
         title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a \
@@ -143,7 +144,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::lost_inside,
     },
     Finding {
-        id: "C10",
+        id: FindingId::C10,
         listing: "c_cnt",
         lines: &[18],
         title: "the line names yt[i1−1] before its own guard i1 ≥ 2",
@@ -159,7 +160,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::left_to_right,
     },
     Finding {
-        id: "C11",
+        id: FindingId::C11,
         listing: "c_cnt",
         lines: &[17, 18],
         title: "yt is compared with exactly 0: of a node that lies on its edge it is a rounding \
@@ -172,7 +173,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::rounding_noise,
     },
     Finding {
-        id: "C12",
+        id: FindingId::C12,
         listing: "c_cnt",
         lines: &[24, 26],
         title: "a node that cnt lists twice gets its weights twice",
@@ -184,7 +185,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::listed_twice,
     },
     Finding {
-        id: "C13",
+        id: FindingId::C13,
         listing: "-",
         lines: &[],
         title: "the printed matrix depends on the order of cnt (C7, K2: the last one wins)",
@@ -196,7 +197,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::reversed_contact,
     },
     Finding {
-        id: "C14",
+        id: FindingId::C14,
         listing: "c_cnt",
         lines: &[5, 6, 7],
         title: "the box of an edge that falls by h is |h − 2 · c_tll| high (of one that rises, h + \
@@ -210,7 +211,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::missed_near,
     },
     Finding {
-        id: "C15",
+        id: FindingId::C15,
         listing: "c_cnt",
         lines: &[16, 17, 18],
         title: "the text gives the nodes within c_tol a fixed Y before signs are compared (which, \
@@ -224,7 +225,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::touching_neighbour,
     },
     Finding {
-        id: "K1",
+        id: FindingId::K1,
         listing: "Km",
         lines: &[15, 21, 22, 23, 31, 32, 33],
         title: "only blocks (W, W) are added, never (V, W)",
@@ -239,7 +240,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::nothing_joins,
     },
     Finding {
-        id: "K2",
+        id: FindingId::K2,
         listing: "Km",
         lines: &[20, 30],
         title: "one fl for the whole element: of several linked nodes the last one's weight scales \
@@ -252,7 +253,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::one_weight_for_all,
     },
     Finding {
-        id: "K3",
+        id: FindingId::K3,
         listing: "Km",
         lines: &[13],
         title: "restrained equations get 1 on the diagonal, whatever the unit",
@@ -264,7 +265,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::ones_on_the_diagonal,
     },
     Finding {
-        id: "K4",
+        id: FindingId::K4,
         listing: "Km",
         lines: &[2, 3, 13],
         title: "a node that belongs to no triangle leaves two rows of zeros, \
@@ -279,7 +280,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::orphan,
     },
     Finding {
-        id: "K5",
+        id: FindingId::K5,
         listing: "-",
         lines: &[],
         title: "eq. (1) on total displacements takes a gap that closed back to its initial width",
@@ -295,7 +296,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::cycle,
     },
     Finding {
-        id: "K6",
+        id: FindingId::K6,
         listing: "-",
         lines: &[],
         title: "one linked node is a hinge: the stamp turns about it",
@@ -313,7 +314,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::hinge,
     },
     Finding {
-        id: "K7",
+        id: FindingId::K7,
         listing: "Km",
         lines: &[20, 21, 30, 31],
         title: "fl is weight and switch in one: a last weight of exactly 0 leaves the whole \
@@ -327,7 +328,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::switched_off,
     },
     Finding {
-        id: "K8",
+        id: FindingId::K8,
         listing: "Km",
         lines: &[23, 33],
         title: "a weight below 0 (C1, C6) takes stiffness away",
@@ -339,7 +340,7 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::stiffness_taken_away,
     },
     Finding {
-        id: "K9",
+        id: FindingId::K9,
         listing: "-",
         lines: &[],
         title: "the status looks at the gap only and eq. (1) ties both components: nothing \
@@ -356,6 +357,16 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::pulls,
     },
 ];
+
+// Each finding has its row, in the order of the ids.
+const _: () = {
+    assert!(FINDINGS.len() == FindingId::ALL.len());
+    let mut k = 0;
+    while k < FINDINGS.len() {
+        assert!(FINDINGS[k].id as usize == k);
+        k += 1;
+    }
+};
 
 /// Turns the scene about the middle between x = 0 and x = 1, so that the target lies above the stamp.
 fn turn_scene(model: &mut Model) {
