@@ -72,9 +72,9 @@ fn readings(effects: &[Effect]) -> Report {
 fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Finding, Evidence)>> {
     Table::from_rows(findings)
         .column("id", |(finding, _)| finding.id.name())
-        .column("line", |(finding, _)| match finding.lines {
-            [] => finding.listing.to_string(),
-            lines => format!("{} {}", finding.listing, listed(lines)),
+        .column("line", |(finding, _)| match finding.listing {
+            None => "-".into(),
+            Some(which) => format!("{which} {}", listed(finding.lines)),
         })
         .column("verdict", |(_, measured)| measured.verdict.name())
         .column("value", |(_, measured)| measured.cell())
@@ -221,6 +221,14 @@ pub(super) fn rows<S: Serializer>(
         .collect_seq(findings.iter().map(|(finding, measured)| FindingRow { finding, measured }))
 }
 
+/// Writes the name of a finding's listing, `-` for none.
+pub(super) fn name_of_listing<S: Serializer>(
+    listing: &Option<Which>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(listing.map_or("-", Which::name))
+}
+
 /// Writes the name of a scene.
 pub(super) fn name<S: Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&scene.name)
@@ -239,9 +247,9 @@ pub fn explanation(
     reading: &Reading,
 ) -> Report {
     let value = measured.figure(short);
-    let quotation = match finding.listing.parse::<Which>() {
-        Err(_) => Report::default().note("none: it is in what the paper does around the listings"),
-        Ok(which) => {
+    let quotation = match finding.listing {
+        None => Report::default().note("none: it is in what the paper does around the listings"),
+        Some(which) => {
             let lines = which.text().lines().filter(|line| !line.starts_with('#'));
             let printed: Vec<&str> = lines.map(str::trim_start).collect();
             let line = |n: &usize| format!("{} {n:>2}  {}\n", which.name(), printed[n - 1]);

@@ -18,9 +18,10 @@ pub use register::FINDINGS;
 
 use serde::Serialize;
 
-use super::Case;
 use super::evidence::{self, Outcome};
+use super::{Case, tables};
 use base::choices;
+use paper::listings::Which;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -29,8 +30,9 @@ use problem::scene::Scene;
 pub struct Finding {
     /// Its name: C1, C2, ..., K1, ...
     pub id: FindingId,
-    /// `c_cnt`, `Km`, or `-` where it is the iterations'.
-    pub listing: &'static str,
+    /// The listing; nothing where it is the iterations around them that do it.
+    #[serde(serialize_with = "tables::name_of_listing")]
+    pub listing: Option<Which>,
     /// The numbers of the printed lines that do it, from 1.
     pub lines: &'static [usize],
     /// What the listing does that the text does not say.

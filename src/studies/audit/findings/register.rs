@@ -3,6 +3,7 @@
 use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
 use engine::contact::turned;
 use paper::findings::FindingId;
+use paper::listings::Which;
 use problem::model::{Model, Restraint};
 
 /// A repair that is a file in `listings/`.
@@ -16,7 +17,7 @@ macro_rules! edit {
 pub const FINDINGS: &[Finding] = &[
     Finding {
         id: FindingId::C1,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[5, 6],
         title: "the search box grows by c_tll for an edge that runs towards +x (+y) and shrinks by \
                 c_tll for one that runs the other way",
@@ -30,7 +31,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C2,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[7],
         title: "the loop over the target edges does not stop at a hit: where boxes overlap, the \
                 last edge in trg wins",
@@ -44,7 +45,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C3,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[10],
         title: "the distance is vertical, not normal",
         why: "on a slope of angle t the tolerance acts as c_tll · cos t, and a vertical edge \
@@ -57,7 +58,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C4,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "the sign rule is one-sided: it flags a node with yt < 0 beside one with yt > 0, \
                 never the other",
@@ -72,7 +73,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C5,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "the sign rule compares neighbours only: in a run of nodes deeper inside than c_tll \
                 it sees the ends, or nothing",
@@ -86,7 +87,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C6,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[22, 23],
         title: "the weights come from initial coordinates, the partners from current ones",
         why: "after sliding over an edge's end the weights leave [0, 1] and extrapolate",
@@ -102,7 +103,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C7,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[27, 28, 29, 30],
         title: "a target node keeps the last contact node's number and the sum of all weights; its \
                 columns 3 and 4 are never set",
@@ -115,7 +116,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C8,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[16],
         title: "the comparison is strict: with c_tll = 0 line 16 flags nothing; lines 17 and 18 \
                 still can, over sloping edges",
@@ -128,7 +129,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C9,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[5, 6, 7, 9, 17, 18],
         title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a \
                 horizontal edge the box is 2 · c_tll high",
@@ -145,7 +146,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C10,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[18],
         title: "the line names yt[i1−1] before its own guard i1 ≥ 2",
         why: "evaluated from left to right the listing stops with an index error as soon as the \
@@ -161,7 +162,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C11,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "yt is compared with exactly 0: of a node that lies on its edge it is a rounding \
                 error, and its sign decides on the neighbours",
@@ -174,7 +175,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C12,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[24, 26],
         title: "a node that cnt lists twice gets its weights twice",
         why: "eq. (1) with them reads u_cont = 2 · u_targ",
@@ -186,7 +187,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C13,
-        listing: "-",
+        listing: None,
         lines: &[],
         title: "the printed matrix depends on the order of cnt (C7, K2: the last one wins)",
         why: "a scene and its mirror image have different answers",
@@ -198,7 +199,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C14,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[5, 6, 7],
         title: "the box of an edge that falls by h is |h − 2 · c_tll| high (of one that rises, h + \
                 2 · c_tll)",
@@ -212,7 +213,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::C15,
-        listing: "c_cnt",
+        listing: Some(Which::CCnt),
         lines: &[16, 17, 18],
         title: "the text gives the nodes within c_tol a fixed Y before signs are compared (which, \
                 it does not say); the listing compares yt itself",
@@ -226,7 +227,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K1,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[15, 21, 22, 23, 31, 32, 33],
         title: "only blocks (W, W) are added, never (V, W)",
         why: "nothing couples the two bodies: no load reaches the target",
@@ -241,7 +242,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K2,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[20, 30],
         title: "one fl for the whole element: of several linked nodes the last one's weight scales \
                 all",
@@ -254,7 +255,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K3,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[13],
         title: "restrained equations get 1 on the diagonal, whatever the unit",
         why: "beside stiffnesses of 1e4 to 1e6 the choice of units decides the condition number",
@@ -266,7 +267,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K4,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[2, 3, 13],
         title: "a node that belongs to no triangle leaves two rows of zeros, \
                 even where S restrains it",
@@ -281,7 +282,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K5,
-        listing: "-",
+        listing: None,
         lines: &[],
         title: "eq. (1) on total displacements takes a gap that closed back to its initial width",
         why: "the node leaves contact and returns: the contact set cycles, and where in the cycle \
@@ -297,7 +298,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K6,
-        listing: "-",
+        listing: None,
         lines: &[],
         title: "one linked node is a hinge: the stamp turns about it",
         why: "the matrix is singular unless restraints hold the stamp",
@@ -315,7 +316,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K7,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[20, 21, 30, 31],
         title: "fl is weight and switch in one: a last weight of exactly 0 leaves the whole \
                 addition out",
@@ -329,7 +330,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K8,
-        listing: "Km",
+        listing: Some(Which::Km),
         lines: &[23, 33],
         title: "a weight below 0 (C1, C6) takes stiffness away",
         why: "MJS may lose its positive definiteness, and a load may move its node backwards",
@@ -341,7 +342,7 @@ pub const FINDINGS: &[Finding] = &[
     },
     Finding {
         id: FindingId::K9,
-        listing: "-",
+        listing: None,
         lines: &[],
         title: "the status looks at the gap only and eq. (1) ties both components: nothing \
                 releases a node that pulls, and nothing lets it slide",
