@@ -1,5 +1,5 @@
-//! The names of the findings: what the listings do and the text does not say. Their register, with what each is, is
-//! `studies::audit::findings`.
+//! The names of the findings: what the listings do and the text does not say. Their register, with what
+//! each is, is `studies::audit::findings`.
 
 use base::choices;
 

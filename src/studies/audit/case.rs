@@ -232,8 +232,8 @@ impl Case {
         self.solved_equilibrium()?.ok()
     }
 
-    /// The solution that the corrected algorithm has: without friction, node to segment, in the initial geometry. Of
-    /// the reading only what changes the model matters (R6, R8).
+    /// The solution that the corrected algorithm has: without friction, node to segment, in the initial
+    /// geometry. Of the reading only what changes the model matters (R6, R8).
     ///
     /// # Errors
     /// The scene has no contact or lists a contact node twice, or there is no such solution.

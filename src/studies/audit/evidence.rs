@@ -33,6 +33,9 @@ pub fn beyond_noise(share: f64) -> f64 {
 pub type Outcome<T> = Result<T, NoFigures>;
 
 /// Measures on a case and on the inputs that mean the same ([`confirmed`]).
+///
+/// # Errors
+/// Those of the measure; rounding decides.
 pub fn repeated<T>(
     case: &Case,
     measure: impl Fn(&Case) -> Outcome<T>,
@@ -41,8 +44,11 @@ pub fn repeated<T>(
     confirmed(measure(case), case.equivalents().iter().map(&measure), figures)
 }
 
-/// Returns an outcome; where rounding decides on it, that: one of `others`, measured on inputs that mean the same,
-/// has other `figures`, each over the scale of its kind.
+/// Returns an outcome where `others`, measured on inputs that mean the same, have the same `figures`, each
+/// over the scale of its kind.
+///
+/// # Errors
+/// Those of the outcome; rounding decides.
 pub fn confirmed<T>(
     own: Outcome<T>,
     others: impl IntoIterator<Item = Outcome<T>>,
@@ -63,6 +69,9 @@ pub fn differ(own: &[Option<f64>], other: &[Option<f64>]) -> bool {
 }
 
 /// Writes an outcome into the fields around it: what was measured, or the `failure`.
+///
+/// # Errors
+/// Those of the serializer.
 pub fn flat<T: Serialize, S: Serializer>(
     outcome: &Outcome<T>,
     serializer: S,
@@ -152,8 +161,8 @@ impl<V> Evidence<V> {
         }
     }
 
-    /// Leaves the number out where one of `others`, measured on inputs that mean the same, has another verdict or
-    /// number.
+    /// Leaves the number out where one of `others`, measured on inputs that mean the same, has another
+    /// verdict or number.
     #[must_use]
     pub fn confirmed_by(self, others: &[Self]) -> Self
     where

@@ -1,4 +1,12 @@
 //! The audit: what the ambiguities and the findings of the print do on a scene.
+//!
+//! | what | its table | what is measured of it, an [`evidence::Outcome`] |
+//! |---|---|---|
+//! | a claim: what the paper says | [`claims::CLAIMS`] | [`claims::Evidence`] |
+//! | a finding: what a listing does beside the text | [`findings::FINDINGS`] | [`findings::Evidence`] |
+//! | a price: what a printed fault costs | `paper::corrected::FAULTS` | [`prices::CorrectedRun`] |
+//! | a reading: what another one changes | `paper::mirror::READINGS` | [`readings::Effect`] |
+//! | a variant | `problem::modelling::Variant` | [`variants::VariantRun`] |
 
 mod assumptions;
 mod case;

@@ -78,7 +78,8 @@ pub struct CorrectedRun {
     /// The component along the load of the force that reaches the target, over the load; in a direction
     /// in which target nodes are restrained, of what the contact nodes pass on.
     pub transmitted: f64,
-    /// The distance from the solution without friction, which the corrected algorithm has, in the energy norm, relative.
+    /// The distance from the solution without friction, which the corrected algorithm has, in the energy
+    /// norm, relative.
     pub energy_relative: f64,
     /// The same from the equilibrium under the scene's own friction; nothing where there is none.
     pub equilibrium_relative: Option<f64>,
@@ -224,8 +225,8 @@ pub fn of_faults(
 /// Runs the corrected algorithm with all faults reintroduced, then repairs one at a time. The order is
 /// found from the end: into the corrected algorithm the faults are reintroduced one at a time, of those
 /// that are left the one that leaves the least error, and the first in [`FAULTS`] of those that
-/// leave the same; the last one is repaired first. `alone` are the prices [`on`] the case. `watch` is called after
-/// each of the [`runs_of_repairs`].
+/// leave the same; the last one is repaired first. `alone` are the prices [`on`] the case. `watch` is called
+/// after each of the [`runs_of_repairs`].
 ///
 /// # Errors
 /// Those of [`Case::corrected`].

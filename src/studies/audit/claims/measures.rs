@@ -15,8 +15,8 @@ use report::numbers::percent;
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;
 
-/// Where the target lies in random scenes in which the stamp jumped to twice c_tll, the nodes in contact, and those of
-/// them that the sign rule missed: `golden/tables/statuses.md`, which takes a minute to measure.
+/// Where the target lies in random scenes in which the stamp jumped to twice c_tll, the nodes in contact,
+/// and those of them that the sign rule missed, as `golden/tables/statuses.md` has them.
 const JUMPS: [(&str, f64, f64); 2] = [("below", 232.0, 215.0), ("above", 239.0, 130.0)];
 
 /// Operations of the intersection over those of the sign rule, on the largest surfaces of the same table.

@@ -280,7 +280,8 @@ impl Claim {
     }
 }
 
-/// Measures on a scene, and on the inputs that mean the same; where these have no verdict in common there is none.
+/// Measures on a scene, and on the inputs that mean the same; where these have no verdict in common there
+/// is none.
 fn on_scene(case: &Case, measure: fn(&Case) -> Outcome<Evidence>) -> Evidence {
     let measure = |case: &Case| {
         measure(case).unwrap_or_else(|why| {
