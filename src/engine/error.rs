@@ -13,7 +13,7 @@ use paper::mirror::Failure;
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// The reason why a command ended without a result.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum Error {
     /// The input breaks a condition.
     #[error("{0}")]

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::door;
+use super::findings::FindingId;
 use super::listings::{elasticity, tables};
 use base::choices;
 use base::error::InputError;
@@ -59,10 +60,24 @@ choices! {
     }
 }
 
+choices! {
+    /// Which of the faults that one finding describes.
+    Part {
+        /// Nothing releases a node that pulls.
+        Release = "release",
+        /// Nothing lets a node slide.
+        Sliding = "sliding",
+    }
+}
+
 /// A printed fault that is reintroduced into the corrected programs.
 pub struct Fault {
     /// The finding that describes it.
-    pub finding: &'static str,
+    pub finding: FindingId,
+    /// The other findings that do.
+    pub others: &'static [FindingId],
+    /// Which of the finding's faults it is; nothing where that has one.
+    pub part: Option<Part>,
     /// The edit of the programs, in the format of `listings/readings/README.md`; its reason says what
     /// the fault is.
     pub edit: &'static str,
@@ -72,44 +87,62 @@ pub struct Fault {
 /// and C2 make the box of C9 their own. With all of them the programs are the print, but that edges are
 /// of the initial shape (C6).
 pub const FAULTS: &[Fault] = &[
-    Fault { finding: "C1", edit: include_str!("listings/corrected/faults/C1.edit") },
-    Fault { finding: "C2", edit: include_str!("listings/corrected/faults/C2.edit") },
-    Fault { finding: "C3", edit: include_str!("listings/corrected/faults/C3.edit") },
-    Fault { finding: "C5", edit: include_str!("listings/corrected/faults/C5.edit") },
-    Fault { finding: "C7", edit: include_str!("listings/corrected/faults/C7.edit") },
-    Fault { finding: "C9", edit: include_str!("listings/corrected/faults/C9.edit") },
-    Fault { finding: "C12", edit: include_str!("listings/corrected/faults/C12.edit") },
-    Fault { finding: "K1", edit: include_str!("listings/corrected/faults/K1.edit") },
-    Fault { finding: "K2", edit: include_str!("listings/corrected/faults/K2.edit") },
-    Fault { finding: "K4", edit: include_str!("listings/corrected/faults/K4.edit") },
-    Fault { finding: "K5", edit: include_str!("listings/corrected/faults/K5.edit") },
-    Fault { finding: "K8", edit: include_str!("listings/corrected/faults/K8.edit") },
-    Fault { finding: "K9", edit: include_str!("listings/corrected/faults/K9.edit") },
-    Fault { finding: "K9", edit: include_str!("listings/corrected/faults/K9-both.edit") },
+    Fault {
+        others: &[FindingId::C14],
+        ..Fault::new(FindingId::C1, include_str!("listings/corrected/faults/C1.edit"))
+    },
+    Fault::new(FindingId::C2, include_str!("listings/corrected/faults/C2.edit")),
+    Fault::new(FindingId::C3, include_str!("listings/corrected/faults/C3.edit")),
+    Fault {
+        others: &[FindingId::C4],
+        ..Fault::new(FindingId::C5, include_str!("listings/corrected/faults/C5.edit"))
+    },
+    Fault {
+        others: &[FindingId::C13],
+        ..Fault::new(FindingId::C7, include_str!("listings/corrected/faults/C7.edit"))
+    },
+    Fault::new(FindingId::C9, include_str!("listings/corrected/faults/C9.edit")),
+    Fault::new(FindingId::C12, include_str!("listings/corrected/faults/C12.edit")),
+    Fault::new(FindingId::K1, include_str!("listings/corrected/faults/K1.edit")),
+    Fault::new(FindingId::K2, include_str!("listings/corrected/faults/K2.edit")),
+    Fault::new(FindingId::K4, include_str!("listings/corrected/faults/K4.edit")),
+    Fault::new(FindingId::K5, include_str!("listings/corrected/faults/K5.edit")),
+    Fault::new(FindingId::K8, include_str!("listings/corrected/faults/K8.edit")),
+    Fault {
+        part: Some(Part::Release),
+        ..Fault::new(FindingId::K9, include_str!("listings/corrected/faults/K9.edit"))
+    },
+    Fault {
+        part: Some(Part::Sliding),
+        ..Fault::new(FindingId::K9, include_str!("listings/corrected/faults/K9-both.edit"))
+    },
 ];
 
 impl Fault {
-    /// Returns its name: the findings that describe it, and which fault of one it is.
-    pub fn name(&self) -> String {
-        self.heading().0
+    /// The only fault of a finding.
+    const fn new(finding: FindingId, edit: &'static str) -> Self {
+        Fault { finding, others: &[], part: None, edit }
     }
 
-    /// Says what the fault is, in a sentence.
+    /// Returns its name: the findings that describe it, and which fault of one it is.
+    pub fn name(&self) -> String {
+        let mut findings = [&[self.finding], self.others].concat();
+        findings.sort();
+        let names: Vec<&str> = findings.into_iter().map(FindingId::name).collect();
+        let part = self.part.map_or(String::new(), |part| format!(" ({part})"));
+        names.join(" and ") + &part
+    }
+
+    /// Says what the fault is, in a sentence: the reason of its edit, behind its name.
     pub fn words(&self) -> String {
-        self.heading().1
+        let reason = self.parsed().reason;
+        let (_, words) = reason.split_once(": ").expect("it begins with its name");
+        words.trim_end().trim_end_matches('.').into()
     }
 
     /// Returns whether a finding describes it.
-    pub fn is_of(&self, finding: &str) -> bool {
-        self.name().split(" and ").any(|name| name.split(' ').next() == Some(finding))
-    }
-
-    /// Returns the reason of its edit: name and sentence.
-    fn heading(&self) -> (String, String) {
-        let reason = self.parsed().reason;
-        let heading = reason.trim_end().trim_end_matches('.').split_once(": ");
-        let (name, words) = heading.expect("it begins with its finding");
-        (name.into(), words.into())
+    pub fn is_of(&self, finding: FindingId) -> bool {
+        self.finding == finding || self.others.contains(&finding)
     }
 
     /// Returns the lines of the corrected programs that it replaces, such as `c_cnt 14-15`.

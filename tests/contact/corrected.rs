@@ -15,8 +15,8 @@ use plane_contact::problem::model::{Model, NodeId, Restraint};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::FINDINGS;
-use plane_contact::studies::audit::prices::{self, Compared, Outcome, Weight};
+use plane_contact::studies::audit::findings::{Finding, FindingId};
+use plane_contact::studies::audit::prices::{self, Price, Weight};
 use plane_contact::studies::benchmark::Hertz;
 use testing::bodies::Writing;
 use testing::drawn::{Drawn, Kind, Support, scenes};
@@ -47,6 +47,13 @@ fn smooth() -> impl Iterator<Item = (String, Scene)> {
         let scene = drawn.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
         (format!("scene {number}, {:?}, {:?}", drawn.kind, drawn.support), scene.build().unwrap())
     })
+}
+
+/// The prices on a case, and its repairs.
+fn prices_of(case: &Case) -> (Vec<Price>, Vec<Price>) {
+    let prices = prices::on(case, &|| ()).expect("a solution");
+    let repairs = prices::repairs(case, &prices, &|| ()).expect("a solution");
+    (prices, repairs)
 }
 
 fn assert_is_reference(what: &str, scene: &Scene) {
@@ -163,8 +170,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
         let error = |u| stiffness.energy_norm(&(u - &exact.u)) / stiffness.energy_norm(&exact.u);
         u.map_or(f64::INFINITY, error)
     };
-    let compared = Compared::new(&Case::new(scene.clone())).unwrap();
-    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
+    let (_, repairs) = prices_of(&Case::new(scene.clone()));
     let mut put_back: Vec<String> = vec![];
     for pair in repairs.windows(2).rev() {
         let [before, repaired] = pair else { unreachable!("pairs") };
@@ -175,7 +181,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
         put_back.push(repaired.fault.clone());
         let own = error(&|fault| put_back.contains(&fault.words()));
         assert!(own <= least + CORRECTED.limit, "{}: {own}, {least}", repaired.fault);
-        assert!(own == before.outcome.error() || own < CORRECTED.limit, "{}", repaired.fault);
+        assert!(own == before.error() || own < CORRECTED.limit, "{}", repaired.fault);
     }
     assert_eq!(put_back.len(), FAULTS.len());
     assert_eq!(repairs.len(), 1 + FAULTS.len());
@@ -185,7 +191,7 @@ fn each_fault_put_back_is_the_one_that_costs_least() {
 /// the sixth: the two alternate for ever, and the run ends there.
 #[test]
 fn pairs_that_come_back_end_the_iterations() {
-    let k2 = FAULTS.iter().find(|fault| fault.finding == "K2").expect("a fault").edit;
+    let k2 = FAULTS.iter().find(|fault| fault.finding == FindingId::K2).expect("a fault").edit;
     let model = &Scene::open("strand").unwrap().model;
     let ending = iterate(model, Bound::Normal, &[k2], STEPS).expect("a result");
     assert_eq!((ending.iterations, ending.period, ending.is_settled), (7, Some(2), false));
@@ -222,18 +228,16 @@ fn where_it_does_not_hold_the_prices_say_so() {
     assert_eq!(roof.kind, Kind::Roof);
     let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
     let roof = roof.build().unwrap();
-    let compared = Compared::new(&Case::new(roof.clone())).unwrap();
-    let prices = compared.prices(&|| ());
-    let repairs = compared.repairs(&prices, &|| ());
-    let document = studies::audit::prices::table::PricesOnScene {
+    let (prices, repairs) = prices_of(&Case::new(roof.clone()));
+    let document = prices::table::PricesOnScene {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,
     };
-    let report = studies::audit::prices::table::report(&document, &roof).text(usize::MAX);
+    let report = prices::table::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265 %"), "{report}");
     let plate = annulus(2, 4).build().unwrap();
-    let refused = Compared::new(&Case::new(plate.clone())).err().expect("no contact").to_string();
+    let refused = prices::on(&Case::new(plate), &|| ()).expect_err("no contact").to_string();
     assert!(refused.contains("the scene has no contact surfaces"), "{refused}");
 }
 
@@ -241,14 +245,11 @@ fn where_it_does_not_hold_the_prices_say_so() {
 /// solution.
 #[test]
 fn without_a_load_no_fault_is_weighed() {
-    let finding = FINDINGS.iter().find(|finding| finding.id == "C10").expect("a finding");
-    let scene = finding.scene();
+    let scene = Finding::of(FindingId::C10).scene();
     assert!(scene.model.load.iter().all(|f| *f == 0.0));
-    let compared = Compared::new(&Case::new(scene.clone())).expect("a solution");
-    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
+    let (prices, repairs) = prices_of(&Case::new(scene));
     assert_eq!(prices::needed(&repairs), None);
-    let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
-    let why = studies::audit::prices::table::unsound(&prices).expect("a reason");
+    let why = prices::table::unsound(&prices).expect("a reason");
     assert!(why.contains("no load passes"), "{why}");
 }
 
@@ -276,9 +277,8 @@ fn on_a_target_that_is_held_the_load_passes() {
         model.restrain(dof, Restraint::Fixed);
     }
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
-    let Outcome::Result { transmitted, passes_nothing: false, .. } = prices[0].outcome else {
-        panic!("{:?}", prices[0].outcome)
-    };
-    assert_near("transmitted", transmitted, 1.0, 1.0, &CORRECTED);
-    assert_eq!(studies::audit::prices::table::of_weight(&prices, Weight::Fatal), ["K1"]);
+    let run = prices[0].outcome.as_ref().expect("a result");
+    assert!(!run.passes_nothing);
+    assert_near("transmitted", run.transmitted, 1.0, 1.0, &CORRECTED);
+    assert_eq!(prices::table::of_weight(&prices, Weight::Fatal), ["K1"]);
 }

@@ -5,6 +5,8 @@
 //!   `tests/fidelity/reading_page.rs` makes.
 //! - Every page (`*.md`) and every file of the repository that is named is there, and every link of
 //!   a page leads to a file.
+//! - What a step of a recipe in CONTRIBUTING.md names behind a file of Rust is in that file; beside it, as in
+//!   "`src/engine/solve.rs`, `check`", it is defined there.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -181,4 +183,74 @@ fn every_citation_leads_somewhere() {
     assert!(texts.iter().any(|text| text.path == READING), "the walk reaches {READING}");
     let faults: Vec<String> = texts.iter().flat_map(|t| faults(t, &sections, &ids)).collect();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// The steps of the recipes in CONTRIBUTING.md, each in one line.
+fn steps() -> Vec<String> {
+    let page = fs::read_to_string(Path::new(ROOT).join("CONTRIBUTING.md")).expect("the page");
+    let recipes = page.split("\n## ").filter(|section| section.starts_with("Add "));
+    let is_first = |line: &str| line.starts_with(|c: char| c.is_ascii_digit());
+    let mut steps: Vec<String> = Vec::new();
+    for line in recipes.flat_map(str::lines) {
+        match steps.last_mut() {
+            _ if is_first(line) => steps.push(line.into()),
+            Some(step) if line.starts_with("   ") => *step += &format!(" {}", line.trim()),
+            _ => steps.push(String::new()),
+        }
+    }
+    steps
+}
+
+/// Whether a word is a name of Rust: `check`, `Restraint::Fixed`, `in_scalar!`.
+fn is_name(word: &str) -> bool {
+    let word = word.strip_suffix('!').unwrap_or(word);
+    !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_:".contains(c))
+}
+
+/// What is wrong with the names of a step: each stands behind the file that has it.
+fn faults_of_names(step: &str) -> Vec<String> {
+    let mut faults = Vec::new();
+    let mut file: Option<(&str, String)> = None;
+    let mut is_beside = false;
+    // Between the marks stand in turn words and what they quote.
+    for (k, part) in step.split('`').enumerate() {
+        if k % 2 == 0 {
+            is_beside &= [", ", ": ", " ("].contains(&part);
+        } else if part.contains('/') && part.ends_with(".rs") {
+            file = Some((part, fs::read_to_string(Path::new(ROOT).join(part)).expect(part)));
+            is_beside = true;
+        } else if let (Some((path, text)), true) = (&file, is_name(part)) {
+            let name = part.trim_end_matches('!').rsplit("::").next().expect("a part");
+            let is_there = words(text).any(|word| word == name);
+            if !is_there || is_beside && !defines(text, name) {
+                faults.push(format!("{path} has no {part}"));
+            }
+            is_beside = false;
+        } else {
+            is_beside = false;
+        }
+    }
+    faults
+}
+
+/// Whether a file defines a function, a type, a constant or a macro.
+fn defines(text: &str, name: &str) -> bool {
+    let kinds = ["fn", "struct", "enum", "trait", "type", "const", "static", "macro_rules"];
+    let words: Vec<&str> = words(text).collect();
+    words.windows(2).any(|pair| kinds.contains(&pair[0]) && pair[1] == name)
+}
+
+#[test]
+fn what_a_recipe_names_is_where_it_says() {
+    let faults: Vec<String> = steps().iter().flat_map(|step| faults_of_names(step)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn a_name_that_is_not_in_its_file_is_a_fault() {
+    let of = |step: &str| faults_of_names(step).len();
+    assert_eq!(of("1. `src/engine/solve.rs`, `check`: where it is refused."), 0);
+    assert_eq!(of("1. `src/engine/solve.rs`, `Request`: it is used there, not defined."), 1);
+    assert_eq!(of("1. `src/engine/solve.rs`: what a `Request` asks for."), 0);
+    assert_eq!(of("1. `src/engine/solve.rs`: what `no_such_function` does."), 1);
 }

@@ -16,12 +16,12 @@ use plane_contact::problem::model::{Dof, Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{FINDING_SCENES, SCENES, Scene};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding, Repair, Verdict};
+use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding, Presence, Repair};
 use plane_contact::studies::lesson::{self, Product, Run, Switch};
 use serde_json::{Value, json};
 
 fn finding(id: &str) -> &'static Finding {
-    FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register")
+    Finding::of(id.parse().expect("an id of the register"))
 }
 
 fn scene_json(id: &str) -> Value {
@@ -59,7 +59,7 @@ fn at(json: &mut Value, n: usize, x: f64, y: f64) {
 
 #[track_caller]
 fn shows(id: &str, measured: &Evidence, number: f64, words: &[&str]) {
-    assert_eq!(measured.verdict, Verdict::Present, "{id}: {}", measured.detail);
+    assert_eq!(measured.verdict, Presence::Present, "{id}: {}", measured.detail);
     let scale = if number == 0.0 { 1.0 } else { number };
     assert_near(id, measured.number.expect("a number"), number, scale, &FINDING);
     for word in words {
@@ -109,7 +109,7 @@ fn each_finding_is_present_on_its_scene() {
     ];
     assert_eq!(
         expected.iter().map(|(id, ..)| *id).collect::<Vec<_>>(),
-        FINDINGS.iter().map(|f| f.id).collect::<Vec<_>>()
+        FINDINGS.iter().map(|f| f.id.name()).collect::<Vec<_>>()
     );
     for (id, number, words) in expected {
         let case = Case::new(finding(id).scene()).with_equivalents(0);
@@ -171,7 +171,7 @@ fn each_finding_vanishes_where_its_cause_does() {
     ];
     for (id, change) in changes {
         let measured = measured(id, change);
-        assert_eq!(measured.verdict, Verdict::NotTriggered, "{id}: {}", measured.detail);
+        assert_eq!(measured.verdict, Presence::NotTriggered, "{id}: {}", measured.detail);
     }
 }
 
@@ -179,9 +179,9 @@ fn each_finding_vanishes_where_its_cause_does() {
 #[test]
 fn without_contact_no_finding_of_contact_is_present() {
     let case = Case::new(finding("K3").scene());
-    for finding in FINDINGS.iter().filter(|f| !["K3", "K4"].contains(&f.id)) {
+    for finding in FINDINGS.iter().filter(|f| !["K3", "K4"].contains(&f.id.name())) {
         let measured = finding.measure(&case);
-        assert_eq!(measured.verdict, Verdict::NotTriggered, "{}: {}", finding.id, measured.detail);
+        assert_eq!(measured.verdict, Presence::NotTriggered, "{}: {}", finding.id, measured.detail);
     }
 }
 
@@ -193,8 +193,8 @@ fn a_vertical_edge_stops_c_cnt() {
     at(&mut json, 4, 0.05, 0.5);
     let case = case(&json);
     shows("C3", &finding("C3").measure(&case), 0.0, &["c_cnt, line 10", "Division by zero"]);
-    for finding in FINDINGS.iter().filter(|f| !["C3", "K4"].contains(&f.id)) {
-        assert_ne!(finding.measure(&case).verdict, Verdict::Present, "{}", finding.id);
+    for finding in FINDINGS.iter().filter(|f| !["C3", "K4"].contains(&f.id.name())) {
+        assert_ne!(finding.measure(&case).verdict, Presence::Present, "{}", finding.id);
     }
 }
 
@@ -205,7 +205,7 @@ fn c4_leaves_out_nodes_that_lose_their_edge() {
         at(s, 4, 0.05, 0.05);
         at(s, 5, 1.5, 1.8);
     });
-    assert_eq!(measured.verdict, Verdict::NotTriggered, "{}", measured.detail);
+    assert_eq!(measured.verdict, Presence::NotTriggered, "{}", measured.detail);
 }
 
 /// C5 with the target above: of three nodes deep inside between two apart, the ends are flagged and
@@ -295,7 +295,7 @@ fn c14_the_box_vanishes_at_twice_c_tll() {
             at(s, 4, 0.375, height / 8.0);
         });
         assert_eq!(
-            measured.verdict == Verdict::Present,
+            measured.verdict == Presence::Present,
             missed,
             "height {height}: {}",
             measured.detail
@@ -330,7 +330,7 @@ fn k4_and_k6_are_present_on_every_scene_with_contact() {
         s["restraints"][2]["fix"] = json!(["x", "y"]);
         s["loads"] = json!([]);
     });
-    assert_eq!(apart.verdict, Verdict::NotTriggered, "{}", apart.detail);
+    assert_eq!(apart.verdict, Presence::NotTriggered, "{}", apart.detail);
 }
 
 /// Every finding on every scene that the program carries; none is contradicted anywhere.
@@ -343,7 +343,7 @@ fn verdicts() {
         for finding in FINDINGS {
             let measured = finding.measure(&case);
             println!("{} {}: {}", scene.name, finding.id, measured.detail);
-            assert_ne!(measured.verdict, Verdict::Contradicted, "{}", finding.id);
+            assert_ne!(measured.verdict, Presence::Contradicted, "{}", finding.id);
             let (verdict, number) =
                 (measured.verdict.name(), number(measured.number.expect("a number")));
             writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
@@ -375,7 +375,7 @@ fn every_folder_is_a_findings() {
 fn each_repair_takes_its_finding_away() {
     let is_edit = |finding: &&Finding| matches!(finding.edit, Repair::Edit { .. });
     let repaired: Vec<(&str, [Run; 2])> =
-        FINDINGS.iter().filter(is_edit).map(|finding| (finding.id, runs(finding))).collect();
+        FINDINGS.iter().filter(is_edit).map(|finding| (finding.id.name(), runs(finding))).collect();
     let both = |id: &str| &repaired.iter().find(|(other, _)| *other == id).expect("an id").1;
     let run = |id: &str| &both(id)[1];
     let pairs = |run: &Run| match &run.c_cnt.as_ref().expect("contact").trace.result {
@@ -487,7 +487,7 @@ fn each_finding_without_a_repair_has_a_reason_that_holds() {
     for finding in FINDINGS {
         if let Repair::None { reason } = finding.edit {
             assert!(reason.contains(&format!("solve findings/{}", finding.id)), "{reason}");
-            ids.push(finding.id);
+            ids.push(finding.id.name());
         }
     }
     assert_eq!(ids, ["C6", "K5", "K6", "K9"]);

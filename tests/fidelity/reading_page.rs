@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::citations::READING;
 use crate::common::golden_file::assert_file;
+use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::{Ambiguity, DefaultFrom, READINGS};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding};
@@ -53,7 +54,8 @@ fn reading(row: &Ambiguity) -> String {
 fn finding(finding: &Finding) -> String {
     let id = format!("[{0}](../golden/findings/{0}/{PAGE})", finding.id);
     let lines: Vec<String> = finding.lines.iter().map(usize::to_string).collect();
-    let lines = format!("{} {}", finding.listing, lines.join(", "));
+    let listing = finding.listing.map_or("-", Which::name);
+    let lines = format!("{listing} {}", lines.join(", "));
     let measured = finding.measure(&Case::new(finding.scene()).with_equivalents(0));
     let value = format!("{:.3}", measured.number.expect("a number"));
     let value = value.trim_end_matches('0').trim_end_matches('.');

@@ -1,6 +1,8 @@
 //! The register of claims: every number is the one that its command prints.
 
 use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
 use std::sync::LazyLock;
 
 use serde_json::Value;
@@ -13,7 +15,10 @@ use plane_contact::engine::{Request, distance, solve};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::{Basis, CLAIMS, JudgedClaim, Scope, Verdict, judge};
+use plane_contact::studies::audit::claims::table::ESTIMATES;
+use plane_contact::studies::audit::claims::{
+    Basis, CLAIMS, ClaimId, JudgedClaim, Scope, Verdict, judge,
+};
 use plane_contact::studies::audit::evidence::BY_ROUNDING;
 use plane_contact::studies::audit::range::{Parameter, Range, range};
 use plane_contact::studies::audit::words::WIDER;
@@ -30,13 +35,18 @@ pub static RANGE: LazyLock<Range> =
 pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
     LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
 
+/// A claim on the paper's example over the range.
+pub fn judged(id: ClaimId) -> &'static JudgedClaim {
+    &JUDGED[id as usize]
+}
+
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
     let folder = TempDir::new().expect("a temporary folder");
     let mut printed: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
     // What is measured on random scenes stands in a table.
     for judged in JUDGED.iter().filter(|judged| judged.claim.basis != Basis::Random) {
-        let (id, number) = (judged.claim.id, judged.measured.number);
+        let (id, number) = (judged.claim.id.name(), judged.measured.number);
         let command: Vec<&str> = judged.command.iter().map(String::as_str).collect();
         let json = printed.entry(command).or_insert_with_key(|command| {
             let output = run(folder.path(), command);
@@ -63,7 +73,7 @@ fn a_claims_number_is_the_one_that_its_command_prints() {
 /// rounding who is in contact: the verdict stays, without a figure.
 #[test]
 fn the_change_by_c_tol_is_that_of_trade() {
-    let p10 = JUDGED.iter().find(|judged| judged.claim.id == "P10").expect("it is judged");
+    let p10 = judged(ClaimId::P10);
     assert_eq!((p10.measured.verdict, p10.measured.number), (Verdict::False, None));
     assert_eq!(p10.measured.detail, BY_ROUNDING);
     let folder = TempDir::new().expect("a temporary folder");
@@ -82,7 +92,7 @@ fn in_wider_ducts_neither_p10_nor_p11_is_false() {
     assert!(WIDER.starts_with(
         "From a clearance of 0.9 mm on neither P10 nor P11 is false (true, or decided by rounding); from 5 mm on both"
     ));
-    for judged in JUDGED.iter().filter(|judged| ["P10", "P11"].contains(&judged.claim.id)) {
+    for judged in [ClaimId::P10, ClaimId::P11].map(judged) {
         let clearances = judged.elsewhere.iter();
         for at in clearances.filter(|at| at.place.parameter == Parameter::Clearance) {
             let (clearance, id) = (at.place.value, judged.claim.id);
@@ -97,9 +107,9 @@ fn in_wider_ducts_neither_p10_nor_p11_is_false() {
 /// A verdict on runs has the error of the mesh in each of its runs, as `solve` prints them.
 #[test]
 fn verdicts_on_runs_name_the_errors_of_the_mesh() {
-    let errors = |id: &str| {
-        let judged = JUDGED.iter().find(|judged| judged.claim.id == id).expect("it is judged");
-        judged.measured.mesh_errors.iter().map(|error| error.energy_relative.expect("an estimate"))
+    let errors = |id: ClaimId| {
+        let errors = judged(id).measured.mesh_errors.iter();
+        errors.map(|error| error.energy_relative.expect("an estimate"))
     };
     for judged in &*JUDGED {
         let is_on_runs = judged.claim.basis == Basis::Runs;
@@ -111,9 +121,9 @@ fn verdicts_on_runs_name_the_errors_of_the_mesh() {
         let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         json["error_estimates"]["mesh_energy_relative"].as_f64().expect("an estimate")
     };
-    for (id, variant) in [("P1", "stepped"), ("P11", "tied")] {
+    for (id, variant) in [(ClaimId::P1, "stepped"), (ClaimId::P11, "tied")] {
         let [own] = errors(id).collect::<Vec<_>>()[..] else { panic!("{id} rests on one run") };
-        assert_near(id, own, solved(variant), 1.0, &CLAIM);
+        assert_near(id.name(), own, solved(variant), 1.0, &CLAIM);
     }
 }
 
@@ -121,7 +131,7 @@ fn verdicts_on_runs_name_the_errors_of_the_mesh() {
 /// they do not. At the end of the path the ratio is smaller.
 #[test]
 fn the_friction_that_ties_is_confirmed_by_a_run_on_either_side() {
-    let judged = JUDGED.iter().find(|judged| judged.claim.id == "P2").expect("it is judged");
+    let judged = judged(ClaimId::P2);
     let value = judged.measured.number.expect("a coefficient");
     let scene = Scene::open("strand").expect("an embedded scene");
     let under = |friction: f64| {
@@ -151,7 +161,7 @@ fn penetration_is_that_of_the_contact_surface() {
     let bodies = json["bodies"].as_array().expect("bodies").iter();
     let block = bodies.clone().find(|body| body["name"] == "block").expect("a body");
     let expected = -gap / number(&block["max_displacement"]);
-    let judged = JUDGED.iter().find(|judged| judged.claim.id == "P1").expect("it is judged");
+    let judged = judged(ClaimId::P1);
     assert_near("P1", judged.measured.number.expect("a number"), expected, expected, &CLAIM);
     assert_eq!(judged.measured.verdict, Verdict::False);
 }
@@ -204,10 +214,25 @@ fn of_a_reading_prices_follow_the_model_alone() {
 }
 
 #[test]
-fn claims_are_numbered_in_the_order_of_the_text() {
-    let ids = CLAIMS.iter().zip(1..).map(|(claim, n)| (claim.id.to_string(), format!("P{n}")));
-    assert!(ids.clone().all(|(id, expected)| id == expected));
+fn every_claim_has_the_papers_words_and_ours() {
     assert!(CLAIMS.iter().all(|claim| ![claim.quote, claim.translation].contains(&"")));
+}
+
+/// What is said of the estimate of the error of the mesh is what its table has.
+#[test]
+fn the_estimates_are_those_of_the_table() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/mesh_errors.md");
+    let table = fs::read_to_string(file).expect("the table");
+    let last = |row: &str| row.trim_end_matches(" |").rsplit("| ").next()?.parse::<f64>().ok();
+    let mut quotients: Vec<f64> = table.lines().filter_map(last).collect();
+    quotients.sort_by(f64::total_cmp);
+    let below = quotients.iter().filter(|quotient| **quotient < 1.0).count();
+    let expected = format!(
+        "it was below the error in {below} of {} runs, at the median {:.2} of it",
+        quotients.len(),
+        quotients[quotients.len() / 2]
+    );
+    assert!(ESTIMATES.contains(&expected), "{expected}");
 }
 
 /// A verdict is said to hold over the range only where every place was tried and has the same.

@@ -113,7 +113,10 @@ fn a_listing_that_makes_no_sense_is_refused() {
         (&["--c-cnt", "none.txt"], "cannot be read"),
         (&["--c-cnt", "c_cnt.txt", "--variant", "unilateral"], "executes no listing"),
         (&["--c-cnt", "c_cnt.txt", "--scalar", "f64x2"], "is not executed in f64x2"),
-        (&["--c-cnt", "c_cnt.txt", "--status", "intersection", "--variant", "tied"], "is not called"),
+        (
+            &["--c-cnt", "c_cnt.txt", "--status", "intersection", "--variant", "tied"],
+            "is not called",
+        ),
         (&["--km", "Km.txt", "--solver", "sparse-cholesky", "--variant", "tied"], "use sparse-lu"),
     ] {
         let (status, _, why) = solve(folder.path(), &[&["fig1"], args].concat());

@@ -13,7 +13,7 @@ use plane_contact::problem::scene::{SCENES, Scene};
 use plane_contact::report::language::{messages, of_interpreter};
 use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::{FINDINGS, Finding, Repair, Verdict};
+use plane_contact::studies::audit::findings::{FINDINGS, Finding, Presence, Repair};
 use plane_contact::studies::audit::prices::table::ORDER;
 use plane_contact::studies::lesson::page::{ITERATE, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};
@@ -75,7 +75,7 @@ fn in_registers() -> BTreeSet<String> {
     let switches = switches.chain([edited]).flat_map(of_switch);
     let names = FAULTS.iter().map(|fault| fault.name()).filter(|name| name.contains(' '));
     let faults = FAULTS.iter().map(|fault| fault.words()).chain(names);
-    let verdicts = Verdict::ALL.iter().map(|verdict| verdict.name().to_string());
+    let verdicts = Presence::ALL.iter().map(|verdict| verdict.name().to_string());
     let titles = scenes.iter().map(|scene| scene.title.clone()).chain([ORDER.into()]);
     let findings = FINDINGS.iter().flat_map(of_finding);
     let meanings = meanings().map(|[.., meaning]| meaning.to_string());

@@ -18,7 +18,7 @@ use plane_contact::paper::door;
 use plane_contact::paper::mirror::{Reading, c_cnt};
 use plane_contact::problem::modelling::StatusRule;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::CLAIMS;
+use plane_contact::studies::audit::claims::{Claim, ClaimId};
 
 use crate::common::golden_file::assert_file;
 use crate::tables::{markdown, percent};
@@ -143,12 +143,16 @@ fn the_claims_on_random_scenes_are_those_of_the_table() {
         row.split('|').map(str::trim).collect()
     };
     let case = Case::new(Scene::open("fig1").expect("an embedded scene"));
-    let number = |id: &str| {
-        let claim = CLAIMS.iter().find(|claim| claim.id == id).expect("a claim");
-        claim.measure(&case).number.expect("a number")
-    };
+    let measured = |id: ClaimId| Claim::of(id).measure(&case);
+    let number = |id: ClaimId| measured(id).number.expect("a number");
     let cell =
         |starts: &str, column: usize| -> f64 { row(starts)[column].parse().expect("a number") };
-    assert_eq!(number("P6"), cell("| 2 | below ", 4) / cell("| 2 | below ", 3));
-    assert_eq!(number("P8"), cell("| operations on 256 ", 6));
+    assert_eq!(number(ClaimId::P6), cell("| 2 | below ", 4) / cell("| 2 | below ", 3));
+    let missed = |target: &str| {
+        let row = row(&format!("| 2 | {target} "));
+        format!("target {target}: {} of {} missed", row[4], row[3])
+    };
+    let detail = ["below", "above"].map(missed).join(", ");
+    assert_eq!(measured(ClaimId::P6).detail, detail);
+    assert_eq!(number(ClaimId::P8), cell("| operations on 256 ", 6));
 }

@@ -16,7 +16,9 @@ use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Varian
 use plane_contact::problem::scene::Refined;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
-use plane_contact::studies::audit::prices::{Compared, Outcome, Price, Weight};
+use plane_contact::studies::audit::evidence::NoFigures;
+use plane_contact::studies::audit::findings::FindingId;
+use plane_contact::studies::audit::prices::{self, CorrectedRun, Price, Weight};
 use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
 use plane_contact::studies::calculix::{Pair, RECORDED, run};
 use plane_contact::studies::trade::{self, Varied};
@@ -84,20 +86,20 @@ fn thousands(number: usize) -> String {
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 #[test]
 fn prices() {
-    let alone =
-        Compared::new(&Case::new(STRAND.clone())).expect("strand has a solution").prices(&|| ());
-    let fig1 = Scene::open("fig1").expect("an embedded scene");
-    let compared = Compared::new(&Case::new(fig1)).expect("fig1 has a solution");
-    let repairs = compared.repairs(&compared.prices(&|| ()), &|| ());
+    let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");
+    let fig1 = Case::new(Scene::open("fig1").expect("an embedded scene"));
+    let on_fig1 = prices::on(&fig1, &|| ()).expect("fig1 has a solution");
+    let repairs = prices::repairs(&fig1, &on_fig1, &|| ()).expect("fig1 has a solution");
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
-    assert_eq!(studies::audit::prices::table::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
+    assert_eq!(prices::table::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
     for price in &alone {
-        let is_free = [None, Some("C7"), Some("C12"), Some("K4")].contains(&price.finding);
-        assert!(price.outcome.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
+        let is_free = [None, Some(FindingId::C7), Some(FindingId::C12), Some(FindingId::K4)]
+            .contains(&price.finding);
+        assert!(price.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
     }
-    assert!(repairs.last().expect("repairs").outcome.error() < CORRECTED.limit);
+    assert!(repairs.last().expect("repairs").error() < CORRECTED.limit);
     let cells = |price: &Price| match &price.outcome {
-        &Outcome::Result {
+        &Ok(CorrectedRun {
             iterations,
             in_contact,
             transmitted,
@@ -106,7 +108,7 @@ fn prices() {
             von_mises_relative,
             period,
             passes_nothing: _,
-        } => {
+        }) => {
             let settled = match period {
                 Some(1) => String::new(),
                 Some(period) => format!(", then alternates among {period} contact states"),
@@ -120,9 +122,8 @@ fn prices() {
                 "{iterations}{settled} | {in_contact} | {transmitted} | {energy} | {stress} | {equilibrium}"
             )
         }
-        Outcome::Failure { .. } => "stops: a body is free to move | - | - | - | - | -".into(),
-        Outcome::Rounding {} => "decided by rounding | - | - | - | - | -".into(),
-        Outcome::NoFault {} => "no effect, as nothing slides | - | - | - | - | -".into(),
+        Err(NoFigures::Fails(_)) => "stops: a body is free to move | - | - | - | - | -".into(),
+        Err(why) => format!("{why} | - | - | - | - | -"),
     };
     let named =
         |price: &Price| format!("{} | {}", price.name.as_deref().unwrap_or("-"), price.fault);

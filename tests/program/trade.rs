@@ -1,6 +1,6 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
-use crate::claims::JUDGED;
+use crate::claims::judged;
 use crate::common::annulus::annulus;
 use crate::common::json::build;
 use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, HALF, LAME_ENERGY_ORDER, assert_near};
@@ -13,6 +13,7 @@ use plane_contact::problem::model::{Model, NodeId};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::symmetry::half;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use plane_contact::studies::audit::claims::ClaimId;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
 use plane_contact::studies::trade::table as report;
@@ -132,7 +133,7 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
     });
     let here =
         |place: ParameterValue| place.parameter == range::Parameter::Radius && place.value == 5.0;
-    let judged = JUDGED.iter().find(|judged| judged.claim.id == "P10").expect("a claim");
+    let judged = judged(ClaimId::P10);
     let at = judged.elsewhere.iter().find(|other| here(other.place)).expect("a place");
     let number = at.measured.number.expect("a number");
     let change = max_displacement(&(&least.u - &own.u)) / max_displacement(&own.u);

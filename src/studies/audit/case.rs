@@ -4,11 +4,13 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
+use super::prices;
 use base::error::InputError;
 use base::limits;
 use engine::error::Error;
 use engine::estimates::{equivalent, moves};
 use engine::{Request, Solution, distance, last_under_each_load, solve};
+use paper::corrected;
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
 use problem::model::Model;
@@ -40,6 +42,7 @@ struct Unilateral {
     sticking: OnceLock<Result<Solution, Error>>,
     least_friction: OnceLock<bool>,
     reference: OnceLock<Result<Solution, Error>>,
+    corrected: OnceLock<Result<Solution, Error>>,
     equilibrium: OnceLock<Result<Solution, Error>>,
 }
 
@@ -227,6 +230,17 @@ impl Case {
     /// without contact, and where [`Case::unsolved`] says why.
     pub fn equilibrium(&self) -> Option<&Solution> {
         self.solved_equilibrium()?.ok()
+    }
+
+    /// The solution that the corrected algorithm has: without friction, node to segment, in the initial
+    /// geometry. Of the reading only what changes the model matters (R6, R8).
+    ///
+    /// # Errors
+    /// The scene has no contact or lists a contact node twice, or there is no such solution.
+    pub fn corrected(&self) -> Result<&Solution, Error> {
+        corrected::check(self.model())?;
+        let run = || solve(&prices::reference(&self.base), &mut |_| ());
+        self.unilateral.corrected.get_or_init(run).as_ref().map_err(Clone::clone)
     }
 
     fn solved_reference(&self) -> Option<Result<&Solution, &Error>> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::audit::claims::{CLAIMS, Claim, by_reading};
 use crate::audit::findings::{FINDINGS, Finding};
-use crate::audit::prices::{self, Compared};
+use crate::audit::prices;
 use crate::audit::range::{Range, range};
 use crate::audit::words::{self, Depth};
 use crate::audit::{Audit, Case, audit, steps, tables};
@@ -93,10 +93,10 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<()> {
     if let Some(id) = &args.finding {
-        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id)?);
+        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id.name())?);
     }
     if let Some(id) = &args.claim {
-        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id)?);
+        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id.name())?);
     }
     if args.prices { prices(args) } else { whole(args) }
 }
@@ -106,13 +106,15 @@ fn prices(args: &Args) -> Result<()> {
     check_folder(args, &["prices.svg", "prices.json"])?;
     let reading = args.reading.reading;
     let case = case(args)?;
-    let compared = Compared::new(&case)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
     let runs = prices::runs() + runs_of_repairs;
     let bar = progress("running", runs, "run {pos} of {len} {wide_bar} {eta}");
     let watch = || bar.inc(1);
-    let alone = compared.prices(&watch);
-    let repairs = if args.repairs { compared.repairs(&alone, &watch) } else { Vec::new() };
+    let alone = prices::on(&case, &watch)?;
+    let repairs = match args.repairs {
+        true => prices::repairs(&case, &alone, &watch)?,
+        false => Vec::new(),
+    };
     bar.finish();
     let document = price_report::PricesOnScene { reading, prices: &alone, repairs: &repairs };
     let json = price_report::json(&document, &case.scene);
@@ -199,7 +201,7 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let json =
         || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured });
     if let Some(out) = &args.out {
-        let picture = folder::finding_picture(finding.id, &case.scene);
+        let picture = folder::finding_picture(finding.id.name(), &case.scene);
         files::write_all(out, &[(svg, picture), (document, json())])?;
     }
     print_either(args.tables.json, json, || {
@@ -262,7 +264,7 @@ fn names() -> Vec<String> {
 fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
     let mut files: Vec<(String, Vec<u8>)> = vec![("audit.txt".into(), text.into())];
     for (finding, _) in &audit.findings {
-        let picture = folder::finding_picture(finding.id, &finding.scene());
+        let picture = folder::finding_picture(finding.id.name(), &finding.scene());
         files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
     }
     let others = [case.reference(), case.equilibrium()];

@@ -7,12 +7,12 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::Case;
-use super::claims::{JudgedClaim, Verdict as ClaimVerdict, nearest as least};
+use super::claims::{ClaimId, JudgedClaim, Verdict, nearest as least};
 use super::evidence::{NoFigures, beyond_noise};
-use super::findings::{Evidence, Finding, Verdict};
+use super::findings::{Evidence, Finding, FindingId, Presence};
 use super::range::{Parameter, distinct};
 use super::readings::Effect;
-use super::variants::{End, VariantRow};
+use super::variants::VariantRow;
 use engine::estimates::{ErrorEstimates, Estimates};
 use engine::{BodySummary, over, summaries};
 use paper::corrected::FAULTS;
@@ -33,7 +33,7 @@ pub struct Conclusion {
     pub fields: Option<Fields>,
     /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
     /// they have no price: listings/corrected/README.md says what repairs each.
-    pub unpriced: Vec<&'static str>,
+    pub unpriced: Vec<FindingId>,
     /// How far that moves the verdicts; nothing where it was not tried.
     pub range: Option<Spread>,
 }
@@ -112,9 +112,9 @@ pub struct Spread {
     /// The least and the largest number of claim P12.
     pub error: [f64; 2],
     /// The claims whose verdict is another one somewhere in the range.
-    pub changes: Vec<&'static str>,
+    pub changes: Vec<ClaimId>,
     /// The claims that are true at each clearance that was tried from one on, with the least such one, mm.
-    pub true_from: Vec<(&'static str, f64)>,
+    pub true_from: Vec<(ClaimId, f64)>,
 }
 
 impl Conclusion {
@@ -138,12 +138,12 @@ impl Conclusion {
 }
 
 fn coupled(findings: &[(&'static Finding, Evidence)], variants: &[VariantRow]) -> Coupled {
-    let k1 = findings.iter().find(|(finding, _)| finding.id == "K1");
-    let joins = k1.filter(|(_, measured)| measured.verdict != Verdict::NotTriggered);
+    let k1 = findings.iter().find(|(finding, _)| finding.id == FindingId::K1);
+    let joins = k1.filter(|(_, measured)| measured.verdict != Presence::NotTriggered);
     let printed = variants.iter().find(|row| row.variant == Variant::Printed);
-    let (share, failure) = match printed.map(|row| &row.end) {
-        Some(End::Result { target_share, .. }) => (*target_share, None),
-        Some(End::Failure { failure }) => (None, Some(failure.clone())),
+    let (share, failure) = match printed.map(|row| &row.outcome) {
+        Some(Ok(run)) => (run.target_share, None),
+        Some(Err(why)) => (None, Some(why.clone())),
         None => (None, None),
     };
     let joins = joins.and_then(|(_, measured)| measured.number);
@@ -159,14 +159,14 @@ pub(super) fn of_the_paper(rows: &[VariantRow]) -> impl Iterator<Item = &Variant
 fn nearest(variants: &[VariantRow], readings: &[Effect], base: &Reading) -> Option<Nearest> {
     let mut failures: Vec<&NoFigures> = Vec::new();
     let mut found: Vec<NearRun> = Vec::new();
-    for VariantRow { variant, end } in of_the_paper(variants) {
-        match end {
-            End::Failure { failure } => failures.push(failure),
-            End::Result { distance, .. } => found.push(NearRun {
+    for VariantRow { variant, outcome } in of_the_paper(variants) {
+        match outcome {
+            Err(why) => failures.push(why),
+            Ok(run) => found.push(NearRun {
                 variant: *variant,
                 reading: None,
-                energy: distance.as_ref()?.energy_relative,
-                unsettled: end.is_unsettled(),
+                energy: run.distance.as_ref()?.energy_relative,
+                unsettled: run.is_unsettled(),
             }),
         }
     }
@@ -215,11 +215,9 @@ fn nearest(variants: &[VariantRow], readings: &[Effect], base: &Reading) -> Opti
 fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
     let equilibrium = case.equilibrium()?;
     let own = summaries(equilibrium);
-    let ended = of_the_paper(rows).filter_map(|VariantRow { variant, end }| match end {
-        End::Result { distance, bodies, .. } => {
-            Some((distance.as_ref()?.energy_relative, (*variant, bodies)))
-        }
-        End::Failure { .. } => None,
+    let ended = of_the_paper(rows).filter_map(|row| {
+        let run = row.outcome.as_ref().ok()?;
+        Some((run.distance.as_ref()?.energy_relative, (row.variant, &run.bodies)))
     });
     let ended: Vec<(f64, (Variant, &Vec<BodySummary>))> = ended.collect();
     let nearest = least(&ended).unwrap_or_default();
@@ -236,16 +234,16 @@ fn fields(case: &Case, rows: &[VariantRow]) -> Option<Fields> {
 }
 
 /// Returns the findings that are present, and that no fault puts back into the corrected algorithm.
-fn unpriced(findings: &[(&'static Finding, Evidence)]) -> Vec<&'static str> {
+fn unpriced(findings: &[(&'static Finding, Evidence)]) -> Vec<FindingId> {
     let is_priced = |id| FAULTS.iter().any(|fault| fault.is_of(id));
-    let present = findings.iter().filter(|(_, measured)| measured.verdict == Verdict::Present);
+    let present = findings.iter().filter(|(_, measured)| measured.verdict == Presence::Present);
     present.map(|(finding, _)| finding.id).filter(|id| !is_priced(*id)).collect()
 }
 
 /// Returns how far the range moves the verdicts; nothing where it was not tried.
 fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
     let tried = || claims.iter().filter(|judged| !judged.elsewhere.is_empty());
-    let p12 = tried().find(|judged| judged.claim.id == "P12")?;
+    let p12 = tried().find(|judged| judged.claim.id == ClaimId::P12)?;
     let numbers = || p12.elsewhere.iter().filter_map(|other| other.measured.number);
     let changes = |judged: &&JudgedClaim| {
         let mut pairs = judged.elsewhere.windows(2);
@@ -257,7 +255,7 @@ fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
             .iter()
             .filter(|other| other.place.parameter == Parameter::Clearance)
             .rev()
-            .take_while(|other| other.measured.verdict == ClaimVerdict::True);
+            .take_while(|other| other.measured.verdict == Verdict::True);
         Some((judged.claim.id, clearances.last()?.place.value))
     };
     Some(Spread {

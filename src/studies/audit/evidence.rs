@@ -1,15 +1,18 @@
-//! What a case shows, and whether the inputs that mean the same ([`Case::equivalents`]) show it too.
+//! What is measured on a case, or why there is nothing; and whether the inputs that mean the same
+//! ([`Case::equivalents`]) show it too.
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
 use super::Case;
+use base::error::InputError;
 use engine::Solution;
 use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use numbers::finite;
+use paper::mirror::Failure;
 use problem::modelling::Variant;
 use report::layout::first_line;
 use report::model::Cell;
@@ -26,23 +29,57 @@ pub fn beyond_noise(share: f64) -> f64 {
     if share.abs() <= NOISE { 0.0 } else { share }
 }
 
-/// What is measured on a case and on the inputs that mean the same.
-pub trait Measured: Sized {
-    /// Returns whether another such input leads to another verdict, or moves a figure.
-    fn moves(&self, other: &Self) -> bool;
+/// What was measured; or why there are no figures.
+pub type Outcome<T> = Result<T, NoFigures>;
 
-    /// Returns what is left where rounding decides: no figure.
-    fn by_rounding(self) -> Self;
-
-    /// Leaves the figures out where one of `others`, measured on inputs that mean the same, moves them.
-    fn repeated(self, mut others: impl Iterator<Item = Self>) -> Self {
-        if others.any(|other| self.moves(&other)) { self.by_rounding() } else { self }
-    }
+/// Measures on a case and on the inputs that mean the same ([`confirmed`]).
+///
+/// # Errors
+/// Those of the measure; rounding decides.
+pub fn repeated<T>(
+    case: &Case,
+    measure: impl Fn(&Case) -> Outcome<T>,
+    figures: fn(&T) -> Vec<Option<f64>>,
+) -> Outcome<T> {
+    confirmed(measure(case), case.equivalents().iter().map(&measure), figures)
 }
 
-/// Measures on a case and on the inputs that mean the same.
-pub fn repeated<M: Measured>(case: &Case, measure: impl Fn(&Case) -> M) -> M {
-    measure(case).repeated(case.equivalents().iter().map(&measure))
+/// Returns an outcome where `others`, measured on inputs that mean the same, have the same `figures`, each
+/// over the scale of its kind.
+///
+/// # Errors
+/// Those of the outcome; rounding decides.
+pub fn confirmed<T>(
+    own: Outcome<T>,
+    others: impl IntoIterator<Item = Outcome<T>>,
+    figures: fn(&T) -> Vec<Option<f64>>,
+) -> Outcome<T> {
+    let figures = |outcome: &Outcome<T>| outcome.as_ref().ok().map(figures);
+    let of_own = figures(&own);
+    let is_same = |other: &Outcome<T>| match (&of_own, figures(other)) {
+        (Some(own), Some(other)) => !differ(own, &other),
+        (own, other) => own.is_none() && other.is_none(),
+    };
+    if others.into_iter().all(|other| is_same(&other)) { own } else { Err(NoFigures::Rounding) }
+}
+
+/// Returns whether two inputs that mean the same lead to other figures, each over the scale of its kind.
+pub fn differ(own: &[Option<f64>], other: &[Option<f64>]) -> bool {
+    own.len() != other.len() || own.iter().zip(other).any(|(own, other)| moves(*own, *other, 1.0))
+}
+
+/// Writes an outcome into the fields around it: what was measured, or the `failure`.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn flat<T: Serialize, S: Serializer>(
+    outcome: &Outcome<T>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match outcome {
+        Ok(measured) => measured.serialize(serializer),
+        Err(failure) => serializer.collect_map([("failure", failure)]),
+    }
 }
 
 /// A verdict, the number that it names, and what else is to be said.
@@ -124,12 +161,20 @@ impl<V> Evidence<V> {
         }
     }
 
-    /// Returns whether another input leads to another verdict or number.
-    pub fn differs(&self, other: &Self) -> bool
+    /// Leaves the number out where one of `others`, measured on inputs that mean the same, has another
+    /// verdict or number.
+    #[must_use]
+    pub fn confirmed_by(self, others: &[Self]) -> Self
     where
         V: PartialEq,
     {
-        self.verdict != other.verdict || moves(self.number, other.number, 1.0)
+        let is_same = |other: &Self| {
+            self.verdict == other.verdict && !differ(&[self.number], &[other.number])
+        };
+        if others.iter().all(is_same) {
+            return self;
+        }
+        Evidence { number: None, by_rounding: true, ..self }
     }
 }
 
@@ -182,6 +227,24 @@ impl From<Error> for NoFigures {
 impl From<String> for NoFigures {
     fn from(why: String) -> Self {
         NoFigures::Fails(why)
+    }
+}
+
+impl From<&str> for NoFigures {
+    fn from(why: &str) -> Self {
+        NoFigures::Fails(why.into())
+    }
+}
+
+impl From<Failure> for NoFigures {
+    fn from(why: Failure) -> Self {
+        NoFigures::Fails(why.to_string())
+    }
+}
+
+impl From<InputError> for NoFigures {
+    fn from(why: InputError) -> Self {
+        NoFigures::Refused(why.to_string())
     }
 }
 

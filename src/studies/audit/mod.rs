@@ -1,4 +1,12 @@
 //! The audit: what the ambiguities and the findings of the print do on a scene.
+//!
+//! | what | its table | what is measured of it, an [`evidence::Outcome`] |
+//! |---|---|---|
+//! | a claim: what the paper says | [`claims::CLAIMS`] | [`claims::Evidence`] |
+//! | a finding: what a listing does beside the text | [`findings::FINDINGS`] | [`findings::Evidence`] |
+//! | a price: what a printed fault costs | `paper::corrected::FAULTS` | [`prices::CorrectedRun`] |
+//! | a reading: what another one changes | `paper::mirror::READINGS` | [`readings::Effect`] |
+//! | a variant | `problem::modelling::Variant` | [`variants::VariantRun`] |
 
 mod assumptions;
 mod case;
@@ -25,7 +33,7 @@ use conclusion::Conclusion;
 use engine::contact::ContactNode;
 use engine::estimates::{Perturbed, perturbed};
 use engine::{BodySummary, NearestDecision, Solution, solve, summaries};
-use evidence::NoFigures;
+use evidence::{NoFigures, Outcome};
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
 use problem::modelling::{ContactModel, Friction, Variant};
@@ -54,14 +62,14 @@ pub struct Audit {
     #[serde(serialize_with = "tables::rows")]
     pub findings: Vec<(&'static Finding, Evidence)>,
     /// What each printed fault costs, reintroduced alone into the corrected algorithm; or why that is not known.
-    pub prices: Result<Vec<Price>, String>,
+    pub prices: Outcome<Vec<Price>>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
     /// The equilibrium under the scene's own friction, which the variants are measured against;
     /// nothing without contact, and where it does not run.
-    pub equilibrium: Option<Compared>,
+    pub equilibrium: Option<EquilibriumRow>,
     /// The reference solution; nothing without contact, and where it does not run.
-    pub reference: Option<Compared>,
+    pub reference: Option<EquilibriumRow>,
     /// Why one of these two, or both, are missing on a scene with contact.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unsolved: Vec<String>,
@@ -79,12 +87,12 @@ pub struct FrictionContact {
     /// The coefficient.
     pub friction: Friction,
     /// The contact nodes in contact; or why there is no equilibrium.
-    pub nodes: Result<Vec<ContactNode>, NoFigures>,
+    pub nodes: Outcome<Vec<ContactNode>>,
 }
 
-/// A solution that others are compared with, in short.
+/// An equilibrium that runs are compared with, in short.
 #[derive(Clone, Debug, Serialize)]
-pub struct Compared {
+pub struct EquilibriumRow {
     /// How contact was modelled.
     pub model: ContactModel,
     /// How many contact nodes are in contact.
@@ -131,7 +139,7 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
     };
     let friction =
         || case.model().target().filter(|_| is_whole).map_or(Vec::new(), |_| friction(case));
-    let prices = || prices::on(case, watch);
+    let prices = || prices::on(case, watch).map_err(NoFigures::from);
     // All at once, the longest first: each alone would end with one long run on one core.
     let (prices, (findings, (readings, (claims, (by_reading, (variants, friction)))))) =
         rayon::join(prices, || {
@@ -139,8 +147,8 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
             rayon::join(findings, || rayon::join(readings, || rayon::join(claims, others)))
         });
     let (equilibrium, reference) = rayon::join(
-        || case.equilibrium().map(|solution| compared(solution, is_whole)),
-        || case.reference().map(|solution| compared(solution, is_whole)),
+        || case.equilibrium().map(|solution| equilibrium_row(solution, is_whole)),
+        || case.reference().map(|solution| equilibrium_row(solution, is_whole)),
     );
     Audit {
         conclusion: Conclusion::new(case, &claims, &readings, &findings, &variants),
@@ -165,8 +173,8 @@ fn watched<T>(computed: T, watch: &(dyn Fn() + Sync)) -> T {
     computed
 }
 
-fn compared(solution: &Solution, is_whole: bool) -> Compared {
-    Compared {
+fn equilibrium_row(solution: &Solution, is_whole: bool) -> EquilibriumRow {
+    EquilibriumRow {
         model: solution.request.contact,
         in_contact: solution.in_contact().count(),
         target_share: variants::target_share(solution),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::Case;
-use super::claims::{Elsewhere, JudgedClaim};
+use super::claims::{ClaimId, Elsewhere, JudgedClaim};
 use super::evidence::BY_ROUNDING;
 use crate::benchmark::Strand;
 use base::choices;
@@ -124,7 +124,7 @@ pub fn distinct(places: impl Iterator<Item = ParameterValue> + Clone) -> usize {
 /// Writes claim P12 at the places of the range, a row each: the parameter, its value, whether it is the paper's
 /// example as we assume it, and the distance of the nearest run from the equilibrium.
 pub fn table(claims: &[JudgedClaim]) -> String {
-    let p12 = claims.iter().filter(|judged| judged.claim.id == "P12");
+    let p12 = claims.iter().filter(|judged| judged.claim.id == ClaimId::P12);
     let row = |other: &Elsewhere| {
         let ParameterValue { parameter, value, own } = other.place;
         let error = other.measured.figure(|error| format!("{error:.4}"));

@@ -4,12 +4,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::evidence::{Measured, NoFigures};
+use super::evidence::{NoFigures, Outcome, differ};
 use super::findings::ROUNDING;
 use super::variants::apart;
 use engine::error::Error;
-use engine::estimates::moves;
-use engine::{Detail, Request, Solution, max_displacement, solve};
+use engine::{Detail, Request, Solution, max_displacement, over, solve};
 use mathcad::{Failure, Settings, SparseSquare};
 use paper::door::{self, Call};
 use paper::listings::{self, Which};
@@ -53,9 +52,6 @@ pub struct Effect {
     pub failure: Option<NoFigures>,
 }
 
-/// Nothing where a trial runs through, else what stopped it.
-type Outcome = Result<(), NoFigures>;
-
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
     let cases = || [case].into_iter().chain(case.equivalents());
@@ -66,7 +62,7 @@ pub fn effects(case: &Case) -> Vec<Effect> {
     let as_read: Vec<(&Case, AsRead)> = cases().map(|case| (case, as_read(case))).collect();
     let effect = |(row, other)| {
         let mut effects = as_read.iter().map(|(case, own)| Effect::new(row, other, case, own));
-        effects.next().expect("the case itself").repeated(effects)
+        effects.next().expect("the case itself").confirmed_by(effects)
     };
     others(case).into_par_iter().map(effect).collect()
 }
@@ -163,7 +159,7 @@ impl Effect {
         reading: Reading,
         case: &Case,
         as_read: &AsRead,
-    ) -> Outcome {
+    ) -> Outcome<()> {
         let own = case.run(self.variant.unwrap_or(case.published_variant()));
         match trial {
             // The mirror under the reading, beside the mirror under the default one.
@@ -244,18 +240,13 @@ impl Effect {
             || self.entries.is_some_and(|n| n > 0)
             || self.displacement.is_some_and(|d| d > 0.0)
     }
-}
 
-impl Measured for Effect {
-    fn moves(&self, other: &Self) -> bool {
-        let counts = |effect: &Self| [effect.statuses, effect.entries];
-        self.failure.is_some() != other.failure.is_some()
-            || counts(self) != counts(other)
-            || moves(self.displacement, other.displacement, self.size)
-            || moves(self.equilibrium_error, other.equilibrium_error, 1.0)
-    }
-
-    fn by_rounding(self) -> Self {
+    /// Leaves the figures out where one of `others`, measured on inputs that mean the same, has other ones.
+    fn confirmed_by(self, mut others: impl Iterator<Item = Self>) -> Self {
+        let figures = self.figures();
+        if others.all(|other| !differ(&figures, &other.figures())) {
+            return self;
+        }
         Effect {
             statuses: None,
             entries: None,
@@ -264,6 +255,17 @@ impl Measured for Effect {
             failure: Some(NoFigures::Rounding),
             ..self
         }
+    }
+
+    /// Returns whether it fails, and the figures, each over the scale of its kind.
+    fn figures(&self) -> [Option<f64>; 5] {
+        [
+            Some(f64::from(self.failure.is_some())),
+            self.statuses.map(|n| n as f64),
+            self.entries.map(|n| n as f64),
+            self.displacement.map(|displacement| over(displacement, self.size)),
+            self.equilibrium_error,
+        ]
     }
 }
 

@@ -9,8 +9,8 @@ use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::findings::{Evidence, Finding, Repair};
 use crate::audit::prices::table as prices;
 use crate::audit::readings::Effect;
-use crate::audit::variants::{End, VariantRow};
-use crate::audit::{Audit, Compared, FrictionContact, words};
+use crate::audit::variants::{VariantRow, VariantRun};
+use crate::audit::{Audit, EquilibriumRow, FrictionContact, words};
 use engine::Cycle;
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -71,10 +71,10 @@ fn readings(effects: &[Effect]) -> Report {
 
 fn findings<'a>(findings: &'a [(&Finding, Evidence)]) -> Table<Vec<&'a (&'a Finding, Evidence)>> {
     Table::from_rows(findings)
-        .column("id", |(finding, _)| finding.id)
-        .column("line", |(finding, _)| match finding.lines {
-            [] => finding.listing.to_string(),
-            lines => format!("{} {}", finding.listing, listed(lines)),
+        .column("id", |(finding, _)| finding.id.name())
+        .column("line", |(finding, _)| match finding.listing {
+            None => "-".into(),
+            Some(which) => format!("{which} {}", listed(finding.lines)),
         })
         .column("verdict", |(_, measured)| measured.verdict.name())
         .column("value", |(_, measured)| measured.cell())
@@ -109,7 +109,7 @@ fn variants(audit: &Audit) -> Report {
 
 /// Returns the cells of a variant behind those of every table of runs; none of one that failed.
 fn beside(row: &VariantRow) -> Vec<Cell> {
-    let End::Result {
+    let Ok(VariantRun {
         transmits_nothing,
         eq1_residual,
         cycle,
@@ -117,7 +117,7 @@ fn beside(row: &VariantRow) -> Vec<Cell> {
         friction_needed,
         pulling,
         ..
-    } = &row.end
+    }) = &row.outcome
     else {
         return Vec::new();
     };
@@ -138,8 +138,8 @@ fn beside(row: &VariantRow) -> Vec<Cell> {
 }
 
 /// Reports a solution that others are compared with, and what rounding does to it.
-fn solution_without_mistakes(what: &str, other: Option<&Compared>) -> Report {
-    let Some(Compared {
+fn solution_without_mistakes(what: &str, other: Option<&EquilibriumRow>) -> Report {
+    let Some(EquilibriumRow {
         model,
         in_contact,
         target_share: _,
@@ -221,6 +221,14 @@ pub(super) fn rows<S: Serializer>(
         .collect_seq(findings.iter().map(|(finding, measured)| FindingRow { finding, measured }))
 }
 
+/// Writes the name of a finding's listing, `-` for none.
+pub(super) fn name_of_listing<S: Serializer>(
+    listing: &Option<Which>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(listing.map_or("-", Which::name))
+}
+
 /// Writes the name of a scene.
 pub(super) fn name<S: Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&scene.name)
@@ -239,9 +247,9 @@ pub fn explanation(
     reading: &Reading,
 ) -> Report {
     let value = measured.figure(short);
-    let quotation = match finding.listing.parse::<Which>() {
-        Err(_) => Report::default().note("none: it is in what the paper does around the listings"),
-        Ok(which) => {
+    let quotation = match finding.listing {
+        None => Report::default().note("none: it is in what the paper does around the listings"),
+        Some(which) => {
             let lines = which.text().lines().filter(|line| !line.starts_with('#'));
             let printed: Vec<&str> = lines.map(str::trim_start).collect();
             let line = |n: &usize| format!("{} {n:>2}  {}\n", which.name(), printed[n - 1]);

@@ -4,10 +4,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::evidence::{Measured, NoFigures, beyond_noise, repeated};
+use super::evidence::{Outcome, beyond_noise, flat, repeated};
 use engine::contact::pulling;
 use engine::estimates::discretisation::Discretisation;
-use engine::estimates::moves;
 use engine::{
     BodySummary, Cycle, Distance, Solution, distance, max_displacement, over, share_of_load,
     summaries,
@@ -23,94 +22,62 @@ pub struct VariantRow {
     /// The variant.
     pub variant: Variant,
     /// What came of it.
-    #[serde(flatten)]
-    pub end: End,
+    #[serde(flatten, serialize_with = "flat")]
+    pub outcome: Outcome<VariantRun>,
 }
 
-/// What came of the run of a variant.
+/// The end of the run of a variant.
 #[derive(Clone, Debug, Serialize)]
-#[serde(untagged)]
-#[expect(clippy::large_enum_variant, reason = "there is one for each of four variants")]
-pub enum End {
-    /// It has a result.
-    Result {
-        /// Number of contact nodes with dy = 1, by iteration.
-        in_contact: Vec<usize>,
-        /// The contact nodes themselves at the last one.
-        contact_set: Vec<NodeId>,
-        /// The force that contact passes on at the end over the size of the whole load; 0 without a
-        /// load.
-        target_share: Option<f64>,
-        /// Whether contact passes no load on at the end, beyond rounding, though there is a load.
-        transmits_nothing: bool,
-        /// Residual of eq. (1) at the end, total displacements, length.
-        eq1_residual: f64,
-        /// Where the last contact state came before.
-        cycle: Option<Cycle>,
-        /// The largest displacement and stress of each body.
-        bodies: Vec<BodySummary>,
-        /// How far this is from the equilibrium under the scene's own friction; nothing where there is
-        /// none.
-        distance: Option<Distance>,
-        /// The largest friction coefficient that a node in contact would need not to slide.
-        friction_needed: Option<f64>,
-        /// The nodes in contact that the target pulls.
-        pulling: Vec<NodeId>,
-        /// The deepest contact node at the end; nothing where none faces the target.
-        penetration: Option<Penetration>,
-        /// The node that is pressed hardest across an open gap at the end; nothing where none is.
-        across: Option<PressedAcross>,
-        /// Of a scene that is its own mirror image, the largest difference of a displacement from that of the
-        /// mirrored node, over the largest displacement; nothing of another scene.
-        asymmetry: Option<f64>,
-        /// The error of the mesh in the energy norm, relative; nothing where it is not known.
-        mesh_error: Option<f64>,
-    },
-    /// It has none.
-    Failure {
-        /// Why the run ended without a result; or that rounding decides on it.
-        failure: NoFigures,
-    },
+pub struct VariantRun {
+    /// Number of contact nodes with dy = 1, by iteration.
+    pub in_contact: Vec<usize>,
+    /// The contact nodes themselves at the last one.
+    pub contact_set: Vec<NodeId>,
+    /// The force that contact passes on at the end over the size of the whole load; 0 without a
+    /// load.
+    pub target_share: Option<f64>,
+    /// Whether contact passes no load on at the end, beyond rounding, though there is a load.
+    pub transmits_nothing: bool,
+    /// Residual of eq. (1) at the end, total displacements, length.
+    pub eq1_residual: f64,
+    /// Where the last contact state came before.
+    pub cycle: Option<Cycle>,
+    /// The largest displacement and stress of each body.
+    pub bodies: Vec<BodySummary>,
+    /// How far this is from the equilibrium under the scene's own friction; nothing where there is
+    /// none.
+    pub distance: Option<Distance>,
+    /// The largest friction coefficient that a node in contact would need not to slide.
+    pub friction_needed: Option<f64>,
+    /// The nodes in contact that the target pulls.
+    pub pulling: Vec<NodeId>,
+    /// The deepest contact node at the end; nothing where none faces the target.
+    pub penetration: Option<Penetration>,
+    /// The node that is pressed hardest across an open gap at the end; nothing where none is.
+    pub across: Option<PressedAcross>,
+    /// Of a scene that is its own mirror image, the largest difference of a displacement from that of the
+    /// mirrored node, over the largest displacement; nothing of another scene.
+    pub asymmetry: Option<f64>,
+    /// The error of the mesh in the energy norm, relative; nothing where it is not known.
+    pub mesh_error: Option<f64>,
 }
 
-impl End {
+impl VariantRun {
     /// Returns whether its contact state alternates, so that its figures are those of one of several states.
     pub fn is_unsettled(&self) -> bool {
-        matches!(self, End::Result { cycle: Some(cycle), .. } if cycle.length > 1)
+        self.cycle.as_ref().is_some_and(|cycle| cycle.length > 1)
     }
 
-    /// Returns why it has none.
-    pub fn failure(&self) -> Option<&NoFigures> {
-        match self {
-            End::Result { .. } => None,
-            End::Failure { failure } => Some(failure),
-        }
-    }
-
-    /// Returns the figures of a result at its end, each over the scale of its kind.
+    /// Returns the figures at its end, each over the scale of its kind.
     fn figures(&self) -> Vec<Option<f64>> {
-        let End::Result {
-            in_contact,
-            target_share,
-            cycle,
-            bodies,
-            distance,
-            friction_needed,
-            pulling,
-            penetration,
-            ..
-        } = self
-        else {
-            return Vec::new();
-        };
         let mut figures = vec![
-            in_contact.last().map(|n| *n as f64),
-            Some(pulling.len() as f64),
-            *target_share,
-            distance.as_ref().map(|from| from.energy_relative),
-            *friction_needed,
-            penetration.as_ref().map(|found| found.relative),
-            cycle.as_ref().map(|cycle| cycle.length as f64),
+            self.in_contact.last().map(|n| *n as f64),
+            Some(self.pulling.len() as f64),
+            self.target_share,
+            self.distance.as_ref().map(|from| from.energy_relative),
+            self.friction_needed,
+            self.penetration.as_ref().map(|found| found.relative),
+            self.cycle.as_ref().map(|cycle| cycle.length as f64),
         ];
         let sizes: [fn(&BodySummary) -> f64; 3] = [
             |body| body.max_displacement,
@@ -118,22 +85,10 @@ impl End {
             |body| body.max_von_mises_strain,
         ];
         for size in sizes {
-            let largest = bodies.iter().map(size).fold(0.0, f64::max);
-            figures.extend(bodies.iter().map(|body| Some(over(size(body), largest))));
+            let largest = self.bodies.iter().map(size).fold(0.0, f64::max);
+            figures.extend(self.bodies.iter().map(|body| Some(over(size(body), largest))));
         }
         figures
-    }
-}
-
-impl Measured for End {
-    fn moves(&self, other: &Self) -> bool {
-        let (own, other) = (self.figures(), other.figures());
-        own.len() != other.len()
-            || own.iter().zip(&other).any(|(own, other)| moves(*own, *other, 1.0))
-    }
-
-    fn by_rounding(self) -> Self {
-        End::Failure { failure: NoFigures::Rounding }
     }
 }
 
@@ -208,8 +163,11 @@ fn asymmetry(solution: &Solution) -> Option<f64> {
 
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
-    let end = |variant| repeated(case, |case| end(case, variant));
-    Variant::ALL.par_iter().map(|v| VariantRow { variant: *v, end: end(*v) }).collect()
+    let row = |variant: &Variant| {
+        let outcome = repeated(case, |case| end(case, *variant), VariantRun::figures);
+        VariantRow { variant: *variant, outcome }
+    };
+    Variant::ALL.par_iter().map(row).collect()
 }
 
 /// Returns how far a run is from the equilibrium; what is rounding alone is 0.
@@ -232,14 +190,11 @@ pub(super) fn mesh_error(solution: &Solution) -> Option<f64> {
     finite(Discretisation::new(&solution.model, &solution.elements).relative())
 }
 
-fn end(case: &Case, variant: Variant) -> End {
-    let solution = match case.run(variant) {
-        Ok(solution) => solution,
-        Err(why) => return End::Failure { failure: why.into() },
-    };
+fn end(case: &Case, variant: Variant) -> Outcome<VariantRun> {
+    let solution = case.run(variant)?;
     let (model, last) = (&*solution.model, solution.last());
     let needed = solution.contact.iter().filter_map(|c| c.friction_needed);
-    End::Result {
+    Ok(VariantRun {
         in_contact: solution.steps.iter().map(|step| step.in_contact).collect(),
         contact_set: last.contact_set(model),
         target_share: target_share(solution),
@@ -254,5 +209,5 @@ fn end(case: &Case, variant: Variant) -> End {
         across: PressedAcross::of(solution),
         asymmetry: asymmetry(solution),
         mesh_error: mesh_error(solution),
-    }
+    })
 }

@@ -2,13 +2,13 @@
 //! reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests on.
 
 use crate::audit::claims::table as claims;
-use crate::audit::claims::{JudgedClaim, Scope, Verdict};
+use crate::audit::claims::{ClaimId, JudgedClaim, Scope, Verdict};
 use crate::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread, of_the_paper};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
 use crate::audit::prices::table::{self as prices, Cost};
 use crate::audit::range::{is_example, recorded};
-use crate::audit::variants::{End, PressedAcross, VariantRow};
+use crate::audit::variants::{PressedAcross, VariantRow, VariantRun};
 use crate::audit::{Assumption, Audit, tables};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
@@ -175,7 +175,7 @@ fn verdict(audit: &Audit) -> Vec<String> {
         Variant::Tied | Variant::Stepped | Variant::Printed | Variant::Unilateral => words,
     });
     let is_unknown = |judged: &JudgedClaim| {
-        judged.claim.id == "P13" && judged.measured.verdict == Verdict::NotCheckable
+        judged.claim.id == ClaimId::P13 && judged.measured.verdict == Verdict::NotCheckable
     };
     let other_code = (is_example && audit.claims.iter().any(is_unknown))
         .then(|| "Agreement with the commercial code cannot be checked (P13).".into());
@@ -317,18 +317,8 @@ fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
 /// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which ends inside
 /// the target, how many pull, and how far a symmetric scene answers unsymmetrically.
 fn wrong_with(row: &VariantRow, scene: &Scene) -> Option<String> {
-    let End::Result {
-        penetration,
-        pulling,
-        transmits_nothing: false,
-        across,
-        asymmetry,
-        mesh_error,
-        ..
-    } = &row.end
-    else {
-        return None;
-    };
+    let run = row.outcome.as_ref().ok().filter(|run| !run.transmits_nothing)?;
+    let VariantRun { penetration, pulling, across, asymmetry, mesh_error, .. } = run;
     let length = |x: f64| with_unit(&figure(x, *mesh_error), &scene.units.length);
     let across = across.map(|PressedAcross { node, pressure, gap }| {
         let pressure = with_unit(&figure(pressure, *mesh_error), &scene.units.stress);
@@ -347,7 +337,7 @@ fn wrong_with(row: &VariantRow, scene: &Scene) -> Option<String> {
         format!("the symmetric scene answers unsymmetrically, by {part} of the largest |u|")
     });
     let faults: Vec<String> = [across, inside, pulls, mirrored].into_iter().flatten().collect();
-    let unsettled = if row.end.is_unsettled() { " (does not settle)" } else { "" };
+    let unsettled = if run.is_unsettled() { " (does not settle)" } else { "" };
     (!faults.is_empty()).then(|| format!("Under {}{unsettled} {}.", row.variant, faults.join("; ")))
 }
 
@@ -376,12 +366,12 @@ pub(super) fn columns(scene: &Scene) -> [String; 5] {
 /// Returns the cells of a variant; of one that failed its name and why.
 pub(super) fn variant(row: &VariantRow) -> Vec<Cell> {
     let name = row.variant.name();
-    match &row.end {
-        End::Failure { failure: NoFigures::Refused(_) } => {
-            vec![name.into(), Cell::Empty, "not run".into()]
-        }
-        End::Failure { failure } => vec![name.into(), Cell::Empty, failure.in_short().into()],
-        End::Result { in_contact, target_share, cycle, bodies, distance, mesh_error, .. } => {
+    match &row.outcome {
+        Err(NoFigures::Refused(_)) => vec![name.into(), Cell::Empty, "not run".into()],
+        Err(why) => vec![name.into(), Cell::Empty, why.in_short().into()],
+        Ok(VariantRun {
+            in_contact, target_share, cycle, bodies, distance, mesh_error, ..
+        }) => {
             let nodes = match cycle {
                 Some(cycle) if cycle.length > 1 => {
                     let mut counts: Vec<usize> =

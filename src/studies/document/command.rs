@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use crate::audit::prices::{Compared, Price};
+use crate::audit::prices::{self, Price};
 use crate::audit::{Audit, Case, audit};
 use crate::calculix::{self, Pair};
 use crate::document::page;
@@ -146,7 +146,7 @@ fn repairs(args: &Args, case: &Case, audit: &Audit) -> Vec<Price> {
     if case.model().nodes.len() > MOST_NODES && !args.repairs {
         return Vec::new();
     }
-    Compared::new(case).map_or(Vec::new(), |compared| compared.repairs(alone, &|| ()))
+    prices::repairs(case, alone, &|| ()).unwrap_or_default()
 }
 
 /// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and the

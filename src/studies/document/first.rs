@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
 use crate::audit::claims::{CLAIMS, Claim, table as claims};
-use crate::audit::findings::FINDINGS;
+use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::table::by_cost;
 use crate::audit::words::{Depth, JUDGED, Section, sections};
 use crate::audit::{Assumption, Audit};
@@ -73,8 +73,8 @@ fn definitions(assumptions: &[Assumption]) -> String {
 
 /// Returns what an id means, and the place of the page that says more; nothing of a word that is none.
 fn meaning(word: &str) -> Option<(&'static str, String)> {
-    let claim = CLAIMS.iter().find(|claim| claim.id == word).map(|claim| claim.judged);
-    let finding = FINDINGS.iter().find(|finding| finding.id == word).map(|finding| finding.title);
+    let claim = word.parse().ok().map(|id| Claim::of(id).judged);
+    let finding = word.parse().ok().map(|id| Finding::of(id).title);
     let reading =
         READINGS.iter().find(|row| row.id == word).map(|row| (row.what, "readings".into()));
     claim.or(finding).map(|words| (words, anchor(word))).or(reading)
@@ -105,8 +105,8 @@ fn is_apart(c: char) -> bool {
 /// Returns the meanings of the ids in a text, which are shown in print.
 fn key(html: &str) -> String {
     let words: BTreeSet<&str> = html.split(is_apart).collect();
-    let claims = CLAIMS.iter().map(|Claim { id, judged, .. }| (*id, *judged));
-    let ids = claims.chain(FINDINGS.iter().map(|finding| (finding.id, finding.title)));
+    let claims = CLAIMS.iter().map(|Claim { id, judged, .. }| (id.name(), *judged));
+    let ids = claims.chain(FINDINGS.iter().map(|finding| (finding.id.name(), finding.title)));
     let ids = ids.filter(|(id, _)| words.contains(id));
     let items: String =
         ids.map(|(id, words)| format!("<li><b>{id}</b> {}</li>", escape(words))).collect();

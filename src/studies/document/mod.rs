@@ -5,10 +5,10 @@ mod first;
 mod glossary;
 pub mod page;
 
-use crate::audit::claims::Verdict as ClaimVerdict;
+use crate::audit::claims::Verdict;
 use crate::audit::claims::table::in_full;
 use crate::audit::evidence::NoFigures;
-use crate::audit::findings::Verdict;
+use crate::audit::findings::{FindingId, Presence};
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
@@ -90,7 +90,7 @@ fn audited(found: &Audit, repairs: &[Price]) -> Report {
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = found.findings.iter().fold(findings, |report, (finding, measured)| {
-        let picture = folder::finding_picture(finding.id, &finding.scene());
+        let picture = folder::finding_picture(finding.id.name(), &finding.scene());
         report
             .then(explanation(finding, measured, &found.scene, &found.conclusion.reading).deeper(2))
             .figure(format!("The smallest scene that shows {}", finding.id), picture)
@@ -235,7 +235,7 @@ fn other_codes(contents: &Contents) -> Report {
 /// Reports the claims that cannot be checked, the runs that stop, and the findings that are not
 /// triggered.
 fn unchecked(audit: &Audit) -> Report {
-    let claims = audit.claims.iter().filter(|j| j.measured.verdict == ClaimVerdict::NotCheckable);
+    let claims = audit.claims.iter().filter(|j| j.measured.verdict == Verdict::NotCheckable);
     let claims = claims.map(|judged| {
         let claim = &judged.claim;
         format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
@@ -247,15 +247,14 @@ fn unchecked(audit: &Audit) -> Report {
         }
         NoFigures::Rounding => "on which rounding decides".into(),
     };
-    let variants = audit
-        .variants
-        .iter()
-        .filter_map(|row| Some(format!("variant {}, {}", row.variant, why(row.end.failure()?))));
+    let variants = audit.variants.iter().filter_map(|row| {
+        Some(format!("variant {}, {}", row.variant, why(row.outcome.as_ref().err()?)))
+    });
     let readings = audit.readings.iter().filter_map(|effect| {
         Some(format!("reading {}, {}", effect.reading, why(effect.failure.as_ref()?)))
     });
-    let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Verdict::NotTriggered);
-    let untriggered: Vec<&str> = untriggered.map(|(finding, _)| finding.id).collect();
+    let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Presence::NotTriggered);
+    let untriggered: Vec<FindingId> = untriggered.map(|(finding, _)| finding.id).collect();
     let findings = (!untriggered.is_empty()).then(|| {
         let ids = listed(&untriggered);
         format!(

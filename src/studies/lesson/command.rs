@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::audit::Case;
 use crate::audit::findings::{FINDINGS, Finding};
-use crate::audit::prices::{Compared, Price};
+use crate::audit::prices::{self, Price};
 use crate::lesson::page::{self as page, Chapter, Measured};
 use crate::lesson::{self as study, Repairs, Switch, reference, run as execute, switches};
 use base::files::{self, HTML};
@@ -78,8 +78,8 @@ fn lesson(args: &Args) -> Result<String> {
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        let on_fig1 = Compared::new(&Case::new(Scene::open("fig1")?)).ok();
-        let findings = FINDINGS.iter().map(|finding| chapter(finding, on_fig1.as_ref()));
+        let fig1 = Case::new(Scene::open("fig1")?);
+        let findings = FINDINGS.iter().map(|finding| chapter(finding, &fig1));
         chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
@@ -104,15 +104,14 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
 }
 
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on fig1.
-fn chapter(finding: &'static Finding, on_fig1: Option<&Compared>) -> Result<Chapter> {
+fn chapter(finding: &'static Finding, fig1: &Case) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
-    let (evidence, own) = (finding.measure(&case), Compared::new(&case).ok());
-    let of_scenes = [(case.scene.name.as_str(), own.as_ref()), ("fig1", on_fig1)];
-    let priced = of_scenes.into_iter().flat_map(|(scene, compared)| {
-        let prices = compared.map_or(vec![], |compared| prices(compared, finding));
-        prices.into_iter().map(move |price| (scene.to_string(), price))
+    let evidence = finding.measure(&case);
+    let priced = [&case, fig1].into_iter().flat_map(|case| {
+        let prices = prices(case, finding).into_iter();
+        prices.map(|price| (case.scene.name.clone(), price))
     });
     let measured = Measured { finding, evidence, prices: priced.collect() };
     Ok(opened(case.scene, runs, vec![], Some(measured)))
@@ -120,10 +119,11 @@ fn chapter(finding: &'static Finding, on_fig1: Option<&Compared>) -> Result<Chap
 
 /// Returns what a finding's faults cost on a scene; nothing where the corrected algorithm itself has no result that is
 /// sure.
-fn prices(compared: &Compared, finding: &Finding) -> Vec<Price> {
+fn prices(case: &Case, finding: &Finding) -> Vec<Price> {
     let faults: Vec<_> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    let prices = prices::of_faults(case, &faults, &|| ()).unwrap_or_default();
     // The first price is that of no fault.
-    compared.prices_of(&faults, &|| ()).into_iter().skip(1).collect()
+    prices.into_iter().skip(1).collect()
 }
 
 /// Returns a chapter with its reference solution, on the model of its first run.

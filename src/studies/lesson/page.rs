@@ -55,7 +55,7 @@ pub struct Measured {
 impl Measured {
     fn json(&self) -> Value {
         let price = |(scene, price): &(String, Price)| {
-            let error = Some(price.outcome.error()).filter(|error| error.is_finite());
+            let error = Some(price.error()).filter(|error| error.is_finite());
             json!({ "scene": scene, "name": price.name, "weight": price.weight, "error": error })
         };
         let mut row = json!(FindingRow { finding: self.finding, measured: &self.evidence });

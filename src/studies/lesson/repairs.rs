@@ -2,7 +2,7 @@
 
 use super::iterations::MOST_SOLVED;
 use crate::audit::Case;
-use crate::audit::prices::{Compared, Price, needed};
+use crate::audit::prices::{self, Price, needed};
 use nalgebra::DVector;
 use paper::corrected::{FAULTS, Fault};
 use problem::scene::Scene;
@@ -23,10 +23,11 @@ impl Repairs {
             return None;
         }
         // A scene that has no solution has no way to it: the lesson shows that of fig. 1.
-        let compared = Compared::new(&Case::new(scene.clone())).ok()?;
-        let rows = compared.repairs(&compared.prices(&|| ()), &|| ());
+        let case = Case::new(scene.clone());
+        let exact = case.corrected().ok()?;
+        let rows = prices::repairs(&case, &prices::on(&case, &|| ()).ok()?, &|| ()).ok()?;
         let needed = needed(&rows)?;
-        Some((Repairs { rows, needed }, compared.exact.u))
+        Some((Repairs { rows, needed }, exact.u.clone()))
     }
 
     /// Returns the numbers of repairs that a lesson shows: up to the solution, and all.

@@ -21,7 +21,8 @@ pub struct Args {}
 pub fn run(_: &Args) -> Result<()> {
     let scenes = SCENES.iter().map(|scene| Ok((scene.name, Scene::open(scene.name)?)));
     let scenes = scenes.collect::<Result<Vec<_>>>()?;
-    let findings: Vec<_> = FINDINGS.iter().map(|finding| (finding.id, finding.title)).collect();
+    let findings: Vec<_> =
+        FINDINGS.iter().map(|finding| (finding.id.name(), finding.title)).collect();
     let generators = Kind::augment_subcommands(clap::Command::new("mesh"));
     let about = |command: &clap::Command| command.get_about().map(ToString::to_string);
     let generators = generators.get_subcommands();

@@ -15,24 +15,25 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 pub(super) use measures::nearest;
-pub use register::CLAIMS;
+pub use register::{CLAIMS, ClaimId};
 
 use super::case::Case;
-use super::evidence::{BY_ROUNDING, Measured, repeated};
-use super::findings::{self, FINDINGS};
+use super::evidence::{self, BY_ROUNDING, Outcome};
+use super::findings::{Finding, FindingId, Presence};
 use super::range::{ParameterValue, Range};
 use super::readings::others;
 use base::choices;
 use base::error::InputError;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
+use report::layout::first_line;
 use report::numbers::short;
 
 /// Something that the paper says.
 #[derive(Clone, Debug, Serialize)]
 pub struct Claim {
     /// Its name: P1, P2, ...
-    pub id: &'static str,
+    pub id: ClaimId,
     /// Where the words stand in the paper.
     pub place: &'static str,
     /// The paper's words.
@@ -68,14 +69,14 @@ pub struct Claim {
 #[derive(Clone, Copy, Debug)]
 enum Measure {
     /// By a finding, on the finding's scene: if it is present, the claim is false.
-    Refuted(&'static str),
+    Refuted(FindingId),
     /// By a finding, on the finding's scene: if it is present, the claim has this verdict, with
     /// these words.
-    Finding(&'static str, Verdict, &'static str),
+    Finding(FindingId, Verdict, &'static str),
     /// By an experiment on a scene.
-    Scene(fn(&Case) -> Outcome<'_>),
+    Scene(fn(&Case) -> Outcome<Evidence>),
     /// By an experiment on a scene, which more runs confirm.
-    Confirmed(fn(&Case) -> Outcome<'_>, fn(&Case, Evidence) -> Evidence),
+    Confirmed(fn(&Case) -> Outcome<Evidence>, fn(&Case, Evidence) -> Evidence),
     /// By nothing, for this reason.
     Nothing(&'static str),
 }
@@ -132,39 +133,8 @@ choices! {
     }
 }
 
-/// What a scene says of a claim, or why a run failed.
-type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
-
 /// A verdict, the number that the claim names, and its condition or what else is to be said.
-pub type Evidence = super::evidence::Evidence<Verdict>;
-
-impl Measured for Evidence {
-    fn moves(&self, other: &Self) -> bool {
-        self.differs(other)
-    }
-
-    fn by_rounding(self) -> Self {
-        let detail = match self.verdict {
-            Verdict::TrueOnlyIf => self.detail,
-            Verdict::True | Verdict::False | Verdict::NotCheckable => BY_ROUNDING.into(),
-        };
-        Evidence { number: None, by_rounding: true, detail, ..self }
-    }
-
-    /// Without a common verdict there is none.
-    fn repeated(self, others: impl Iterator<Item = Self>) -> Self {
-        let others: Vec<Self> = others.collect();
-        if others.iter().all(|other| !self.moves(other)) {
-            return self;
-        }
-        let is_common = others.iter().all(|other| other.verdict == self.verdict);
-        let verdict = if is_common { self.verdict } else { Verdict::NotCheckable };
-        let numbers = || others.iter().chain([&self]).filter_map(|other| other.number);
-        let range = [numbers().reduce(f64::min), numbers().reduce(f64::max)];
-        let range = range[0].zip(range[1]).map(|(least, most)| [least, most]);
-        Evidence { verdict, range, ..self }.by_rounding()
-    }
-}
+pub type Evidence = evidence::Evidence<Verdict>;
 
 impl Evidence {
     /// Returns the verdict in words, with its condition.
@@ -222,7 +192,7 @@ pub struct UnderReading {
 #[derive(Clone, Debug, Serialize)]
 pub struct ClaimVerdict {
     /// The claim's name.
-    pub id: &'static str,
+    pub id: ClaimId,
     /// What the scene says of it.
     #[serde(flatten)]
     pub measured: Evidence,
@@ -257,6 +227,11 @@ pub fn judge(claims: &[Claim], case: &Case, places: &Range) -> Vec<JudgedClaim> 
 }
 
 impl Claim {
+    /// Returns the claim of a name.
+    pub fn of(id: ClaimId) -> &'static Self {
+        &CLAIMS[id as usize]
+    }
+
     /// Measures the claim on a scene and on the inputs that mean the same. Where a run fails, the detail says so.
     pub fn measure(&self, case: &Case) -> Evidence {
         match self.measure {
@@ -305,30 +280,43 @@ impl Claim {
     }
 }
 
-/// Measures on a scene, and on the inputs that mean the same.
-fn on_scene(case: &Case, measure: fn(&Case) -> Outcome<'_>) -> Evidence {
-    repeated(case, |case| {
+/// Measures on a scene, and on the inputs that mean the same; where these have no verdict in common there
+/// is none.
+fn on_scene(case: &Case, measure: fn(&Case) -> Outcome<Evidence>) -> Evidence {
+    let measure = |case: &Case| {
         measure(case).unwrap_or_else(|why| {
-            let why = why.to_string();
-            Evidence::new(Verdict::NotCheckable, None, why.lines().next().unwrap_or_default())
+            Evidence::new(Verdict::NotCheckable, None, first_line(&why.to_string()))
         })
-    })
+    };
+    let others: Vec<Evidence> = case.equivalents().iter().map(measure).collect();
+    let own = measure(case);
+    let numbers = || others.iter().chain([&own]).filter_map(|evidence| evidence.number);
+    let range = numbers().reduce(f64::min).zip(numbers().reduce(f64::max));
+    let is_common = others.iter().all(|other| other.verdict == own.verdict);
+    let found = own.confirmed_by(&others);
+    if !found.by_rounding {
+        return found;
+    }
+    let verdict = if is_common { found.verdict } else { Verdict::NotCheckable };
+    let detail = match verdict {
+        Verdict::TrueOnlyIf => found.detail,
+        Verdict::True | Verdict::False | Verdict::NotCheckable => BY_ROUNDING.into(),
+    };
+    Evidence { verdict, range: range.map(Into::into), detail, ..found }
 }
 
 /// Judges a claim by a finding on the finding's own scene under a reading; without words the finding's
 /// title is the detail.
-fn by_finding(id: &str, verdict: Verdict, words: Option<&str>, reading: Reading) -> Evidence {
-    let finding = FINDINGS.iter().find(|finding| finding.id == id).expect("an id of the register");
+fn by_finding(id: FindingId, verdict: Verdict, words: Option<&str>, reading: Reading) -> Evidence {
+    let finding = Finding::of(id);
     let case = match Case::new(finding.scene()).under(reading) {
         Ok(case) => case,
         Err(why) => return Evidence::new(Verdict::NotCheckable, None, why.to_string()),
     };
     let found = finding.measure(&case);
     match found.verdict {
-        findings::Verdict::Present => {
-            Evidence::new(verdict, found.number, words.unwrap_or(finding.title))
-        }
-        findings::Verdict::NotTriggered | findings::Verdict::Contradicted => {
+        Presence::Present => Evidence::new(verdict, found.number, words.unwrap_or(finding.title)),
+        Presence::NotTriggered | Presence::Contradicted => {
             let detail = format!("{id} does not show on its scene: {}", found.detail);
             Evidence::new(Verdict::NotCheckable, found.number, detail)
         }

@@ -1,15 +1,37 @@
 //! What the paper says, in the order of its text.
 
 use super::{Basis, Claim, Measure, Verdict, measures};
+use base::choices;
+use paper::findings::FindingId;
+
+choices! {
+    /// The name of a claim.
+    #[expect(missing_docs, reason = "the table says what each is")]
+    ClaimId {
+        P1 = "P1",
+        P2 = "P2",
+        P3 = "P3",
+        P4 = "P4",
+        P5 = "P5",
+        P6 = "P6",
+        P7 = "P7",
+        P8 = "P8",
+        P9 = "P9",
+        P10 = "P10",
+        P11 = "P11",
+        P12 = "P12",
+        P13 = "P13",
+    }
+}
 
 /// Where the thresholds of this audit come from.
 const HUNDREDTH: &str = "1 %, a change that shows in a picture: this audit's; the paper gives none";
 const COUNT: &str = "none: a single one decides";
 
-/// All claims: P1 to P13.
+/// All claims, in the order of their ids, which is that of the text.
 pub const CLAIMS: &[Claim] = &[
     Claim {
-        id: "P1",
+        id: ClaimId::P1,
         place: "statement of the problem, the sentence of eq. (1)",
         quote: "Перемещения по нормали к поверхности контакта совпадают из условия непроникновения одного \
                 из контактирующих тел (далее домена) в другое [5,9]",
@@ -29,7 +51,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::penetrates),
     },
     Claim {
-        id: "P2",
+        id: ClaimId::P2,
         place: "statement of the problem, the sentence of eq. (1)",
         quote: "по касательной к поверхности зоны контакта – из условия равновесия действия сил трения между \
                 контактирующими поверхностями",
@@ -47,7 +69,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Confirmed(measures::friction_needed, measures::confirmed),
     },
     Claim {
-        id: "P3",
+        id: ClaimId::P3,
         place: "statement of the problem, the sentence of eq. (1)",
         quote: "тогда для контактирующих поверхностей: u_cont = u_targ; v_cont = v_targ, (1)",
         translation: "then, for the surfaces in contact: u_cont = u_targ; v_cont = v_targ, (1)",
@@ -59,10 +81,10 @@ pub const CLAIMS: &[Claim] = &[
         number: "entries of MJS that join the two bodies, on the finding's scene",
         command: &["audit", "--finding", "K1", "--json"],
         at: &["/number"],
-        measure: Measure::Refuted("K1"),
+        measure: Measure::Refuted(FindingId::K1),
     },
     Claim {
-        id: "P4",
+        id: ClaimId::P4,
         place: "paragraph on fig. 1",
         quote: "Первоначально, для каждого узла штампа на основе текущих координат узлов обоих доменов \
                 производится поиск элемента, с которым он, предположительно, может взаимодействовать.",
@@ -80,7 +102,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::searches_current),
     },
     Claim {
-        id: "P5",
+        id: ClaimId::P5,
         place: "paragraph on fig. 1, of its node 2.4",
         quote: "Одним из вариантов взаимного расположения узлов может быть ситуация, когда переместившись, \
                 узел контактной поверхности штампа попадает в пространство во внутреннее пространство \
@@ -98,10 +120,14 @@ pub const CLAIMS: &[Claim] = &[
         number: "nodes inside the target, deeper than c_tll, without a target edge, on the finding's scene",
         command: &["audit", "--finding", "C9", "--json"],
         at: &["/number"],
-        measure: Measure::Finding("C9", Verdict::True, "lines 5 to 7 find it no target edge"),
+        measure: Measure::Finding(
+            FindingId::C9,
+            Verdict::True,
+            "lines 5 to 7 find it no target edge",
+        ),
     },
     Claim {
-        id: "P6",
+        id: ClaimId::P6,
         place: "the second of the two solutions, before fig. 2",
         quote: "В этом случае существует два решения: … сравнение знаков Yi соседних узлов",
         translation: "In this case there are two solutions: … comparing the signs of Yi of neighbouring nodes",
@@ -118,7 +144,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::signs_go_wrong),
     },
     Claim {
-        id: "P7",
+        id: ClaimId::P7,
         place: "the second of the two solutions, before fig. 2",
         quote: "в этом случае всем узлам контактирующей поверхности штампа, находящимся на расстоянии от \
                 ответной поверхности не превышающим c_tol, назначается фиксированное значение Yi.",
@@ -133,10 +159,10 @@ pub const CLAIMS: &[Claim] = &[
                  finding's scene",
         command: &["audit", "--finding", "C15", "--json"],
         at: &["/number"],
-        measure: Measure::Refuted("C15"),
+        measure: Measure::Refuted(FindingId::C15),
     },
     Claim {
-        id: "P8",
+        id: ClaimId::P8,
         place: "after the two solutions, before fig. 2",
         quote: "Второй вариант представляется более предпочтительным с точки зрения объемов вычислений.",
         translation: "The second option appears preferable from the point of view of the volume of \
@@ -152,7 +178,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::fewer_operations),
     },
     Claim {
-        id: "P9",
+        id: ClaimId::P9,
         place: "paragraph before fig. 2",
         quote: "Было принято, что исходя из соразмерности размеров КЭ контактирующих поверхностей обоих \
                 доменов, каждый узел любой из рассматриваемых поверхностей связан с двумя узлами ответной",
@@ -168,10 +194,10 @@ pub const CLAIMS: &[Claim] = &[
         number: "target nodes to which two or more contact nodes are tied, on the finding's scene",
         command: &["audit", "--finding", "C7", "--json"],
         at: &["/number"],
-        measure: Measure::Refuted("C7"),
+        measure: Measure::Refuted(FindingId::C7),
     },
     Claim {
-        id: "P10",
+        id: ClaimId::P10,
         place: "paragraph before fig. 2",
         quote: "Было принято, что … а так же, что величина значения c_tol = 0,001 мала для внесения в результат расчета ощутимой \
                 погрешности.",
@@ -189,7 +215,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::tolerance),
     },
     Claim {
-        id: "P11",
+        id: ClaimId::P11,
         place: "data of the example, between fig. 4 and fig. 5",
         quote: "Расчет выполняется итерационно, состоит из 20 итераций.",
         translation: "The analysis is iterative and consists of 20 iterations.",
@@ -205,7 +231,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::settles),
     },
     Claim {
-        id: "P12",
+        id: ClaimId::P12,
         place: "the sentence before fig. 5",
         quote: "Данные результаты совпадают с аналогичным численным экспериментом, проведенном в программном \
                 комплексе Autodesk Simulation Mechanical 2013.",
@@ -224,7 +250,7 @@ pub const CLAIMS: &[Claim] = &[
         measure: Measure::Scene(measures::error_of_the_reading),
     },
     Claim {
-        id: "P13",
+        id: ClaimId::P13,
         place: "the sentence before fig. 5",
         quote: "Данные результаты совпадают с аналогичным численным экспериментом, проведенном в программном \
                 комплексе Autodesk Simulation Mechanical 2013.",
@@ -243,3 +269,13 @@ pub const CLAIMS: &[Claim] = &[
         ),
     },
 ];
+
+// Each claim has its row.
+const _: () = {
+    assert!(CLAIMS.len() == ClaimId::ALL.len());
+    let mut k = 0;
+    while k < CLAIMS.len() {
+        assert!(CLAIMS[k].id as usize == k);
+        k += 1;
+    }
+};

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::measures::how_good_is_the_estimate;
 use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, UnderReading};
 use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
@@ -15,10 +14,14 @@ use report::model::{Report, Table};
 use report::numbers::{or_dash, percent, short};
 use report::tables::PROBABLY_MORE;
 
+/// How the estimate of the error of the mesh compares with the error, as golden/tables/mesh_errors.md has it.
+pub const ESTIMATES: &str = "Beside a mesh 64 times finer it was below the error in 8 of 10 runs, at the median 0.75 of it \
+     (plane-contact guide mesh-errors)";
+
 /// Reports the verdicts.
 pub fn report(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
     let judged = Table::from_rows(claims)
-        .column("id", |judged| judged.claim.id)
+        .column("id", |judged| judged.claim.id.name())
         .column("verdict", |judged| judged.measured.words())
         .column("scope", |judged| judged.scope.to_string())
         .column("certainty", |judged| judged.claim.basis.to_string())
@@ -31,8 +34,7 @@ pub fn report(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report {
              thresholds.",
         )
         .note(format!(
-            "A mesh error is {PROBABLY_MORE}, an underestimate where the stress diverges. {}.",
-            how_good_is_the_estimate()
+            "A mesh error is {PROBABLY_MORE}, an underestimate where the stress diverges. {ESTIMATES}."
         ));
     let report = if claims.iter().all(|judged| judged.elsewhere.is_empty()) {
         report.note(
@@ -104,7 +106,7 @@ fn other_readings(claims: &[JudgedClaim], by_reading: &[UnderReading]) -> Report
         (judged, found.collect::<Vec<_>>())
     });
     let table = Table::from_rows(rows)
-        .column("claim", |(judged, _)| judged.claim.id)
+        .column("claim", |(judged, _)| judged.claim.id.name())
         .column("verdict", |(judged, _)| judged.measured.words())
         .column("readings tried", |(_, found)| found.len())
         .column("another verdict under", |(judged, found)| {
@@ -169,7 +171,7 @@ pub fn counts() -> String {
 /// Returns the verdicts with their values.
 pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
     Table::from_rows(claims)
-        .column("claim", |judged| judged.claim.id)
+        .column("claim", |judged| judged.claim.id.name())
         .column("where in the paper", |judged| judged.claim.place)
         .column("the paper's words", |judged| judged.claim.translation)
         .column("what is judged", |judged| judged.claim.judged)
@@ -185,7 +187,7 @@ pub fn range(claims: &[JudgedClaim]) -> Table<Vec<(&JudgedClaim, Parameter)>> {
         judged.elsewhere.windows(2).any(|w| w[0].measured.verdict != w[1].measured.verdict)
     });
     Table::from_rows(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
-        .column("claim", |(judged, _)| judged.claim.id)
+        .column("claim", |(judged, _)| judged.claim.id.name())
         .column("what is varied", |(_, parameter)| parameter.meaning())
         .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
             over(judged, *parameter)

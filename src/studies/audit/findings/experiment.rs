@@ -1,8 +1,9 @@
 //! What the measures share: the shapes that a case leads to, how an experiment on them is summed
 //! up, and the contact surfaces seen from outside the listing.
 
-use super::{Evidence, Outcome};
+use super::Evidence;
 use crate::audit::Case;
+use crate::audit::evidence::Outcome;
 use mathcad::SparseSquare;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
@@ -41,7 +42,7 @@ pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>
 pub(super) fn at_shapes(
     case: &Case,
     experiment: impl Fn(&Shape) -> Result<Evidence, Failure>,
-) -> Outcome<'_> {
+) -> Outcome<Evidence> {
     let mut heaviest: Option<Evidence> = None;
     for (name, shape) in shapes(case) {
         let nothing = |failure: Failure| Evidence::present_if(false, 0.0, failure.to_string());
@@ -56,7 +57,10 @@ pub(super) fn at_shapes(
 }
 
 /// The same on what `c_cnt` finds in each shape.
-pub(super) fn at_calls(case: &Case, experiment: impl Fn(&Shape, &Call) -> Evidence) -> Outcome<'_> {
+pub(super) fn at_calls(
+    case: &Case,
+    experiment: impl Fn(&Shape, &Call) -> Evidence,
+) -> Outcome<Evidence> {
     at_shapes(case, |shape| Ok(experiment(shape, &c_cnt(case, case.model(), shape)?)))
 }
 

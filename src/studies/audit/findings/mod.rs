@@ -13,13 +13,15 @@ mod stiffness;
 mod weights;
 
 pub(super) use experiment::ROUNDING;
+pub use paper::findings::FindingId;
 pub use register::FINDINGS;
 
 use serde::Serialize;
 
-use super::Case;
-use super::evidence::{Measured, repeated};
+use super::evidence::{self, Outcome};
+use super::{Case, tables};
 use base::choices;
+use paper::listings::Which;
 use problem::model::Model;
 use problem::scene::Scene;
 
@@ -27,9 +29,10 @@ use problem::scene::Scene;
 #[derive(Serialize)]
 pub struct Finding {
     /// Its name: C1, C2, ..., K1, ...
-    pub id: &'static str,
-    /// `c_cnt`, `Km`, or `-` where it is the iterations'.
-    pub listing: &'static str,
+    pub id: FindingId,
+    /// The listing; nothing where it is the iterations around them that do it.
+    #[serde(serialize_with = "tables::name_of_listing")]
+    pub listing: Option<Which>,
     /// The numbers of the printed lines that do it, from 1.
     pub lines: &'static [usize],
     /// What the listing does that the text does not say.
@@ -47,7 +50,7 @@ pub struct Finding {
     #[serde(rename = "of")]
     pub number: &'static str,
     #[serde(skip)]
-    measure: fn(&Case) -> Outcome<'_>,
+    measure: fn(&Case) -> Outcome<Evidence>,
 }
 
 /// The repair of a finding.
@@ -77,17 +80,21 @@ pub enum Preparation {
     Model(&'static str, fn(&mut Model)),
 }
 
-/// What a scene shows, or why a listing or a run failed.
-type Outcome<'a> = Result<Evidence, Box<dyn std::error::Error + 'a>>;
-
 impl Finding {
+    /// Returns the finding of a name.
+    pub fn of(id: FindingId) -> &'static Self {
+        &FINDINGS[id as usize]
+    }
+
     /// Looks for the finding in a scene, and on the inputs that mean the same. Where a listing or a run fails,
     /// the detail says so; it never panics.
     pub fn measure(&self, case: &Case) -> Evidence {
-        repeated(case, |case| {
+        let measure = |case: &Case| {
             (self.measure)(case)
                 .unwrap_or_else(|why| Evidence::present_if(false, 0.0, why.to_string()))
-        })
+        };
+        let others: Vec<Evidence> = case.equivalents().iter().map(measure).collect();
+        measure(case).confirmed_by(&others)
     }
 
     /// Returns the smallest scene that shows the finding.
@@ -99,7 +106,7 @@ impl Finding {
 choices! {
     /// Whether a scene shows a finding. Ordered by weight: of several shapes the heaviest counts.
     #[derive(PartialOrd, Ord)]
-    Verdict {
+    Presence {
         /// The scene lacks what the finding needs.
         NotTriggered = "not triggered here",
         /// The scene has what the finding needs, and yet it does not happen: the finding is wrong.
@@ -110,29 +117,19 @@ choices! {
 }
 
 /// What a scene says of a finding; the number is 0 where it is not triggered and nothing could be counted.
-pub type Evidence = super::evidence::Evidence<Verdict>;
-
-impl Measured for Evidence {
-    fn moves(&self, other: &Self) -> bool {
-        self.differs(other)
-    }
-
-    fn by_rounding(self) -> Self {
-        Evidence { number: None, by_rounding: true, ..self }
-    }
-}
+pub type Evidence = evidence::Evidence<Presence>;
 
 impl Evidence {
-    /// Returns a measure of the verdict `present` or `not triggered here`.
+    /// Returns what is evidence of the verdict `present` or `not triggered here`.
     fn present_if(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if is_present { Verdict::Present } else { Verdict::NotTriggered };
+        let verdict = if is_present { Presence::Present } else { Presence::NotTriggered };
         Evidence::new(verdict, number, detail)
     }
 
-    /// Returns a measure of the verdict `present` or `contradicted`, on a scene that has what the
+    /// Returns what is evidence of the verdict `present` or `contradicted`, on a scene that has what the
     /// finding needs.
     fn must_be_present(is_present: bool, number: f64, detail: impl Into<String>) -> Self {
-        let verdict = if is_present { Verdict::Present } else { Verdict::Contradicted };
+        let verdict = if is_present { Presence::Present } else { Presence::Contradicted };
         Evidence::new(verdict, number, detail)
     }
 }

@@ -2,6 +2,8 @@
 
 use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
 use engine::contact::turned;
+use paper::findings::FindingId;
+use paper::listings::Which;
 use problem::model::{Model, Restraint};
 
 /// A repair that is a file in `listings/`.
@@ -14,8 +16,8 @@ macro_rules! edit {
 /// All findings, in the order of their ids.
 pub const FINDINGS: &[Finding] = &[
     Finding {
-        id: "C1",
-        listing: "c_cnt",
+        id: FindingId::C1,
+        listing: Some(Which::CCnt),
         lines: &[5, 6],
         title: "the search box grows by c_tll for an edge that runs towards +x (+y) and shrinks by \
                 c_tll for one that runs the other way",
@@ -28,8 +30,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::turned_edges,
     },
     Finding {
-        id: "C2",
-        listing: "c_cnt",
+        id: FindingId::C2,
+        listing: Some(Which::CCnt),
         lines: &[7],
         title: "the loop over the target edges does not stop at a hit: where boxes overlap, the \
                 last edge in trg wins",
@@ -42,8 +44,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::reversed_target,
     },
     Finding {
-        id: "C3",
-        listing: "c_cnt",
+        id: FindingId::C3,
+        listing: Some(Which::CCnt),
         lines: &[10],
         title: "the distance is vertical, not normal",
         why: "on a slope of angle t the tolerance acts as c_tll · cos t, and a vertical edge \
@@ -55,8 +57,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::vertical_distance,
     },
     Finding {
-        id: "C4",
-        listing: "c_cnt",
+        id: FindingId::C4,
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "the sign rule is one-sided: it flags a node with yt < 0 beside one with yt > 0, \
                 never the other",
@@ -70,8 +72,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::upside_down,
     },
     Finding {
-        id: "C5",
-        listing: "c_cnt",
+        id: FindingId::C5,
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "the sign rule compares neighbours only: in a run of nodes deeper inside than c_tll \
                 it sees the ends, or nothing",
@@ -84,8 +86,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::deep_runs,
     },
     Finding {
-        id: "C6",
-        listing: "c_cnt",
+        id: FindingId::C6,
+        listing: Some(Which::CCnt),
         lines: &[22, 23],
         title: "the weights come from initial coordinates, the partners from current ones",
         why: "after sliding over an edge's end the weights leave [0, 1] and extrapolate",
@@ -100,8 +102,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::outside_the_edge,
     },
     Finding {
-        id: "C7",
-        listing: "c_cnt",
+        id: FindingId::C7,
+        listing: Some(Which::CCnt),
         lines: &[27, 28, 29, 30],
         title: "a target node keeps the last contact node's number and the sum of all weights; its \
                 columns 3 and 4 are never set",
@@ -113,8 +115,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::shared_nodes,
     },
     Finding {
-        id: "C8",
-        listing: "c_cnt",
+        id: FindingId::C8,
+        listing: Some(Which::CCnt),
         lines: &[16],
         title: "the comparison is strict: with c_tll = 0 line 16 flags nothing; lines 17 and 18 \
                 still can, over sloping edges",
@@ -126,8 +128,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::strictly_less,
     },
     Finding {
-        id: "C9",
-        listing: "c_cnt",
+        id: FindingId::C9,
+        listing: Some(Which::CCnt),
         lines: &[5, 6, 7, 9, 17, 18],
         title: "only a node inside some edge's box gets a ct, and without one its yt is 0; over a \
                 horizontal edge the box is 2 · c_tll high",
@@ -143,8 +145,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::lost_inside,
     },
     Finding {
-        id: "C10",
-        listing: "c_cnt",
+        id: FindingId::C10,
+        listing: Some(Which::CCnt),
         lines: &[18],
         title: "the line names yt[i1−1] before its own guard i1 ≥ 2",
         why: "evaluated from left to right the listing stops with an index error as soon as the \
@@ -159,8 +161,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::left_to_right,
     },
     Finding {
-        id: "C11",
-        listing: "c_cnt",
+        id: FindingId::C11,
+        listing: Some(Which::CCnt),
         lines: &[17, 18],
         title: "yt is compared with exactly 0: of a node that lies on its edge it is a rounding \
                 error, and its sign decides on the neighbours",
@@ -172,8 +174,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::rounding_noise,
     },
     Finding {
-        id: "C12",
-        listing: "c_cnt",
+        id: FindingId::C12,
+        listing: Some(Which::CCnt),
         lines: &[24, 26],
         title: "a node that cnt lists twice gets its weights twice",
         why: "eq. (1) with them reads u_cont = 2 · u_targ",
@@ -184,8 +186,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::listed_twice,
     },
     Finding {
-        id: "C13",
-        listing: "-",
+        id: FindingId::C13,
+        listing: None,
         lines: &[],
         title: "the printed matrix depends on the order of cnt (C7, K2: the last one wins)",
         why: "a scene and its mirror image have different answers",
@@ -196,8 +198,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: weights::reversed_contact,
     },
     Finding {
-        id: "C14",
-        listing: "c_cnt",
+        id: FindingId::C14,
+        listing: Some(Which::CCnt),
         lines: &[5, 6, 7],
         title: "the box of an edge that falls by h is |h − 2 · c_tll| high (of one that rises, h + \
                 2 · c_tll)",
@@ -210,8 +212,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: search::missed_near,
     },
     Finding {
-        id: "C15",
-        listing: "c_cnt",
+        id: FindingId::C15,
+        listing: Some(Which::CCnt),
         lines: &[16, 17, 18],
         title: "the text gives the nodes within c_tol a fixed Y before signs are compared (which, \
                 it does not say); the listing compares yt itself",
@@ -224,8 +226,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: status::touching_neighbour,
     },
     Finding {
-        id: "K1",
-        listing: "Km",
+        id: FindingId::K1,
+        listing: Some(Which::Km),
         lines: &[15, 21, 22, 23, 31, 32, 33],
         title: "only blocks (W, W) are added, never (V, W)",
         why: "nothing couples the two bodies: no load reaches the target",
@@ -239,8 +241,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::nothing_joins,
     },
     Finding {
-        id: "K2",
-        listing: "Km",
+        id: FindingId::K2,
+        listing: Some(Which::Km),
         lines: &[20, 30],
         title: "one fl for the whole element: of several linked nodes the last one's weight scales \
                 all",
@@ -252,8 +254,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::one_weight_for_all,
     },
     Finding {
-        id: "K3",
-        listing: "Km",
+        id: FindingId::K3,
+        listing: Some(Which::Km),
         lines: &[13],
         title: "restrained equations get 1 on the diagonal, whatever the unit",
         why: "beside stiffnesses of 1e4 to 1e6 the choice of units decides the condition number",
@@ -264,8 +266,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::ones_on_the_diagonal,
     },
     Finding {
-        id: "K4",
-        listing: "Km",
+        id: FindingId::K4,
+        listing: Some(Which::Km),
         lines: &[2, 3, 13],
         title: "a node that belongs to no triangle leaves two rows of zeros, \
                 even where S restrains it",
@@ -279,8 +281,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::orphan,
     },
     Finding {
-        id: "K5",
-        listing: "-",
+        id: FindingId::K5,
+        listing: None,
         lines: &[],
         title: "eq. (1) on total displacements takes a gap that closed back to its initial width",
         why: "the node leaves contact and returns: the contact set cycles, and where in the cycle \
@@ -295,8 +297,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::cycle,
     },
     Finding {
-        id: "K6",
-        listing: "-",
+        id: FindingId::K6,
+        listing: None,
         lines: &[],
         title: "one linked node is a hinge: the stamp turns about it",
         why: "the matrix is singular unless restraints hold the stamp",
@@ -313,8 +315,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::hinge,
     },
     Finding {
-        id: "K7",
-        listing: "Km",
+        id: FindingId::K7,
+        listing: Some(Which::Km),
         lines: &[20, 21, 30, 31],
         title: "fl is weight and switch in one: a last weight of exactly 0 leaves the whole \
                 addition out",
@@ -327,8 +329,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::switched_off,
     },
     Finding {
-        id: "K8",
-        listing: "Km",
+        id: FindingId::K8,
+        listing: Some(Which::Km),
         lines: &[23, 33],
         title: "a weight below 0 (C1, C6) takes stiffness away",
         why: "MJS may lose its positive definiteness, and a load may move its node backwards",
@@ -339,8 +341,8 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::stiffness_taken_away,
     },
     Finding {
-        id: "K9",
-        listing: "-",
+        id: FindingId::K9,
+        listing: None,
         lines: &[],
         title: "the status looks at the gap only and eq. (1) ties both components: nothing \
                 releases a node that pulls, and nothing lets it slide",
@@ -356,6 +358,16 @@ pub const FINDINGS: &[Finding] = &[
         measure: stiffness::pulls,
     },
 ];
+
+// Each finding has its row, in the order of the ids.
+const _: () = {
+    assert!(FINDINGS.len() == FindingId::ALL.len());
+    let mut k = 0;
+    while k < FINDINGS.len() {
+        assert!(FINDINGS[k].id as usize == k);
+        k += 1;
+    }
+};
 
 /// Turns the scene about the middle between x = 0 and x = 1, so that the target lies above the stamp.
 fn turn_scene(model: &mut Model) {

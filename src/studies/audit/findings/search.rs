@@ -1,34 +1,35 @@
 //! Findings of the search for a target edge: c_cnt 1-10.
 
+use super::Evidence;
 use super::experiment::{
     Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, ends, inside_target, rise,
 };
-use super::{Evidence, Outcome};
 use crate::audit::Case;
+use crate::audit::evidence::Outcome;
 use engine::contact::turned;
 use paper::door::ContactStatus;
 use problem::model::{EdgeId, Model};
 
 /// C1: the target edges reversed.
-pub(super) fn turned_edges(case: &Case) -> Outcome<'_> {
+pub(super) fn turned_edges(case: &Case) -> Outcome<Evidence> {
     let state = |status: &ContactStatus| (status.edge.is_some(), status.in_contact);
     compared(case, &turned(case.model()), "reversed", |own, other| state(own) != state(other))
 }
 
 /// C2: `trg` in reverse.
-pub(super) fn reversed_target(case: &Case) -> Outcome<'_> {
+pub(super) fn reversed_target(case: &Case) -> Outcome<Evidence> {
     let mut reversed = case.model().clone();
     reversed.contact.target.reverse();
     compared(case, &reversed, "in reverse", |own, other| own.edge != other.edge)
 }
 
 /// Counts the contact nodes whose status on another model differs: the listing's `ct` and `dy`.
-fn compared<'a>(
-    case: &'a Case,
+fn compared(
+    case: &Case,
     other: &Model,
     name: &str,
     differ: impl Fn(&ContactStatus, &ContactStatus) -> bool,
-) -> Outcome<'a> {
+) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let calls = [c_cnt(case, case.model(), shape)?, c_cnt(case, other, shape)?];
         Ok(count_nodes(case.model(), |i| {
@@ -44,7 +45,7 @@ fn compared<'a>(
 
 /// C3: contact nodes nearer than c_tll to the line of their edge, but not vertically; a vertical
 /// edge stops the listing.
-pub(super) fn vertical_distance(case: &Case) -> Outcome<'_> {
+pub(super) fn vertical_distance(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| match c_cnt(case, case.model(), shape) {
         Ok(call) => Ok(count_nodes(case.model(), |i| {
             let status = call.statuses[i];
@@ -63,7 +64,7 @@ pub(super) fn vertical_distance(case: &Case) -> Outcome<'_> {
 
 /// C9: contact nodes inside the target, c_tll or more from the edges above or below them, without a
 /// target edge.
-pub(super) fn lost_inside(case: &Case) -> Outcome<'_> {
+pub(super) fn lost_inside(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_calls(case, |shape, call| {
         count_nodes(model, |i| {
@@ -76,7 +77,7 @@ pub(super) fn lost_inside(case: &Case) -> Outcome<'_> {
 }
 
 /// C14: contact nodes over or under a target edge, nearer than c_tll, without a target edge.
-pub(super) fn missed_near(case: &Case) -> Outcome<'_> {
+pub(super) fn missed_near(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_calls(case, |shape, call| {
         count_nodes(model, |i| {

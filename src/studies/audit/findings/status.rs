@@ -1,8 +1,9 @@
 //! Findings of the contact status: c_cnt 15-18.
 
 use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
-use super::{Evidence, Outcome, Verdict};
+use super::{Evidence, Presence};
 use crate::audit::Case;
+use crate::audit::evidence::Outcome;
 use mathcad::Conjunction;
 use paper::door::Call;
 use paper::mirror::{Cause, Reading};
@@ -14,7 +15,7 @@ fn with_y(shape: &Shape, f: impl Fn(NodeId, f64) -> f64) -> Vec<[f64; 2]> {
 }
 
 /// C4: the scene upside down. Only nodes that keep their target edge count: C1 is kept out.
-pub(super) fn upside_down(case: &Case) -> Outcome<'_> {
+pub(super) fn upside_down(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let as_is = c_cnt(case, case.model(), shape)?;
         let mirrored = c_cnt(case, case.model(), &with_y(shape, |_, y| -y))?;
@@ -28,7 +29,7 @@ pub(super) fn upside_down(case: &Case) -> Outcome<'_> {
 }
 
 /// C5: of runs of two or more neighbours deeper inside than c_tll, those that are not flagged.
-pub(super) fn deep_runs(case: &Case) -> Outcome<'_> {
+pub(super) fn deep_runs(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_calls(case, |shape, call| {
         let least = model.contact.tolerance.max(f64::MIN_POSITIVE);
@@ -47,7 +48,7 @@ pub(super) fn deep_runs(case: &Case) -> Outcome<'_> {
 }
 
 /// C8: c_tll = 0: nodes on their edge that are not flagged.
-pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
+pub(super) fn strictly_less(case: &Case) -> Outcome<Evidence> {
     let mut model = case.model().clone();
     model.contact.tolerance = 0.0;
     at_shapes(case, |shape| {
@@ -58,7 +59,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
         let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
         let on_edge = count_nodes(&model, |i| touches(i).then(|| words(i)));
         if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
-            return Ok(Evidence { verdict: Verdict::Contradicted, ..on_edge });
+            return Ok(Evidence { verdict: Presence::Contradicted, ..on_edge });
         }
         let by_sign = count_nodes(&model, |i| flagged(i).then(|| words(i))).detail;
         let detail = format!("{}; flagged by lines 17-18: {by_sign}", on_edge.detail);
@@ -67,7 +68,7 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<'_> {
 }
 
 /// C10: `∧` evaluated from left to right, at the initial shape.
-pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
+pub(super) fn left_to_right(case: &Case) -> Outcome<Evidence> {
     let reading = Reading { r4: Conjunction::LeftToRight, ..*case.reading() };
     let call = case.initial().map_err(|_| "c_cnt fails before line 18")?;
     let first = call.statuses.first().ok_or("no contact node")?.distance;
@@ -87,7 +88,7 @@ pub(super) fn left_to_right(case: &Case) -> Outcome<'_> {
 
 /// C11: nodes that lie on their edge but for rounding, moved up and down by as much: whose status
 /// follows?
-pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
+pub(super) fn rounding_noise(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_shapes(case, |shape| {
         let call = c_cnt(case, model, shape)?;
@@ -113,7 +114,7 @@ pub(super) fn rounding_noise(case: &Case) -> Outcome<'_> {
 }
 
 /// C15: nodes flagged only because a neighbour that is itself within c_tll has yt > 0.
-pub(super) fn touching_neighbour(case: &Case) -> Outcome<'_> {
+pub(super) fn touching_neighbour(case: &Case) -> Outcome<Evidence> {
     let tolerance = case.model().contact.tolerance;
     at_calls(case, |_, call| {
         count_nodes(case.model(), |i| {

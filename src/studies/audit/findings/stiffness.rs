@@ -5,8 +5,9 @@ use std::collections::HashSet;
 use super::experiment::{
     ROUNDING, at_calls, at_shapes, away, count, count_nodes, first_in_contact, mjs,
 };
-use super::{Evidence, Outcome, Verdict};
+use super::{Evidence, Presence};
 use crate::audit::Case;
+use crate::audit::evidence::Outcome;
 use engine::linear::SparseCholesky;
 use engine::{Constraint, Detail, Elimination, Stiffness, max_displacement};
 use paper::door::{self, Call};
@@ -15,7 +16,7 @@ use problem::model::{Model, NodeId, Restraint, TriangleId};
 use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
-pub(super) fn nothing_joins(case: &Case) -> Outcome<'_> {
+pub(super) fn nothing_joins(case: &Case) -> Outcome<Evidence> {
     let (model, mjs) = (case.model(), first_in_contact(case)?.km(case.reading())?);
     let mut joins = 0;
     for body in &model.bodies {
@@ -51,7 +52,7 @@ fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(Tr
 }
 
 /// K2: triangles with two linked nodes of different weight.
-pub(super) fn one_weight_for_all(case: &Case) -> Outcome<'_> {
+pub(super) fn one_weight_for_all(case: &Case) -> Outcome<Evidence> {
     at_calls(case, |_, call| {
         let different = |w: &[f64]| w.windows(2).any(|w| w[0] != w[1]);
         let mut found = additions(case.model(), call, different);
@@ -61,7 +62,7 @@ pub(super) fn one_weight_for_all(case: &Case) -> Outcome<'_> {
 }
 
 /// K7: additions whose last weight is 0 while another is not.
-pub(super) fn switched_off(case: &Case) -> Outcome<'_> {
+pub(super) fn switched_off(case: &Case) -> Outcome<Evidence> {
     at_calls(case, |_, call| {
         let off = |w: &[f64]| w.last() == Some(&0.0) && w.iter().any(|k| *k != 0.0);
         count(additions(case.model(), call, off).into_iter().map(|(_, words)| words))
@@ -69,7 +70,7 @@ pub(super) fn switched_off(case: &Case) -> Outcome<'_> {
 }
 
 /// K3: the 1 of a restrained equation outside the range of the other diagonal entries.
-pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
+pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let range = |is_free: bool| {
@@ -85,7 +86,7 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<'_> {
 }
 
 /// K8: the smallest diagonal entry of MJS.
-pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
+pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
@@ -95,7 +96,7 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<'_> {
 }
 
 /// K4: rows of zeros that one node without a triangle adds, free or restrained.
-pub(super) fn orphan(case: &Case) -> Outcome<'_> {
+pub(super) fn orphan(case: &Case) -> Outcome<Evidence> {
     let zero_rows = |orphan: Option<Restraint>| -> Result<usize, Failure> {
         let mut model = case.model().clone();
         orphan.into_iter().for_each(|restraint| model.add_node([0.0; 2], restraint));
@@ -113,7 +114,7 @@ pub(super) fn orphan(case: &Case) -> Outcome<'_> {
 }
 
 /// K5: the cycle in which `tied` ends.
-pub(super) fn cycle(case: &Case) -> Outcome<'_> {
+pub(super) fn cycle(case: &Case) -> Outcome<Evidence> {
     let steps = &case.run(Variant::Tied)?.steps;
     let cycle = steps.last().and_then(|step| step.cycle.as_ref());
     let cycle = cycle.ok_or_else(|| format!("no state came back in {} iterations", steps.len()))?;
@@ -121,15 +122,15 @@ pub(super) fn cycle(case: &Case) -> Outcome<'_> {
     let detail = format!("nodes in contact: {:?}", counts.collect::<Vec<_>>());
     let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
     let verdict = match cycle.length {
-        1 if entered => Verdict::Contradicted,
-        1 => Verdict::NotTriggered,
-        _ => Verdict::Present,
+        1 if entered => Presence::Contradicted,
+        1 => Presence::NotTriggered,
+        _ => Presence::Present,
     };
     Ok(Evidence::new(verdict, cycle.length as f64, detail))
 }
 
 /// K9: nodes that eq. (1) binds to the target with a pull, at the end of `stepped`.
-pub(super) fn pulls(case: &Case) -> Outcome<'_> {
+pub(super) fn pulls(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     let solution = case.run(Variant::Stepped)?;
     // What eq. (1) adds at each equation; at a restrained one the support's reaction is part of it.
@@ -152,7 +153,7 @@ pub(super) fn pulls(case: &Case) -> Outcome<'_> {
 }
 
 /// K6: the stamp released from its restraints, eq. (1) on one and on two of its nodes in contact.
-pub(super) fn hinge(case: &Case) -> Outcome<'_> {
+pub(super) fn hinge(case: &Case) -> Outcome<Evidence> {
     let call = first_in_contact(case)?;
     let stiffness = Stiffness::new(case.model(), |x| x);
     let linked = door::linked(&call.sheet, &call.pairs);

@@ -1,15 +1,16 @@
 //! Findings of the weights: c_cnt 21-30, and what `Km` makes of them.
 
+use super::Evidence;
 use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, mjs};
-use super::{Evidence, Outcome};
 use crate::audit::Case;
+use crate::audit::evidence::Outcome;
 use engine::Detail;
 use paper::door::{NodeToSegment, linked, worksheet};
 use problem::model::NodeId;
 use problem::modelling::Variant;
 
 /// C6: how far the weights of nodes in contact leave [0, 1], over all iterations of all variants.
-pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
+pub(super) fn outside_the_edge(case: &Case) -> Outcome<Evidence> {
     let mut furthest = Evidence::present_if(false, 0.0, "every weight lies in [0, 1]");
     for variant in Variant::OF_THE_PAPER {
         let Ok(solution) = case.run(*variant) else { continue };
@@ -31,7 +32,7 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<'_> {
 }
 
 /// C7: target nodes that stand for two or more contact nodes.
-pub(super) fn shared_nodes(case: &Case) -> Outcome<'_> {
+pub(super) fn shared_nodes(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_calls(case, |_, call| {
         // For each node the numbers of the contact nodes of which it is a master node.
@@ -49,7 +50,7 @@ pub(super) fn shared_nodes(case: &Case) -> Outcome<'_> {
 }
 
 /// C12: the sum of the weights of a node that `cnt` lists more than once.
-pub(super) fn listed_twice(case: &Case) -> Outcome<'_> {
+pub(super) fn listed_twice(case: &Case) -> Outcome<Evidence> {
     let model = case.model();
     at_calls(case, |_, call| {
         let sum = |n: NodeId| {
@@ -69,7 +70,7 @@ pub(super) fn listed_twice(case: &Case) -> Outcome<'_> {
 }
 
 /// C13: `cnt` in reverse: entries of MJS that change by more than rounding.
-pub(super) fn reversed_contact(case: &Case) -> Outcome<'_> {
+pub(super) fn reversed_contact(case: &Case) -> Outcome<Evidence> {
     let mut reversed = case.model().clone();
     reversed.contact.nodes.reverse();
     at_shapes(case, |shape| {

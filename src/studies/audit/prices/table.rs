@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use crate::audit::claims::table::under;
-use crate::audit::evidence::BY_ROUNDING;
-use crate::audit::prices::{NOTHING, Outcome, Price, Weight, needed};
+use crate::audit::evidence::{NoFigures, Outcome};
+use crate::audit::prices::{CorrectedRun, NOTHING, Price, Weight, needed};
 use paper::mirror::Reading;
 use problem::scene::Scene;
 use report::json;
@@ -45,7 +45,7 @@ pub fn json(document: &PricesOnScene, scene: &Scene) -> String {
 /// Reports the prices within an audit, and the way of repairs with its picture where that was asked for.
 pub fn section(
     reading: Reading,
-    prices: &Result<Vec<Price>, String>,
+    prices: &Outcome<Vec<Price>>,
     repairs: &[Price],
     scene: &Scene,
 ) -> Report {
@@ -75,10 +75,10 @@ pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
             .column("its fault", |(_, price)| price.fault.clone())
     };
     let failures = prices.iter().filter_map(|price| match &price.outcome {
-        Outcome::Failure { failure } => {
-            Some(format!("{}: {failure}", price.name.as_deref().unwrap_or("corrected")))
+        Err(NoFigures::Fails(why)) => {
+            Some(format!("{}: {why}", price.name.as_deref().unwrap_or("corrected")))
         }
-        Outcome::Result { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
+        Ok(_) | Err(NoFigures::Refused(_) | NoFigures::Rounding) => None,
     });
     let report = Report::titled(format!(
         "What the printed faults cost on {}{}",
@@ -91,7 +91,7 @@ pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
          (without friction, node to segment, in the initial geometry), and the equilibrium under the scene's \
          own friction.",
     )
-    .table("Each fault alone", outcomes(faults, |price| &price.outcome))
+    .table("Each fault alone", outcomes(faults, |price| price))
     .note(
         "C1 and C2 bring the box of C9 with them. C4 and C5 are lines 17 and 18 of c_cnt without line 16, which is \
          K9 (release).",
@@ -109,30 +109,27 @@ pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
         ));
     }
     report
-        .table(
-            "From the print, repair by repair",
-            outcomes(repaired(), |(_, price)| &price.outcome),
-        )
+        .table("From the print, repair by repair", outcomes(repaired(), |(_, price)| *price))
         .line(ORDER)
         .line(way(repairs))
 }
 
 /// Adds the columns of what came of a run.
-fn outcomes<R>(table: Table<Vec<R>>, outcome: impl Fn(&R) -> &Outcome + Copy) -> Table<Vec<R>> {
-    let share = move |row: &R, k: usize| {
-        let share = shares(outcome(row)).and_then(|shares| shares[k]);
-        share.map_or(Cell::from("-"), |share| Cell::decimals(100.0 * rounded(share), 2))
+fn outcomes<R>(table: Table<Vec<R>>, price: impl Fn(&R) -> &Price + Copy) -> Table<Vec<R>> {
+    let cell = move |row: &R, of: fn(&CorrectedRun) -> Option<Cell>| {
+        price(row).outcome.as_ref().ok().and_then(of).unwrap_or("-".into())
     };
     table
-        .column("ends", move |row| ends(outcome(row)))
-        .column("in contact", move |row| match outcome(row) {
-            Outcome::Result { in_contact, .. } => Cell::from(*in_contact),
-            Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => Cell::from("-"),
+        .column("ends", move |row| ends(&price(row).outcome))
+        .column("in contact", move |row| cell(row, |run| Some(run.in_contact.into())))
+        .column("transmitted load, %", move |row| cell(row, |run| Some(share(run.transmitted))))
+        .column("error in energy, %", move |row| cell(row, |run| Some(share(run.energy_relative))))
+        .column("error of largest von Mises stress, %", move |row| {
+            cell(row, |run| Some(share(run.von_mises_relative)))
         })
-        .column("transmitted load, %", move |row| share(row, 0))
-        .column("error in energy, %", move |row| share(row, 1))
-        .column("error of largest von Mises stress, %", move |row| share(row, 2))
-        .column("from the equilibrium, %", move |row| share(row, 3))
+        .column("from the equilibrium, %", move |row| {
+            cell(row, |run| run.equilibrium_relative.map(share))
+        })
 }
 
 /// Says how many repairs the way from the print takes, and which are not needed.
@@ -156,8 +153,7 @@ fn not_needed(repairs: &[Price]) -> String {
 
 /// Draws the error in energy against the number of repairs.
 pub fn picture(repairs: &[Price]) -> String {
-    let points =
-        repairs.iter().enumerate().map(|(k, price)| [k as f64, 100.0 * price.outcome.error()]);
+    let points = repairs.iter().enumerate().map(|(k, price)| [k as f64, 100.0 * price.error()]);
     let points = points.filter(|[_, error]| error.is_finite() && *error > 0.0).collect();
     let name = "error".to_string();
     let x = Axis { label: "repairs", logarithmic: false };
@@ -193,18 +189,18 @@ impl Display for Cost {
 ///
 /// # Errors
 /// That is not known: says why.
-pub fn by_cost(prices: &Result<Vec<Price>, String>) -> Result<Vec<Cost>, String> {
-    let prices = prices.as_ref().map_err(|why| not_measured(why))?;
+pub fn by_cost(prices: &Outcome<Vec<Price>>) -> Result<Vec<Cost>, String> {
+    let prices = prices.as_ref().map_err(not_measured)?;
     if let Some(why) = unsound(prices) {
         return Err(format!("{why}: no fault is priced."));
     }
     let of = |weight| prices.iter().filter(move |price| price.weight == weight);
     let mut shifts: Vec<&Price> = of(Weight::Shifts).collect();
-    shifts.sort_by(|a, b| b.outcome.error().total_cmp(&a.outcome.error()));
+    shifts.sort_by(|a, b| b.error().total_cmp(&a.error()));
     let dear = of(Weight::Fatal).chain(shifts).chain(of(Weight::Rounding)).map(|price| {
-        let error = percent(price.outcome.error());
+        let error = percent(price.error());
         let cost = match price.weight {
-            Weight::Shifts if price.outcome.is_settled() => error,
+            Weight::Shifts if price.outcome.as_ref().is_ok_and(CorrectedRun::is_settled) => error,
             Weight::Shifts => format!("{error}, does not settle"),
             weight => weight.to_string(),
         };
@@ -224,40 +220,39 @@ fn without_cost(prices: &[Price]) -> Vec<Cost> {
 }
 
 /// Says how far the corrected algorithm without any fault is from the equilibrium; nothing where that is not known.
-pub fn without_any(prices: &Result<Vec<Price>, String>) -> Option<String> {
+pub fn without_any(prices: &Outcome<Vec<Price>>) -> Option<String> {
     let own = prices.as_ref().ok().filter(|prices| unsound(prices).is_none())?;
-    let far = own[0].outcome.from_equilibrium()?;
+    let far = own[0].outcome.as_ref().ok()?.equilibrium_relative?;
     Some(format!(
         "The corrected algorithm, without friction, is {} from the equilibrium.",
         percent(far)
     ))
 }
 
-fn not_measured(why: &str) -> String {
-    format!("Not measured here: {}", first_line(why))
+fn not_measured(why: &NoFigures) -> String {
+    format!("Not measured here: {}", first_line(&why.to_string()))
 }
 
 /// Says why the prices are not the costs of the faults alone: the corrected algorithm itself is not at the
 /// solution, or passes no load on, so that none can be lost. Nothing where they are.
 pub fn unsound(prices: &[Price]) -> Option<String> {
-    let corrected = &prices[0].outcome;
-    let why = match corrected {
-        Outcome::Failure { .. } => "stops on this scene".into(),
-        Outcome::Rounding {} => "is decided by rounding on this scene".into(),
-        Outcome::NoFault {} => return None,
-        Outcome::Result { passes_nothing: true, .. } => {
+    let why = match &prices[0].outcome {
+        Err(NoFigures::Fails(_)) => "stops on this scene".into(),
+        Err(NoFigures::Rounding) => "is decided by rounding on this scene".into(),
+        Err(NoFigures::Refused(_)) => return None,
+        Ok(run) if run.passes_nothing => {
             return Some(
                 "Under the corrected algorithm too no load passes between the bodies".into(),
             );
         }
-        Outcome::Result { energy_relative, .. } if !energy_relative.is_finite() => {
+        Ok(run) if !run.energy_relative.is_finite() => {
             return Some("Nothing moves in the solution of this scene".into());
         }
-        Outcome::Result { .. } if !corrected.is_settled() => "does not settle on this scene".into(),
-        Outcome::Result { .. } if corrected.error() > 0.0 => {
-            format!("is {} from the solution on this scene", percent(corrected.error()))
+        Ok(run) if !run.is_settled() => "does not settle on this scene".into(),
+        Ok(run) if run.error() > 0.0 => {
+            format!("is {} from the solution on this scene", percent(run.error()))
         }
-        Outcome::Result { .. } => return None,
+        Ok(_) => return None,
     };
     let where_not = "plane-contact guide corrected says where it does not hold";
     Some(format!("The corrected algorithm itself {why} ({where_not})"))
@@ -270,34 +265,21 @@ pub fn of_weight(prices: &[Price], weight: Weight) -> Vec<&str> {
 }
 
 /// Says how a run ended.
-fn ends(outcome: &Outcome) -> String {
+fn ends(outcome: &Outcome<CorrectedRun>) -> String {
     match outcome {
-        Outcome::Result { iterations, period: Some(1), .. } => format!("after {iterations}"),
-        Outcome::Result { period: Some(period), .. } => {
+        Ok(CorrectedRun { iterations, period: Some(1), .. }) => format!("after {iterations}"),
+        Ok(CorrectedRun { period: Some(period), .. }) => {
             format!("alternates among {period} contact states")
         }
-        Outcome::Result { iterations, period: None, .. } => {
+        Ok(CorrectedRun { iterations, period: None, .. }) => {
             format!("not settled after {iterations}")
         }
-        Outcome::Failure { .. } => "stops".into(),
-        Outcome::Rounding {} => BY_ROUNDING.into(),
-        Outcome::NoFault {} => "no effect, as nothing slides".into(),
+        Err(NoFigures::Fails(_)) => "stops".into(),
+        Err(why @ (NoFigures::Refused(_) | NoFigures::Rounding)) => why.to_string(),
     }
 }
 
-/// Returns the transmitted load, the error in energy, that of the von Mises stress, and the distance from the
-/// equilibrium under the scene's own friction, relative.
-fn shares(outcome: &Outcome) -> Option<[Option<f64>; 4]> {
-    match outcome {
-        Outcome::Result { transmitted, energy_relative, von_mises_relative, .. } => {
-            let own = [transmitted, energy_relative, von_mises_relative].map(|x| Some(*x));
-            Some([own[0], own[1], own[2], outcome.from_equilibrium()])
-        }
-        Outcome::Failure { .. } | Outcome::Rounding {} | Outcome::NoFault {} => None,
-    }
-}
-
-/// Returns a share, 0 where it is rounding.
-fn rounded(x: f64) -> f64 {
-    if x.abs() <= NOTHING { 0.0 } else { x }
+/// Writes a share in per cent, 0 where it is rounding.
+fn share(x: f64) -> Cell {
+    Cell::decimals(100.0 * if x.abs() <= NOTHING { 0.0 } else { x }, 2)
 }

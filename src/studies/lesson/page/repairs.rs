@@ -5,7 +5,6 @@ use std::fmt::Display;
 use serde_json::{Value, json};
 
 use super::Shared;
-use crate::audit::prices::Outcome;
 use crate::audit::prices::table::ORDER;
 use crate::lesson::Repairs;
 use mathcad::Settings;
@@ -47,7 +46,7 @@ fn label(count: usize) -> Value {
 /// Returns the table: a row after each number of repairs that is shown.
 pub fn json(repairs: &Repairs) -> Value {
     let row = |count: usize| {
-        let outcome = &repairs.rows[count].outcome;
+        let price = &repairs.rows[count];
         let last = repairs.last(count);
         let words = match last {
             Some(fault) => json!(fault.words()),
@@ -60,10 +59,10 @@ pub fn json(repairs: &Repairs) -> Value {
             "fault": words,
             "places": last.map(|fault| listed(fault.places())),
         });
-        if let Outcome::Result { in_contact, transmitted, .. } = outcome {
-            row["in_contact"] = json!(in_contact);
-            row["transmitted"] = json!(transmitted);
-            row["error"] = json!(outcome.error());
+        if let Ok(run) = &price.outcome {
+            row["in_contact"] = json!(run.in_contact);
+            row["transmitted"] = json!(run.transmitted);
+            row["error"] = json!(run.error());
         }
         row
     };
