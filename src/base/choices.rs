@@ -1,33 +1,11 @@
 //! Closed sets of choices, such as readings and variants.
 
-use crate::suggestion::did_you_mean;
-
 /// Returns a sentence as a part of one.
 pub fn phrase(sentence: &str) -> String {
     let sentence = sentence.trim().trim_end_matches('.');
     let is_word = sentence.chars().nth(1).is_some_and(|c| !c.is_uppercase());
     let (first, rest) = sentence.split_at(usize::from(is_word));
     (first.to_lowercase() + rest).replace('`', "")
-}
-
-/// Returns the member of a closed set, or the row of a table, that has a name.
-///
-/// # Errors
-/// None has: says which name it may be meant for, and all names.
-pub fn named<T>(
-    text: &str,
-    all: impl IntoIterator<Item = T>,
-    name: impl Fn(&T) -> &'static str,
-) -> Result<T, String> {
-    let mut names = Vec::new();
-    for one in all {
-        match name(&one) {
-            found if found == text => return Ok(one),
-            other => names.push(other),
-        }
-    }
-    let near = did_you_mean(text, names.iter().copied());
-    Err(format!("{near}{text:?} is none of {}", names.join(", ")))
 }
 
 /// Declares a closed set of choices with their names on the command line and in files. Doc comments say
@@ -71,7 +49,13 @@ macro_rules! choices {
         impl std::str::FromStr for $name {
             type Err = String;
             fn from_str(text: &str) -> Result<Self, String> {
-                $crate::choices::named(text, Self::ALL.iter().copied(), |choice| choice.name())
+                match text {
+                    $($text => Ok($name::$variant),)+
+                    _ => {
+                        let near = $crate::suggestion::did_you_mean(text, [$($text),+]);
+                        Err(format!("{near}{text:?} is none of {}", [$($text),+].join(", ")))
+                    }
+                }
             }
         }
 

@@ -407,7 +407,7 @@ fn rounded(x: f64) -> f64 {
 fn settings() {
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
     let request = Request::new(&STRAND).arithmetic(arithmetic);
-    let only = ["c_tll", "iterations", "symmetry"].map(|name| name.parse().expect("an axis"));
+    let only = ["c_tll", "iterations", "symmetry"].map(String::from);
     let plan = trade::plan(&request, &only).expect("a sound scene");
     let trade = trade::measure(&request, plan, 1, |_| ());
     let rows = trade.sections.iter().flat_map(|section| {

@@ -1,12 +1,6 @@
 //! What is varied, and the trials of each axis.
 
-use std::fmt::{self, Display, Formatter};
-use std::str::FromStr;
-
-use serde::{Serialize, Serializer};
-
 use super::trial::{Trial, most_exact};
-use base::choices;
 use base::error::InputError;
 use engine::Request;
 use engine::linear::{Arithmetic, ScalarName, Solver};
@@ -110,13 +104,9 @@ pub static AXES: [Axis; 8] = [
         truth: Truth::Equilibrium,
         trials: |request| {
             let own = request.tolerance.unwrap_or(request.scene.model.contact.tolerance);
-            let mut values = TOLERANCES.to_vec();
-            if !values.contains(&own) {
-                values.push(own);
-                values.sort_by(f64::total_cmp);
-            }
-            let values = values.into_iter().map(|c| (format!("{c:e}"), c));
-            Ok(turned(request, &CARRYING[..2], values, own, |trial, c| trial.tolerance = Some(c)))
+            let (values, label) = (ordered(&TOLERANCES, &[own]), |c: &f64| format!("{c:e}"));
+            let set = |trial: &mut Request, c| trial.tolerance = Some(c);
+            Ok(turned(request, &CARRYING[..2], &values, own, label, set))
         },
     },
     Axis {
@@ -125,13 +115,10 @@ pub static AXES: [Axis; 8] = [
         truth: Truth::Equilibrium,
         trials: |request| {
             let own = request.iterations;
-            let mut values = ITERATIONS.to_vec();
             // One more shows what a cycle of two does.
-            values.extend([own, own + 1]);
-            values.sort_unstable();
-            values.dedup();
-            let values = values.into_iter().map(|n| (n.to_string(), n));
-            Ok(turned(request, &CARRYING[..2], values, own, |trial, n| trial.iterations = n))
+            let values = ordered(&ITERATIONS, &[own, own + 1]);
+            let set = |trial: &mut Request, n| trial.iterations = n;
+            Ok(turned(request, &CARRYING[..2], &values, own, usize::to_string, set))
         },
     },
     Axis {
@@ -139,11 +126,9 @@ pub static AXES: [Axis; 8] = [
         meaning: "the rule that decides who is in contact",
         truth: Truth::Equilibrium,
         trials: |request| {
-            let values = StatusRule::ALL.iter().map(|rule| (rule.to_string(), *rule));
-            let own = request.contact.status;
-            Ok(turned(request, &CARRYING[..2], values, own, |trial, rule| {
-                trial.contact.status = rule;
-            }))
+            let (values, own) = (StatusRule::ALL, request.contact.status);
+            let set = |trial: &mut Request, rule| trial.contact.status = rule;
+            Ok(turned(request, &CARRYING[..2], values, own, StatusRule::to_string, set))
         },
     },
     Axis {
@@ -151,11 +136,9 @@ pub static AXES: [Axis; 8] = [
         meaning: "how a contact node is bound",
         truth: Truth::Equilibrium,
         trials: |request| {
-            let values = Coupling::ALL.iter().map(|coupling| (coupling.to_string(), *coupling));
-            let own = request.contact.coupling;
-            Ok(turned(request, &CARRYING, values, own, |trial, coupling| {
-                trial.contact.coupling = coupling;
-            }))
+            let (values, own) = (Coupling::ALL, request.contact.coupling);
+            let set = |trial: &mut Request, coupling| trial.contact.coupling = coupling;
+            Ok(turned(request, &CARRYING, values, own, Coupling::to_string, set))
         },
     },
     Axis {
@@ -181,27 +164,7 @@ impl Axis {
 
     /// Each name with what it means, for help.
     pub fn help() -> String {
-        AXES.each_ref().map(|axis| format!("{axis}: {}", axis.meaning)).join("; ")
-    }
-}
-
-impl FromStr for &'static Axis {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choices::named(text, &AXES, |axis| axis.name)
-    }
-}
-
-impl Display for Axis {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(self.name)
-    }
-}
-
-impl Serialize for Axis {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name)
+        AXES.each_ref().map(|axis| format!("{}: {}", axis.name, axis.meaning)).join("; ")
     }
 }
 
@@ -229,21 +192,30 @@ fn computed(
     tried.into_iter().map(trial).collect()
 }
 
-/// A trial for each value, with its name, under each of the variants, which have it; `own` is the request's value.
+/// Values in ascending order, each once, with others among them.
+fn ordered<T: Copy + PartialOrd>(values: &[T], others: &[T]) -> Vec<T> {
+    let mut values = [values, others].concat();
+    values.sort_by(|a, b| a.partial_cmp(b).expect("no value is NaN"));
+    values.dedup();
+    values
+}
+
+/// A trial for each value under each of the variants, which have it; `own` is the value of the request.
 fn turned<T: Copy + PartialEq>(
     request: &Request,
     variants: &[Variant],
-    values: impl Iterator<Item = (String, T)> + Clone,
+    values: &[T],
     own: T,
+    label: fn(&T) -> String,
     set: fn(&mut Request, T),
 ) -> Vec<Trial> {
-    let trial = |variant: Variant, (label, value): (String, T)| {
-        let mut request = under(request, variant);
-        set(&mut request, value);
-        Trial { label, request, own: value == own, mesh: None }
+    let trial = |(variant, value): (&Variant, &T)| {
+        let mut request = under(request, *variant);
+        set(&mut request, *value);
+        Trial { label: label(value), request, own: *value == own, mesh: None }
     };
-    let each = variants.iter().map(|variant| (*variant, values.clone()));
-    each.flat_map(|(variant, values)| values.map(move |value| trial(variant, value))).collect()
+    let each = variants.iter().flat_map(|variant| values.iter().map(move |value| (variant, value)));
+    each.map(trial).collect()
 }
 
 /// The reference solution, which has no path of the load to follow, on the scene's mesh and on finer ones.

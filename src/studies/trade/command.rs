@@ -7,11 +7,12 @@ use crate::trade::{self, AXES, Axis};
 use ::report::json;
 use base::files;
 use base::plain::shown;
+use clap::builder::PossibleValuesParser;
 use engine::Request;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, folder, folder_name, offered, print, progress};
+use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
 /// The runs of each trial by default.
 const RUNS: u16 = 3;
@@ -36,8 +37,8 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = offered::<&Axis>(&AXES), help = format!("What to vary: {} [default: all]", Axis::help()))]
-    only: Vec<&'static Axis>,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = PossibleValuesParser::new(AXES.iter().map(|axis| axis.name)), help = format!("What to vary: {} [default: all]", Axis::help()))]
+    only: Vec<String>,
     #[command(flatten)]
     reading: ReadingArg,
     #[command(flatten)]
@@ -53,7 +54,7 @@ pub fn run(args: &Args) -> Result<()> {
     scene.check_friction()?;
     let request = Request::new(&scene).reading(args.reading.reading);
     let runs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let asked: Vec<String> = args.only.iter().map(ToString::to_string).chain(runs).collect();
+    let asked: Vec<String> = args.only.iter().cloned().chain(runs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.tables.json || args.out.is_some();

@@ -14,12 +14,12 @@ use problem::scene::Derived;
 /// The axes that are varied, in the order of the tables, each with its trials.
 pub type Plan = Vec<(&'static Axis, Vec<Trial>)>;
 
-/// Plans the trials of `only` some axes; of all where there are none.
+/// Plans the trials of the axes of these names; of all where there are none.
 ///
 /// # Errors
 /// The scene cannot be refined.
-pub fn plan(request: &Request, only: &[&Axis]) -> Result<Plan, InputError> {
-    let is_asked = |axis: &&Axis| only.is_empty() || only.iter().any(|one| one.name == axis.name);
+pub fn plan(request: &Request, only: &[String]) -> Result<Plan, InputError> {
+    let is_asked = |axis: &&Axis| only.is_empty() || only.iter().any(|name| name == axis.name);
     let with_trials = |axis: &'static Axis| Ok((axis, axis.trials(request)?));
     AXES.iter().filter(is_asked).map(with_trials).collect()
 }
@@ -50,7 +50,7 @@ pub fn measure(request: &Request, plan: Plan, runs: usize, watch: impl Fn(&str))
 /// Runs the trials in turn, `rounds` times.
 fn timed(axis: &Axis, trials: Vec<Trial>, rounds: usize, watch: &impl Fn(&str)) -> Vec<Run> {
     let ran = |Trial { label, request, .. }: &Trial| {
-        watch(&format!("{axis} {} {label}", request.variant));
+        watch(&format!("{} {} {label}", axis.name, request.variant));
     };
     let first = |trial| {
         let run = Run::new(trial, axis);
@@ -83,7 +83,7 @@ impl Bench<'_> {
             [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)]
         });
         let orders = if self.axis.truth == Truth::Finest { self.orders() } else { Vec::new() };
-        Section { parameter: self.axis, against: self.axis.truth.words(), rows, orders }
+        Section { parameter: self.axis.name, against: self.axis.truth.words(), rows, orders }
     }
 
     fn row(&self, place: usize) -> Row {

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::axis::Axis;
 use super::errors::Errors;
 use super::order::Order;
 use engine::estimates::Certainty;
@@ -29,8 +28,8 @@ pub struct Trade {
 /// The trials of an axis.
 #[derive(Clone, Debug, Serialize)]
 pub struct Section {
-    /// The axis.
-    pub parameter: &'static Axis,
+    /// The name of the axis.
+    pub parameter: &'static str,
     /// What errors are measured against, in words.
     pub against: &'static str,
     /// What was measured of each trial, in the order of the trials.

@@ -55,7 +55,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
     let table = Table::from_rows(&section.rows)
         .column("", |row| [mark(row.pareto, "*"), mark(row.own, ">")].concat())
         .column("variant", |row| row.variant.to_string())
-        .column(section.parameter.name, |row| row.label.clone())
+        .column(section.parameter, |row| row.label.clone())
         .column("equations", |row| row.equations)
         .column("in contact", |row| row.in_contact)
         .column("time, s", |row| row.seconds.map(|seconds| Cell::decimals(seconds, 4)))
