@@ -70,13 +70,16 @@ struct Steps {
 /// What came of a job, by column.
 pub type Row = Map<String, Value>;
 
-/// The jobs of a sweep: each takes values of the list and of the grid, and is made when it is asked for.
+/// What takes turns: each time the values of one or several pointers.
+type Axis = Vec<Map<String, Value>>;
+
+/// The jobs of a sweep, the product of its axes: each is made when it is asked for.
 pub struct Jobs {
     scene: SceneFile,
     /// `scene` and `options`, of which each job has a copy with other values.
     base: Value,
-    list: Vec<Map<String, Value>>,
-    grid: Vec<(String, Vec<Value>)>,
+    /// The list, then the pointers of the grid, of which the last varies fastest.
+    axes: Vec<Axis>,
     /// How many there are.
     pub count: usize,
     /// The hashes of the meshes that were read, by name.
@@ -107,18 +110,15 @@ impl Jobs {
         let fields: Value = read(&scene.text, &SCENE).map_err(|error| error.within(&scene.name))?;
         let base = json!({"scene": fields, "options": sweep.options});
         let list = if sweep.list.is_empty() { vec![Map::new()] } else { sweep.list };
-        let with_values = |(pointer, values): (String, Value)| {
-            listed(&pointer, values).map(|values| (pointer, values))
-        };
-        let grid = sweep.grid.into_iter().map(with_values).collect::<Result<Vec<_>>>()?;
-        let of_grid = grid.iter().map(|(_, values)| values.len());
-        let count = of_grid.fold(list.len(), usize::saturating_mul);
+        let of_grid = sweep.grid.into_iter().map(|(pointer, values)| axis(&pointer, values));
+        let axes = std::iter::once(Ok(list)).chain(of_grid).collect::<Result<Vec<Axis>>>()?;
+        let count = axes.iter().map(Vec::len).fold(1, usize::saturating_mul);
         if count > MOST_JOBS {
             return Err(too_many());
         }
-        check_size(&list, &grid, count)?;
-        list.iter().try_for_each(|job| check_pointers(job, &grid))?;
-        Ok(Jobs { scene, base, list, grid, count, meshes: Mutex::default() })
+        check_size(&axes, count)?;
+        check_pointers(&axes)?;
+        Ok(Jobs { scene, base, axes, count, meshes: Mutex::default() })
     }
 
     /// Returns all jobs, in order.
@@ -129,19 +129,17 @@ impl Jobs {
         (0..self.count).map(|k| self.job(k)).collect()
     }
 
-    /// Returns a job by its number, which is below the count; of the grid the last pointer varies fastest.
+    /// Returns a job by its number, which is below the count; the last axis varies fastest.
     ///
     /// # Errors
     /// A pointer leads nowhere.
     pub fn job(&self, number: usize) -> Result<Job> {
-        let mut rest = number;
-        let mut of_grid = Vec::new();
-        for (pointer, values) in self.grid.iter().rev() {
-            of_grid.push((pointer.clone(), values[rest % values.len()].clone()));
-            rest /= values.len();
+        let (mut rest, mut turns) = (number, Vec::new());
+        for axis in self.axes.iter().rev() {
+            turns.push(axis[rest % axis.len()].clone());
+            rest /= axis.len();
         }
-        let mut values = self.list[rest].clone();
-        values.extend(of_grid.into_iter().rev());
+        let values: Map<String, Value> = turns.into_iter().rev().flatten().collect();
         let key =
             self.key(&values, &mut self.meshes.lock().unwrap_or_else(PoisonError::into_inner))?;
         Ok(Job { values, key })
@@ -212,34 +210,31 @@ impl Jobs {
 }
 
 /// Checks that the values of all jobs, of which there are so many, fit in memory.
-fn check_size(
-    list: &[Map<String, Value>],
-    grid: &[(String, Vec<Value>)],
-    count: usize,
-) -> Result<()> {
-    let bytes = |value: Value| value.to_string().len();
+fn check_size(axes: &[Axis], count: usize) -> Result<()> {
     // Each value is one of as many jobs as there are combinations of the others.
-    let of_list: usize = list.iter().map(|job| bytes(job.clone().into())).sum();
-    let of_list = of_list.saturating_mul(count / list.len());
-    let of_grid = grid.iter().filter(|(_, values)| !values.is_empty()).map(|(pointer, values)| {
-        let own = bytes(values.clone().into()) + values.len() * pointer.len();
-        own.saturating_mul(count / values.len())
+    let bytes = axes.iter().filter(|axis| !axis.is_empty()).map(|axis| {
+        let own: usize = axis.iter().map(|turn| json!(turn).to_string().len()).sum();
+        own.saturating_mul(count / axis.len())
     });
-    limits::JOBS.check(of_grid.fold(of_list, usize::saturating_add), "grid and list")
+    limits::JOBS.check(bytes.fold(0, usize::saturating_add), "grid and list")
 }
 
 /// Checks that no pointer of a job leads to a part of what another one sets: the later one would undo the earlier.
-fn check_pointers(job: &Map<String, Value>, grid: &[(String, Vec<Value>)]) -> Result<()> {
-    let all = job.keys().chain(grid.iter().map(|(pointer, _)| pointer));
-    let mut all: Vec<(String, &String)> = all.map(|own| (unescaped(own) + "/", own)).collect();
-    all.sort();
-    let within = all.windows(2).find(|pair| pair[1].0.starts_with(&pair[0].0));
-    within.map_or(Ok(()), |pair| {
-        let [outer, inner] = [0, 1].map(|k| pair[k].1);
-        let what = format!("the pointer {inner:?} leads into what {outer:?} sets");
-        let fix = "leave one of them out, or set the whole by one pointer";
-        Err(InputError::new("grid and list", what, fix))
-    })
+fn check_pointers(axes: &[Axis]) -> Result<()> {
+    // All turns of an axis of the grid have one pointer.
+    let of_grid = || axes[1..].iter().filter_map(|axis| axis.first()).flat_map(Map::keys);
+    for job in &axes[0] {
+        let all = job.keys().chain(of_grid()).map(|own| (unescaped(own) + "/", own));
+        let mut all: Vec<(String, &String)> = all.collect();
+        all.sort();
+        if let Some(pair) = all.windows(2).find(|pair| pair[1].0.starts_with(&pair[0].0)) {
+            let [outer, inner] = [0, 1].map(|k| pair[k].1);
+            let what = format!("the pointer {inner:?} leads into what {outer:?} sets");
+            let fix = "leave one of them out, or set the whole by one pointer";
+            return Err(InputError::new("grid and list", what, fix));
+        }
+    }
+    Ok(())
 }
 
 /// Returns a pointer whose names stand as they are, but for a slash in them.
@@ -252,11 +247,12 @@ fn too_many() -> InputError {
     InputError::new("grid and list", what, "divide the sweep")
 }
 
-/// Returns the values of a pointer in a grid: those of a list, or steps.
-fn listed(pointer: &str, values: Value) -> Result<Vec<Value>> {
+/// Returns the axis of a pointer of the grid: its values are a list, or steps.
+fn axis(pointer: &str, values: Value) -> Result<Axis> {
+    let turn = |value: Value| Map::from_iter([(pointer.to_string(), value)]);
     let fault = |what, fix| InputError::new(format!("grid {pointer:?}"), what, fix);
     let Steps { from, to, count, log } = match values {
-        Value::Array(list) => return Ok(list),
+        Value::Array(list) => return Ok(list.into_iter().map(turn).collect()),
         steps => serde_json::from_value(steps).map_err(|_| {
             let what = "the values are neither a list nor steps";
             fault(what, "give a list, or {\"from\": 1, \"to\": 2, \"count\": 5}")
@@ -278,7 +274,7 @@ fn listed(pointer: &str, values: Value) -> Result<Vec<Value>> {
         (true, t) => from * (to / from).powf(t),
     };
     // No number of JSON stands for what is not finite: it would be null, which is the default.
-    let step = |k| Number::from_f64(value(k)).map(Value::Number);
+    let step = |k| Number::from_f64(value(k)).map(Value::Number).map(turn);
     let steps = (0..count).map(step).collect::<Option<_>>();
     steps.ok_or_else(|| fault("the steps are no finite numbers", fix))
 }

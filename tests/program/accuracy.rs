@@ -12,7 +12,7 @@ use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::numbers::scalar::rational;
 use plane_contact::problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::trade::{AccurateSolution, Outcome, solve_to};
+use plane_contact::studies::trade::{AccurateSolution, Rounding, solve_to};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::{Value, json};
@@ -197,7 +197,7 @@ fn what_a_precision_cannot_represent_climbs() {
             case(&scene, Variant::Tied, 1e-3).unwrap_or_else(|why| panic!("{what}: {why}"));
         let (last, failed) = reached.attempts.split_last().expect("one was tried");
         let failed = failed.iter().inspect(|attempt| {
-            assert!(matches!(attempt.outcome, Outcome::Failed(_)), "{what}: {attempt:?}");
+            assert!(matches!(attempt.rounding, Rounding::Failed(_)), "{what}: {attempt:?}");
         });
         let all = failed.chain([last]).map(|attempt| attempt.arithmetic.scalar);
         assert_eq!(all.collect::<Vec<_>>(), tried, "{what}");

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::common::golden::assert_golden_by;
 use crate::common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
 use plane_contact::studies::extremes::table as report;
-use plane_contact::studies::extremes::{Column, GENERATORS, SweepTable, Verdict, measure};
+use plane_contact::studies::extremes::{Column, GENERATORS, Kept, SweepTable, measure};
 
 fn text(measured: &[SweepTable]) -> String {
     report::report(measured).text(usize::MAX)
@@ -29,7 +29,7 @@ fn moved(by: f64) -> Vec<SweepTable> {
     for Column { verdicts, below, above, .. } in measured.iter_mut().flat_map(|m| &mut m.columns) {
         let breaks = below.iter_mut().chain(above).map(|at| &mut at.verdict);
         for verdict in verdicts.iter_mut().chain(breaks) {
-            if let Verdict::Digits(digits) = verdict {
+            if let Kept::Digits(digits) = verdict {
                 *digits += by;
             }
         }
@@ -104,8 +104,8 @@ fn a_table_that_is_off_is_told() {
 }
 
 /// The cells of a generator's way, each with its magnitude.
-fn column<'a>(generator: &str, way: &str) -> impl Iterator<Item = (f64, &'a Verdict)> {
-    let measured = MEASURED.iter().find(|m| m.name == generator).expect("a generator");
+fn column<'a>(generator: &str, way: &str) -> impl Iterator<Item = (f64, &'a Kept)> {
+    let measured = MEASURED.iter().find(|m| m.generator.name == generator).expect("a generator");
     let column = measured.columns.iter().find(|c| c.name == way).expect("a way");
     measured.magnitudes.iter().copied().zip(&column.verdicts)
 }
@@ -114,8 +114,8 @@ fn column<'a>(generator: &str, way: &str) -> impl Iterator<Item = (f64, &'a Verd
 fn nothing_is_ever_nan() {
     for of in MEASURED.iter() {
         for column in &of.columns {
-            let nan = column.verdicts.contains(&Verdict::Wrong("NaN"));
-            assert!(!nan, "{} {}", of.name, column.name);
+            let nan = column.verdicts.contains(&Kept::Wrong("NaN"));
+            assert!(!nan, "{} {}", of.generator.name, column.name);
         }
     }
 }
@@ -129,8 +129,8 @@ fn published_variants_are_right_or_refused() {
             .flat_map(|variant| ["f64", "f64x2"].map(|scalar| format!("{variant} {scalar}")));
         for name in published {
             for column in of.columns.iter().filter(|column| column.name == name) {
-                let wrong = column.verdicts.iter().any(|v| matches!(v, Verdict::Wrong(_)));
-                assert!(!wrong, "{} {name}", of.name);
+                let wrong = column.verdicts.iter().any(|v| matches!(v, Kept::Wrong(_)));
+                assert!(!wrong, "{} {name}", of.generator.name);
             }
         }
     }
@@ -140,7 +140,7 @@ fn published_variants_are_right_or_refused() {
 #[test]
 fn underflow_is_met() {
     for (pressure, verdict) in column("loads", "tied f32").filter(|(p, _)| *p < 1e-39) {
-        assert!(matches!(verdict, Verdict::Refused(_)), "{pressure:e}: {verdict}");
+        assert!(matches!(verdict, Kept::Refused(_)), "{pressure:e}: {verdict}");
     }
 }
 

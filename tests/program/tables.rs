@@ -5,7 +5,6 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use nalgebra::DVector;
 use plane_contact::engine::estimates::Estimates;
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{
@@ -13,7 +12,7 @@ use plane_contact::engine::{
 };
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
-use plane_contact::problem::scene::Refined;
+use plane_contact::problem::scene::Derived;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::claims::Verdict;
 use plane_contact::studies::audit::evidence::NoFigures;
@@ -21,7 +20,7 @@ use plane_contact::studies::audit::findings::FindingId;
 use plane_contact::studies::audit::prices::{self, CorrectedRun, Price, Weight};
 use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
 use plane_contact::studies::calculix::{Pair, RECORDED, run};
-use plane_contact::studies::trade::{self, Varied};
+use plane_contact::studies::trade;
 use plane_contact::{Request, Scene};
 
 use crate::claims::JUDGED;
@@ -226,7 +225,7 @@ fn mesh_errors() {
     let fig1 = Scene::open("fig1").expect("an embedded scene");
     let names = ["strand, edges of 1.2 mm", "strand, edges of 0.9 mm", "hertz", "punch", "fig1"];
     let runs = names.into_iter().zip(made.into_iter().chain([fig1])).flat_map(|(name, scene)| {
-        let mut meshes: Vec<Refined> = Vec::new();
+        let mut meshes: Vec<Derived> = Vec::new();
         for _ in 0..3 {
             let last = meshes.last().map_or(&scene, |finer| &finer.scene);
             meshes.push(last.refined().expect("a sound scene").expect("a whole scene"));
@@ -240,16 +239,9 @@ fn mesh_errors() {
                     solve(&reference.contact(contact), &mut |_| ()).expect("a solution")
                 };
                 let (coarse, fine) = (run(&scene), run(&meshes[2].scene));
-                let mut u = coarse.u.as_slice().to_vec();
-                for ends in meshes.iter().flat_map(|finer| &finer.parents) {
-                    let halves = [0, 1].map(|d| {
-                        (u[ends[0].dofs()[d].index()] + u[ends[1].dofs()[d].index()]) / 2.0
-                    });
-                    u.extend(halves);
-                }
+                let u = meshes.iter().fold(coarse.u.clone(), |u, finer| finer.displacements(&u));
                 let stiffness = Stiffness::new(&fine.model, |x| x);
-                let error = stiffness.energy_norm(&(DVector::from_vec(u) - &fine.u))
-                    / stiffness.energy_norm(&fine.u);
+                let error = stiffness.energy_norm(&(u - &fine.u)) / stiffness.energy_norm(&fine.u);
                 let estimate =
                     Estimates::new(&coarse).errors.mesh_energy_relative.expect("an estimate");
                 format!(
@@ -416,9 +408,9 @@ fn rounded(x: f64) -> f64 {
 fn settings() {
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
     let request = Request::new(&STRAND).arithmetic(arithmetic);
-    let only = vec![Varied::Tolerance, Varied::Iterations, Varied::Symmetry];
-    let options = trade::Options { runs: 1, only };
-    let trade = trade::measure(&request, &options, |_| ()).expect("it is measured");
+    let only = ["c_tll", "iterations", "symmetry"].map(String::from);
+    let plan = trade::plan(&request, &only).expect("a sound scene");
+    let trade = trade::measure(&request, plan, 1, |_| ());
     let rows = trade.sections.iter().flat_map(|section| {
         section.rows.iter().map(move |row| {
             let [error, change] = [&row.error, &row.change].map(|errors| {

@@ -17,15 +17,15 @@ use plane_contact::studies::audit::claims::ClaimId;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
 use plane_contact::studies::trade::table as report;
-use plane_contact::studies::trade::{
-    self, Options, Order, Outcome, Point, Trade, Varied, pareto, solve_to,
-};
+use plane_contact::studies::trade::{self, AXES, Order, Point, Rounding, Trade, pareto, solve_to};
 use serde_json::{Value, json};
 
-fn measured(scene: &Scene, only: &[Varied]) -> Trade {
-    let options = Options { runs: 1, only: only.to_vec() };
+/// What is measured of the axes of these names, of all where there are none.
+fn measured(scene: &Scene, only: &[&str]) -> Trade {
     let request = Request::new(scene);
-    trade::measure(&request, &options, |_| ()).expect("it is measured")
+    let only: Vec<String> = only.iter().map(ToString::to_string).collect();
+    let plan = trade::plan(&request, &only).expect("a sound scene");
+    trade::measure(&request, plan, 1, |_| ())
 }
 
 fn open(name: &str) -> Scene {
@@ -97,10 +97,10 @@ fn squares_of_differences_add_in_the_energy_norm() {
 
 #[test]
 fn every_parameter_has_its_rows_and_every_row_its_columns() {
-    let trade = measured(&open("fig1"), Varied::ALL);
-    assert_eq!(trade.sections.len(), Varied::ALL.len());
+    let trade = measured(&open("fig1"), &[]);
+    assert_eq!(trade.sections.len(), AXES.len());
     for section in &trade.sections {
-        let none = section.parameter == Varied::Symmetry;
+        let none = section.parameter == "symmetry";
         assert_eq!(section.rows.is_empty(), none, "{}", section.parameter);
         for row in &section.rows {
             let (parameter, label) = (section.parameter, &row.label);
@@ -142,15 +142,15 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
 
 #[test]
 fn the_picture_is_xml() {
-    let empty = measured(&open("fig1"), &[Varied::Symmetry]);
+    let empty = measured(&open("fig1"), &["symmetry"]);
     assert_eq!(report::picture(&empty), None, "a chart without a point");
-    let svg = report::picture(&measured(&open("fig1"), &[Varied::Solver])).expect("a chart");
+    let svg = report::picture(&measured(&open("fig1"), &["solver"])).expect("a chart");
     roxmltree::Document::parse(&svg).expect("XML");
 }
 
 #[test]
 fn errors_fall_with_precision() {
-    let trade = measured(&open("fig1"), &[Varied::Arithmetic]);
+    let trade = measured(&open("fig1"), &["arithmetic"]);
     let error = |label: &str| {
         let row = trade.sections[0].rows.iter().find(|row| row.label == label);
         row.and_then(|row| row.error).expect("the trial ran").displacement
@@ -164,7 +164,7 @@ fn errors_fall_with_precision() {
 #[test]
 fn lame_converges_with_order_1_in_the_energy_norm() {
     let scene = annulus(4, 8).build().unwrap();
-    let trade = measured(&scene, &[Varied::Mesh]);
+    let trade = measured(&scene, &["mesh"]);
     let section = &trade.sections[0];
     let errors: Vec<f64> = section.rows.iter().map(|row| row.error.unwrap().energy).collect();
     assert!(errors.len() >= 4 && errors.windows(2).all(|e| e[1] < e[0]), "{errors:?}");
@@ -197,8 +197,9 @@ fn half_is_whole(scene: &Scene, variant: Variant) {
     let half = half(scene).expect("the scene is symmetric");
     let (whole, of_half) = (solved(scene, variant), solved(&half.scene, variant));
     let scale = whole.u.amax();
-    for (k, n) in half.nodes.iter().enumerate() {
-        let (u, expected) = (NodeId::new(k).components(&of_half.u), n.components(&whole.u));
+    let expected = half.displacements(&whole.u);
+    for n in half.scene.model.node_ids() {
+        let (u, expected) = (n.components(&of_half.u), n.components(&expected));
         for d in [0, 1] {
             assert_near(&format!("node {n}"), u[d], expected[d], scale, &HALF);
         }
@@ -254,8 +255,7 @@ fn images_are_found_where_coordinates_are_large_and_rounded() {
         "restraints": [{ "on": 11, "fix": ["x", "y"] }]
     });
     let half = half(&build(&scene).unwrap()).expect("the scene is symmetric");
-    assert_eq!(half.nodes, [3, 4, 5, 7, 8].map(NodeId::from_number));
-    assert_eq!(half.at, 0.0);
+    assert_eq!(half.nodes, [3, 4, 5, 7, 8].map(|n| [NodeId::from_number(n); 2]));
 }
 
 #[test]
@@ -310,7 +310,7 @@ fn half_a_scene_has_no_dropped_node() {
     assert_eq!(scene.model.dropped, [NodeId::from_number(7)]);
     let half = half(&scene).expect("the scene is symmetric");
     assert!(half.scene.model.dropped.is_empty());
-    assert_eq!(half.nodes, [2, 3, 5, 6].map(NodeId::from_number));
+    assert_eq!(half.nodes, [2, 3, 5, 6].map(|n| [NodeId::from_number(n); 2]));
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn half_a_scene_is_not_refined() {
 fn everything_but_times_is_reproducible() {
     let scene = open("fig1");
     let measured = || {
-        let mut trade = measured(&scene, Varied::ALL);
+        let mut trade = measured(&scene, &[]);
         for row in trade.sections.iter_mut().flat_map(|section| &mut section.rows) {
             (row.seconds, row.pareto) = (None, false);
         }
@@ -345,7 +345,7 @@ fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
         let reached = reach(accuracy).expect("a precision meets it");
         let last = reached.attempts.last().expect("an attempt");
         assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
-        assert!(matches!(last.outcome, Outcome::Bound(bound) if bound <= accuracy));
+        assert!(matches!(last.rounding, Rounding::Bound(bound) if bound <= accuracy));
         let words = report::reached(&reached, accuracy).text(usize::MAX);
         assert!(words.contains("mesh"), "{words}");
     }
@@ -365,7 +365,7 @@ fn the_bar_of_an_accuracy_holds() {
         for accuracy in [0.5, 1e-6, 1e-8] {
             let reached = reach(accuracy);
             let error = (&reached.solution.u - &best).amax() / max_displacement(&best);
-            let Outcome::Bound(bar) = reached.attempts.last().expect("an attempt").outcome else {
+            let Rounding::Bound(bar) = reached.attempts.last().expect("an attempt").rounding else {
                 panic!("it ran");
             };
             assert!(error <= bar && bar <= accuracy, "{name}: {error:e}, {bar:e}, {accuracy:e}");

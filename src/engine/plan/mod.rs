@@ -82,7 +82,7 @@ pub struct Equations {
     pub idle: usize,
 }
 
-/// The left half of a symmetric scene.
+/// Half of a symmetric scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct HalfPlan {
     /// Where the line of symmetry stands: x, length.
@@ -136,7 +136,8 @@ impl Plan {
             solver,
             storage: if is_dense(variant, arithmetic) { Storage::Dense } else { Storage::Sparse },
             orphans: model.dropped.len(),
-            half: half(scene).map(|half| HalfPlan { at: half.at, nodes: half.nodes.len() }),
+            half: half(scene)
+                .map(|half| HalfPlan { at: model.bounds().centre()[0], nodes: half.nodes.len() }),
         })
     }
 

@@ -8,6 +8,7 @@
 
 mod builder;
 mod check;
+mod derived;
 mod description;
 mod embedded;
 pub mod file;
@@ -33,6 +34,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 pub use builder::SceneBuilder;
+pub use derived::Derived;
 pub use description::{
     Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
 };
@@ -43,7 +45,6 @@ pub use groups::GroupRef;
 use groups::Groups;
 pub use hashes::{sha256, sha256_of, source_hashes};
 pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags};
-pub use refine::Refined;
 pub use scene_file::SceneFile;
 pub use surface::Surface;
 

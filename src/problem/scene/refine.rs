@@ -11,28 +11,21 @@
 use std::collections::{HashMap, HashSet};
 
 use super::Scene;
+use super::derived::Derived;
 use super::mesh::{Element, Mesh, Node, NodeNumbers};
 use super::surface::Surface;
 use crate::model::NodeId;
 use base::error::Result;
 
-/// A finer scene. Nodes keep their numbers; triangle n (row of `EL`) becomes 4n − 3 .. 4n.
-#[derive(Clone, Debug)]
-pub struct Refined {
-    /// The finer scene.
-    pub scene: Scene,
-    /// The ends of the edge that each new node halves, from node R + 1 on.
-    pub parents: Vec<[NodeId; 2]>,
-}
-
 impl Scene {
     /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
-    /// for half a scene, which has no mesh. A restraint or a force on a single node stays on that
-    /// node.
+    /// for half a scene, which has no mesh. Nodes keep their numbers, and new ones follow, each of
+    /// which halves an edge; triangle n (row of `EL`) becomes 4n − 3 .. 4n. A restraint or a force on
+    /// a single node stays on that node.
     ///
     /// # Errors
     /// The finer scene cannot be built.
-    pub fn refined(&self) -> Result<Option<Refined>> {
+    pub fn refined(&self) -> Result<Option<Derived>> {
         let Some(source) = &self.source else { return Ok(None) };
         let mesh = &source.mesh;
         // Each side of an element is halved once; a point has none.
@@ -107,6 +100,10 @@ impl Scene {
         scene.word.clone_from(&self.word);
         scene.iterations = self.iterations;
         let parents = parents.into_iter().map(|ends| ends.map(NodeId::from_number));
-        Ok(Some(Refined { scene, parents: parents.collect() }))
+        Ok(Some(Derived {
+            scene,
+            nodes: self.model.node_ids().map(|node| [node; 2]).chain(parents).collect(),
+            triangles: self.model.triangle_ids().flat_map(|id| [id; 4]).collect(),
+        }))
     }
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::Scene;
+use super::derived::Derived;
 use crate::model::{
     Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Hold, Model, NodeId, Restraint, Row,
     Sides, Support, Triangle, TriangleId, unordered,
@@ -21,21 +22,8 @@ const PLACE: f64 = 1e-9;
 /// The largest difference of a load from its image, over the largest load.
 const LOAD: f64 = 1e-9;
 
-/// The left half of a scene that is its own mirror image.
-#[derive(Clone, Debug)]
-pub struct Half {
-    /// The half as a scene.
-    pub scene: Scene,
-    /// The whole scene's node for each node of the half.
-    pub nodes: Vec<NodeId>,
-    /// The whole scene's triangle for each triangle of the half.
-    pub triangles: Vec<TriangleId>,
-    /// The x coordinate of the line, length.
-    pub at: f64,
-}
-
-/// Returns half of `scene`; None where it is not symmetric about a vertical line.
-pub fn half(scene: &Scene) -> Option<Half> {
+/// Returns the half of `scene` right of the line; None where it is not symmetric about a vertical line.
+pub fn half(scene: &Scene) -> Option<Derived> {
     let whole = &*scene.model;
     images(whole)?;
     let line = Line::of(whole);
@@ -58,7 +46,7 @@ pub fn half(scene: &Scene) -> Option<Half> {
         coupling_is_missing: scene.coupling_is_missing,
         source: None,
     };
-    Some(Half { scene, nodes, triangles, at: line.at })
+    Some(Derived { scene, nodes: nodes.into_iter().map(|node| [node; 2]).collect(), triangles })
 }
 
 /// The only line about which a model may be symmetric.

@@ -283,9 +283,9 @@ fn shapes_and_places() {
     assert_eq!(model.shape(&u), moved);
     let finer = scene.refined().expect("sound").expect("it has a mesh");
     assert_eq!(finer.scene.model.nodes.len(), 5 + 5, "one on each edge");
-    for (k, parents) in finer.parents.iter().enumerate() {
-        let [[ax, ay], [bx, by]] = parents.map(|n| model.coordinates(n));
-        assert_eq!(finer.scene.model.nodes[5 + k], [(ax + bx) / 2.0, (ay + by) / 2.0]);
+    for (k, ends) in finer.nodes.iter().enumerate() {
+        let [[ax, ay], [bx, by]] = ends.map(|n| model.coordinates(n));
+        assert_eq!(finer.scene.model.nodes[k], [(ax + bx) / 2.0, (ay + by) / 2.0]);
     }
     let (_, mesh) = finer.scene.source().expect("it has a mesh");
     assert!(mesh.nodes.iter().zip(1..).all(|(node, number)| node.number == number));

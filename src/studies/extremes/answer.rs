@@ -3,7 +3,7 @@
 use dashu_ratio::RBig;
 
 use super::blocks::Blocks;
-use super::verdict::Verdict;
+use super::kept::Kept;
 use engine::error::Error;
 use engine::linear::{Arithmetic, ScalarName};
 use engine::{self, Request};
@@ -57,7 +57,7 @@ impl Answer {
 
 /// Runs `variant` on `blocks` in `scalar`, and compares with exact numbers: another contact state is wrong.
 /// `unilateral` has no exact run and is compared with `tied`, which is its answer where nothing opens.
-pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Verdict, Error> {
+pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Kept, Error> {
     let scene = blocks.scene(variant);
     let answer = solve(&scene, variant, scalar)?;
     let is_unilateral = variant == Variant::Unilateral;
@@ -65,10 +65,10 @@ pub fn judge(blocks: &Blocks, variant: Variant, scalar: ScalarName) -> Result<Ve
     Ok(match Error::found(solve(&scene, known, ScalarName::Exact))? {
         Some(exact) if answer.in_contact == exact.in_contact => {
             let errors = exact.bodies.iter().map(|dofs| answer.error(&exact, dofs));
-            Verdict::of_error(errors.fold(0.0, f64::max))
+            Kept::of_error(errors.fold(0.0, f64::max))
         }
-        Some(_) if is_unilateral => Verdict::Unknown,
-        Some(_) => Verdict::of_status(false),
-        None => Verdict::Wrong("exact refuses"),
+        Some(_) if is_unilateral => Kept::Unknown,
+        Some(_) => Kept::of_status(false),
+        None => Kept::Wrong("exact refuses"),
     })
 }

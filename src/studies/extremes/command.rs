@@ -40,7 +40,7 @@ pub fn run(args: &Args) -> Result<()> {
     let is_written = !args.tables.json || args.out.is_some();
     let is_chosen =
         |g: &&Generator| args.names.is_empty() || args.names.iter().any(|n| n == g.name);
-    let chosen: Vec<&Generator> = GENERATORS.iter().filter(is_chosen).collect();
+    let chosen: Vec<&'static Generator> = GENERATORS.iter().filter(is_chosen).collect();
     if is_written {
         let pictures = chosen.iter().map(|generator| format!("{}.svg", generator.name));
         let texts = ["extremes.txt", "extremes.json"].map(String::from);
@@ -52,7 +52,7 @@ pub fn run(args: &Args) -> Result<()> {
         return print(&json);
     }
     let report = report::report(&measured);
-    let picture = |of: &SweepTable| (format!("{}.svg", of.name), report::picture(of));
+    let picture = |of: &SweepTable| (format!("{}.svg", of.generator.name), report::picture(of));
     let mut written = vec![("extremes.txt".into(), report.text(usize::MAX))];
     written.extend(measured.iter().map(picture));
     written.push(("extremes.json".into(), json.clone()));

@@ -4,27 +4,29 @@
 //! ```text
 //!  Generator: powers of ten, how a scene is made of one
 //!       |
-//!       +--> a Verdict for each value and method: exact, digits, wrong, refused
+//!       +--> what is Kept of each value by each method: exact, digits, wrong, refused
 //!       +--> for each method, where it breaks down: bisected to half a decade
 //! ```
 
 mod answer;
 mod blocks;
 pub(crate) mod command;
+mod kept;
+mod method;
 mod search;
-mod sweep;
 pub mod table;
-mod verdict;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use blocks::Blocks;
 use search::{Quantity, Search};
 
-pub use sweep::{Break, Column, SweepTable};
-pub use verdict::Verdict;
+pub use kept::Kept;
+pub use method::{Break, Column, SweepTable};
 
 /// A family of scenes in which one magnitude becomes extreme.
+#[derive(Debug, Serialize)]
 pub struct Generator {
     /// Its name.
     pub name: &'static str,
@@ -33,12 +35,14 @@ pub struct Generator {
     /// What is swept, with its unit.
     pub magnitude: &'static str,
     /// Powers of ten: from, to, step.
+    #[serde(skip)]
     decades: (i32, i32, usize),
+    #[serde(skip)]
     made: Made,
 }
 
 /// How a scene is made of a value.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Made {
     /// Two blocks in contact.
     Blocks(fn(f64) -> Blocks),
@@ -110,6 +114,6 @@ pub static GENERATORS: [Generator; 8] = [
 ];
 
 /// Sweeps each of `generators`, side by side.
-pub fn measure(generators: &[&Generator]) -> Vec<SweepTable> {
+pub fn measure(generators: &[&'static Generator]) -> Vec<SweepTable> {
     generators.par_iter().map(|generator| generator.measure()).collect()
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::verdict::Verdict;
+use super::kept::Kept;
 use engine::error::Error;
 use numbers::scalar::{Exact, Scalar, scope};
 use paper::door;
@@ -99,7 +99,7 @@ fn minus<T: Scalar>([ax, ay]: [T; 2], [bx, by]: [T; 2]) -> [T; 2] {
 }
 
 /// What is compared of a search.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub enum Quantity {
     /// The vertical distance, as printed.
     Yt,
@@ -120,8 +120,8 @@ impl Quantity {
     }
 
     /// Finds it in `T`, and compares with exact numbers; a status on both sides of the tolerance.
-    pub fn judge<T: Scalar>(self, search: Search) -> Result<Verdict, Error> {
-        let refused = Verdict::Wrong("exact refuses");
+    pub fn judge<T: Scalar>(self, search: Search) -> Result<Kept, Error> {
+        let refused = Kept::Wrong("exact refuses");
         scope(|| match self {
             Quantity::NormalGap => Ok(error::<T>(search.normal_gap(), search.normal_gap())),
             Quantity::Yt => {
@@ -139,16 +139,16 @@ impl Quantity {
                     let Ok((_, exact)) = search.printed::<Exact>() else { return Ok(refused) };
                     right &= found == exact;
                 }
-                Ok(Verdict::of_status(right))
+                Ok(Kept::of_status(right))
             }
         })
     }
 }
 
-/// The verdict on a length, without its unit.
-fn error<T: Scalar>(found: T, exact: Exact) -> Verdict {
+/// What is kept of a length, without its unit.
+fn error<T: Scalar>(found: T, exact: Exact) -> Kept {
     match found.to_rational().zip(exact.to_rational()) {
-        Some((found, exact)) => Verdict::of_error((found - exact).to_f64().value().abs()),
-        None => Verdict::of_error(f64::NAN),
+        Some((found, exact)) => Kept::of_error((found - exact).to_f64().value().abs()),
+        None => Kept::of_error(f64::NAN),
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::extremes::{Break, Column, SweepTable, Verdict};
+use crate::extremes::{Break, Column, Kept, SweepTable};
 use report::json;
 use report::model::{Cell, Report, Table};
 use report::picture::{Axis, Series, Style, chart};
@@ -16,8 +16,8 @@ pub fn json(measured: &[SweepTable]) -> String {
 pub fn report(measured: &[SweepTable]) -> Report {
     measured.iter().fold(Report::default(), |report, measured| {
         report
-            .heading(format!("{}: {}", measured.name, measured.title))
-            .table(format!("Limits of {}", measured.name), breaks(measured))
+            .heading(format!("{}: {}", measured.generator.name, measured.generator.title))
+            .table(format!("Limits of {}", measured.generator.name), breaks(measured))
             .then(sweep(measured))
     })
 }
@@ -31,11 +31,11 @@ pub fn picture(measured: &SweepTable) -> String {
     };
     let series: Vec<Series> = measured.columns.iter().map(curve).collect();
     let axes = [
-        Axis { label: measured.magnitude, logarithmic: true },
+        Axis { label: measured.generator.magnitude, logarithmic: true },
         Axis { label: "digits kept", logarithmic: false },
     ];
     let caption = "A curve has a gap where a run is refused; 0 is an answer without a right digit.";
-    chart(measured.title, axes, &series, &[caption.into()])
+    chart(measured.generator.title, axes, &series, &[caption.into()])
 }
 
 /// Returns a row for each method: the digits where the sweep is kindest, and where it breaks down.
@@ -61,19 +61,22 @@ fn sweep(measured: &SweepTable) -> Report {
     let rows = measured.magnitudes.iter().enumerate().map(|(k, magnitude)| {
         let cell = |column: &Column| match &column.verdicts[k] {
             // The table above says what was refused or wrong.
-            Verdict::Refused(_) => "refused".into(),
-            Verdict::Wrong(_) => "WRONG".into(),
+            Kept::Refused(_) => "refused".into(),
+            Kept::Wrong(_) => "WRONG".into(),
             verdict => verdict.to_string().into(),
         };
         let label = format!("{magnitude:e}").into();
         std::iter::once(label).chain(measured.columns.iter().map(cell)).collect()
     });
     let numbers = (1..=measured.columns.len()).map(|k| format!("({k})"));
-    let head = std::iter::once(measured.magnitude.to_string()).chain(numbers);
+    let head = std::iter::once(measured.generator.magnitude.to_string()).chain(numbers);
     let methods = measured.columns.iter().zip(1..).map(|(c, k)| format!("({k}) {}", c.name));
-    let unknown = measured.columns.iter().any(|c| c.verdicts.contains(&Verdict::Unknown));
+    let unknown = measured.columns.iter().any(|c| c.verdicts.contains(&Kept::Unknown));
     Report::default()
-        .table(format!("Digits of {} kept by each method", measured.name), Table::new(head, rows))
+        .table(
+            format!("Digits of {} kept by each method", measured.generator.name),
+            Table::new(head, rows),
+        )
         .notes(methods)
         .notes(unknown.then_some(
             "?: an answer that no exact one stands beside: under unilateral a node opens",

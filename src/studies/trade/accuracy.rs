@@ -11,18 +11,18 @@ use engine::linear::{Arithmetic, ScalarName, Solver};
 use engine::{Request, Solution, max_displacement, solve};
 use problem::modelling::{Coupling, Variant};
 
-use super::trials::{by, most_exact, sparse};
+use super::trial::most_exact;
 
-/// A precision that was tried, and what came of it.
+/// A precision that was tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     pub arithmetic: Arithmetic,
-    pub outcome: Outcome,
+    pub rounding: Rounding,
 }
 
-/// What came of an attempt.
+/// What is known of the rounding of an attempt.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum Rounding {
     /// Why it was not run.
     NotRun(String),
     /// Why its run failed.
@@ -72,27 +72,27 @@ pub fn solve_to(request: &Request, accuracy: f64) -> Result<AccurateSolution, Er
     }
     let (mut attempts, mut failure) = (Vec::new(), None);
     for arithmetic in precisions {
-        let mut add = |outcome| attempts.push(Attempt { arithmetic, outcome });
+        let mut add = |rounding| attempts.push(Attempt { arithmetic, rounding });
         if let Some(why) = not_run(request, arithmetic.scalar, accuracy) {
-            add(Outcome::NotRun(why));
+            add(Rounding::NotRun(why));
             continue;
         }
         match solve(&request.clone().arithmetic(arithmetic), &mut |_| ()) {
             Ok(solution) => {
                 let bound = relative_bound(&solution);
-                add(Outcome::Bound(bound));
+                add(Rounding::Bound(bound));
                 if bound <= accuracy {
                     let mesh = Discretisation::new(&solution.model, &solution.elements);
                     return Ok(AccurateSolution { mesh: mesh.relative(), solution, attempts });
                 }
             }
             Err(why) => {
-                add(Outcome::Failed(why.to_string().lines().next().unwrap_or_default().into()));
+                add(Rounding::Failed(why.to_string().lines().next().unwrap_or_default().into()));
                 failure = Some(why);
             }
         }
     }
-    let ran = attempts.iter().any(|attempt| matches!(attempt.outcome, Outcome::Bound(_)));
+    let ran = attempts.iter().any(|attempt| matches!(attempt.rounding, Rounding::Bound(_)));
     Err(failure.filter(|_| !ran).unwrap_or_else(|| unmet(accuracy, &attempts).into()))
 }
 
@@ -107,9 +107,10 @@ fn precisions(request: &Request) -> Vec<Arithmetic> {
     let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
     let is_mortar = request.contact.coupling == Coupling::Mortar && !is_printed;
     let runs = |scalar: &ScalarName| !is_mortar || scalar.properties().no_mortar.is_none();
-    let arithmetic = |scalar: ScalarName| match by_lu && !scalar.is_exact() {
-        true => by(scalar, Solver::DenseLu),
-        false => sparse(scalar),
+    let arithmetic = |scalar: ScalarName| {
+        let solver =
+            if by_lu && !scalar.is_exact() { Solver::DenseLu } else { Solver::SparseCholesky };
+        Arithmetic { scalar, solver: Some(solver), ..Arithmetic::default() }
     };
     // Those that bound their own rounding: `f64-bounded` stands for f64, whose digits it has. `f32` is dearer
     // than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with equal peak memory, as
@@ -149,12 +150,12 @@ fn relative_bound(solution: &Solution) -> f64 {
 
 fn unmet(accuracy: f64, attempts: &[Attempt]) -> InputError {
     let tried = attempts.iter().map(|attempt| {
-        let outcome = match &attempt.outcome {
-            Outcome::NotRun(why) | Outcome::Failed(why) => why.clone(),
-            Outcome::Bound(bound) if bound.is_finite() => format!("within {bound:.0e}"),
-            Outcome::Bound(_) => "no bound".into(),
+        let rounding = match &attempt.rounding {
+            Rounding::NotRun(why) | Rounding::Failed(why) => why.clone(),
+            Rounding::Bound(bound) if bound.is_finite() => format!("within {bound:.0e}"),
+            Rounding::Bound(_) => "no bound".into(),
         };
-        format!("{}: {outcome}", attempt.arithmetic.scalar)
+        format!("{}: {rounding}", attempt.arithmetic.scalar)
     });
     let tried: Vec<String> = tried.collect();
     let what = format!("no precision meets an accuracy of {accuracy:e} ({})", tried.join("; "));

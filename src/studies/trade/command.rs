@@ -3,15 +3,16 @@
 use std::path::PathBuf;
 
 use crate::trade::table as report;
-use crate::trade::{self, Options, Varied};
+use crate::trade::{self, AXES, Axis};
 use ::report::json;
 use base::files;
 use base::plain::shown;
+use clap::builder::PossibleValuesParser;
 use engine::Request;
 use engine::error::Result;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, folder, folder_name, offered, print, progress};
+use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
 /// The runs of each trial by default.
 const RUNS: u16 = 3;
@@ -36,8 +37,8 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = RUNS)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     runs: u16,
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = offered::<Varied>(Varied::ALL), help = format!("What to vary: {} [default: all]", Varied::help()))]
-    only: Vec<Varied>,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = PossibleValuesParser::new(AXES.iter().map(|axis| axis.name)), help = format!("What to vary: {} [default: all]", Axis::help()))]
+    only: Vec<String>,
     #[command(flatten)]
     reading: ReadingArg,
     #[command(flatten)]
@@ -52,26 +53,23 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
     let request = Request::new(&scene).reading(args.reading.reading);
-    let only = if args.only.is_empty() { Varied::ALL.to_vec() } else { args.only.clone() };
-    let options = Options { runs: usize::from(args.runs), only };
     let runs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
-    let asked: Vec<String> = args.only.iter().map(Varied::to_string).chain(runs).collect();
+    let asked: Vec<String> = args.only.iter().cloned().chain(runs).collect();
     let start = format!("trade-{}", scene.name);
     let out = folder(&args.out, folder_name(start, &request, &asked));
     let is_written = !args.tables.json || args.out.is_some();
     if is_written {
         files::check_folder(&out, &["trade.svg", "trade.json"])?;
     }
-    let bar = progress(
-        "measuring",
-        trade::steps(&request, &options),
-        "{pos} of {len} {wide_bar} {eta} {msg}",
-    );
+    let plan = trade::plan(&request, &args.only)?;
+    let trials: usize = plan.iter().map(|(_, trials)| trials.len()).sum();
+    let runs = usize::from(args.runs);
+    let bar = progress("measuring", trials * runs, "{pos} of {len} {wide_bar} {eta} {msg}");
     let watch = |trial: &str| {
         bar.set_message(trial.to_string());
         bar.inc(1);
     };
-    let measured = trade::measure(&request, &options, watch)?;
+    let measured = trade::measure(&request, plan, runs, watch);
     bar.finish();
     let json = json::line(Some(&scene), &measured);
     if is_written {

@@ -1,230 +1,175 @@
 //! Trials run in turn, timed, and measured against the best of them.
 
-use std::time::Instant;
-
 use rayon::prelude::*;
 
-use super::Varied;
-use super::errors::{Errors, meshes, prolonged};
+use super::axis::{AXES, Axis, Truth};
+use super::errors::Errors;
 use super::order::Order;
 use super::rows::{Row, Section, Trade};
-use super::trials::{ErrorReference, Setting, Trial, judges, trials};
-use engine::error::Error;
-use engine::estimates::{Certainty, certain};
+use super::trial::{Run, Trial};
+use base::error::InputError;
 use engine::{Request, Solution, Stiffness, max_displacement, over, solve, summaries};
-use problem::scene::{Refined, Scene};
+use problem::scene::Derived;
 
-/// Seconds in all beyond which a trial is not run again: what interrupts a run is short beside them.
-const PATIENCE: f64 = 0.05;
+/// The axes that are varied, in the order of the tables, each with its trials.
+pub type Plan = Vec<(&'static Axis, Vec<Trial>)>;
 
-/// What is measured, and how often.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// How many times each trial is run, in turn: A B C A B C ...
-    pub runs: usize,
-    /// The parameters that are varied; all where the list is empty.
-    pub only: Vec<Varied>,
-}
-
-/// Turns the parameters of `request` and measures what comes of each place; `watch` is called after each run
-/// with what was run.
+/// Plans the trials of the axes of these names; of all where there are none.
 ///
 /// # Errors
-/// The scene cannot be refined. A trial that fails is a row that says why.
-pub fn measure(request: &Request, options: &Options, watch: impl Fn(&str)) -> Result<Trade, Error> {
+/// The scene cannot be refined.
+pub fn plan(request: &Request, only: &[String]) -> Result<Plan, InputError> {
+    let is_asked = |axis: &&Axis| only.is_empty() || only.iter().any(|name| name == axis.name);
+    let with_trials = |axis: &'static Axis| Ok((axis, axis.trials(request)?));
+    AXES.iter().filter(is_asked).map(with_trials).collect()
+}
+
+/// Measures trials of a request, each `runs` times in turn, A B C A B C ...; `watch` is called after each run with
+/// what was run. A trial that fails is a row that says why.
+pub fn measure(request: &Request, plan: Plan, runs: usize, watch: impl Fn(&str)) -> Trade {
     let Request { scene, .. } = request;
     let equilibrium = scene.model.target().map(|_| solve(&request.equilibrium(), &mut |_| ()));
     let (reference, no_reference) = match equilibrium.transpose() {
         Ok(found) => (found, None),
         Err(why) => (None, Some(why.to_string())),
     };
-    let mut sections = Vec::new();
-    for parameter in Varied::ALL.iter().filter(|parameter| options.only.contains(parameter)) {
-        let trials = trials(request, *parameter);
-        let runs = timed(request, &trials, options.runs, &watch)?;
-        let is_refined = |trial: &&Trial| matches!(trial.setting, Setting::Refined(1..));
-        let meshes = meshes(scene, trials.iter().filter(is_refined).count())?;
-        let bench =
-            Bench { scene, trials: &trials, runs: &runs, meshes, reference: reference.as_ref() };
-        sections.push(bench.section(*parameter));
-    }
-    Ok(Trade {
+    let section = |(axis, trials): (&'static Axis, Vec<Trial>)| {
+        let runs = timed(axis, trials, runs, &watch);
+        Bench { axis, runs: &runs, reference: reference.as_ref() }.section()
+    };
+    Trade {
         scene: scene.name.clone(),
         nodes: scene.model.nodes.len(),
         triangles: scene.model.triangles.len(),
-        runs: options.runs,
+        runs,
+        sections: plan.into_iter().map(section).collect(),
         no_reference,
-        sections,
-    })
+    }
 }
 
-/// How many times [`measure`] calls `watch`.
-pub fn steps(request: &Request, options: &Options) -> usize {
-    options.only.iter().map(|parameter| trials(request, *parameter).len() * options.runs).sum()
-}
-
-/// The runs of a trial: how long each took, and what all of them computed.
-struct Run {
-    seconds: Vec<f64>,
-    equations: usize,
-    solution: Result<Solution, String>,
-    certainty: Option<Certainty>,
-}
-
-/// Runs the trials in turn, `rounds` times, each from the scene alone: a time includes every
-/// factorisation.
-fn timed(
-    request: &Request,
-    trials: &[Trial],
-    rounds: usize,
-    watch: &impl Fn(&str),
-) -> Result<Vec<Run>, Error> {
-    let requests: Result<Vec<Request>, _> = trials.iter().map(|t| t.request(request)).collect();
-    let requests = requests?;
-    let mut runs: Vec<Run> = Vec::new();
-    for round in 0..rounds {
-        for (place, (trial, request)) in trials.iter().zip(&requests).enumerate() {
-            let again = runs.get(place).is_none_or(|run: &Run| {
-                run.solution.is_ok() && run.seconds.iter().sum::<f64>() < PATIENCE
-            });
-            if again {
-                let start = Instant::now();
-                let solution = solve(request, &mut |_| ());
-                let seconds = start.elapsed().as_secs_f64();
-                if round == 0 {
-                    let solution = match solution {
-                        Ok(solution) if !judges(trial.parameter) => Ok(light(solution)),
-                        other => other.map_err(|why| why.to_string()),
-                    };
-                    let equations = request.scene.model.dofs();
-                    runs.push(Run { seconds: Vec::new(), equations, solution, certainty: None });
-                }
-                runs[place].seconds.push(seconds);
-            }
-            watch(&format!("{} {} {}", trial.parameter, trial.variant, trial.label));
+/// Runs the trials in turn, `rounds` times.
+fn timed(axis: &Axis, trials: Vec<Trial>, rounds: usize, watch: &impl Fn(&str)) -> Vec<Run> {
+    let ran = |Trial { label, request, .. }: &Trial| {
+        watch(&format!("{} {} {label}", axis.name, request.variant));
+    };
+    let first = |trial| {
+        let run = Run::new(trial, axis);
+        ran(&run.trial);
+        run
+    };
+    let mut runs: Vec<Run> = trials.into_iter().map(first).collect();
+    for _ in 1..rounds {
+        for run in &mut runs {
+            run.repeat();
+            ran(&run.trial);
         }
     }
-    // What rounding decides in it, where its parameter judges.
-    let judged = |(trial, run): (&Trial, Run)| match run.solution {
-        Ok(solution) if judges(trial.parameter) => {
-            let (solution, certainty) = certain(solution);
-            Run { solution: Ok(light(solution)), certainty: Some(certainty), ..run }
-        }
-        solution => Run { solution, ..run },
-    };
-    Ok(trials.par_iter().zip(runs).map(judged).collect())
-}
-
-/// A solution without all steps but the last.
-fn light(mut solution: Solution) -> Solution {
-    let before = solution.steps.len().saturating_sub(1);
-    solution.steps.drain(..before);
-    solution
+    runs.into_par_iter().map(|run| run.judged(axis)).collect()
 }
 
 struct Bench<'a> {
-    scene: &'a Scene,
-    trials: &'a [Trial],
+    axis: &'static Axis,
     runs: &'a [Run],
-    /// The meshes of the parameter *mesh* but the scene's own; none of another one.
-    meshes: Vec<Refined>,
     reference: Option<&'a Solution>,
 }
 
 impl Bench<'_> {
-    /// What is measured of a parameter, but for the memory that its trials take.
-    fn section(&self, parameter: Varied) -> Section {
-        let places = (0..self.trials.len()).into_par_iter();
+    /// What is measured of an axis, but for the memory that its trials take.
+    fn section(&self) -> Section {
+        let places = (0..self.runs.len()).into_par_iter();
         let mut rows: Vec<Row> = places.map(|place| self.row(place)).collect();
         mark_front(&mut rows, |place| {
             let times = self.runs[place].seconds.iter().copied();
             [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)]
         });
-        let orders = if parameter == Varied::Mesh { self.orders() } else { Vec::new() };
-        Section { parameter, against: parameter.against(), rows, orders }
+        let orders = if self.axis.truth == Truth::Finest { self.orders() } else { Vec::new() };
+        Section { parameter: self.axis.name, against: self.axis.truth.words(), rows, orders }
     }
 
     fn row(&self, place: usize) -> Row {
-        let (trial, run) = (&self.trials[place], &self.runs[place]);
-        let solution = run.solution.as_ref().ok();
+        let Run { trial, seconds, solution, certainty } = &self.runs[place];
+        let (failure, solution) = (solution.as_ref().err().cloned(), solution.as_ref().ok());
         let last = solution.and_then(|solution| solution.steps.last());
-        // The trial of the same variant where the scene has the parameter; parameters that change the mesh
-        // have their own measure.
-        let is_mesh = matches!(trial.parameter, Varied::Mesh | Varied::Symmetry);
-        let same = |other: &Trial| !is_mesh && other.own && other.variant == trial.variant;
-        let unchanged = self.trials.iter().position(same);
+        let same = |run: &Run| run.trial.own && run.trial.request.variant == trial.request.variant;
+        let from_own = || self.between(place, self.runs.iter().position(same));
+        let (error, change) = match self.axis.truth {
+            Truth::Equilibrium => {
+                let found = solution.zip(self.reference);
+                (found.map(|(own, truth)| Errors::new(own, truth)), from_own())
+            }
+            Truth::Last(_) | Truth::Finest => {
+                let last = self.runs.iter().rposition(|run| run.solution.is_ok());
+                (self.between(place, last), None)
+            }
+            Truth::Whole => (from_own(), None),
+        };
         Row {
             label: trial.label.clone(),
-            variant: trial.variant,
-            equations: run.equations,
+            variant: trial.request.variant,
+            equations: trial.request.scene.model.dofs(),
             in_contact: last.map(|last| last.in_contact),
             cycle: last.and_then(|last| last.cycle.as_ref()).map(|cycle| cycle.length),
-            seconds: solution.map(|_| median(&run.seconds)),
-            runs: run.seconds.len(),
-            error: match trial.against {
-                ErrorReference::Trial(best) if trial.parameter == Varied::Symmetry => {
-                    self.between(place, Some(best))
-                }
-                // Where it failed, the last trial before it that did not.
-                ErrorReference::Trial(best) => {
-                    let ran = |k: &usize| self.runs[*k].solution.is_ok();
-                    self.between(place, (place..=best).rev().find(ran))
-                }
-                ErrorReference::Reference => {
-                    solution.zip(self.reference).map(|(own, truth)| Errors::new(own, truth))
-                }
-            },
-            change: self.between(place, unchanged),
-            certainty: run.certainty,
+            seconds: solution.map(|_| median(seconds)),
+            runs: seconds.len(),
+            error,
+            change,
+            certainty: *certainty,
             own: trial.own,
             pareto: false,
-            failure: run.solution.as_ref().err().cloned(),
+            failure,
         }
     }
 
     /// How far the run at `place` is from that at `best`; nothing where one of them failed.
     fn between(&self, place: usize, best: Option<usize>) -> Option<Errors> {
-        let solution_of = |place: usize| {
-            let solution = self.runs[place].solution.as_ref().ok()?;
-            Some((self.trials[place].setting, solution))
-        };
-        let (own, truth) = (solution_of(place)?, solution_of(best?)?);
-        Some(Errors::between(self.scene, &self.meshes, own, truth))
+        let [own, truth] = [place, best?].map(|k| self.runs[k].solution.as_ref().ok());
+        let [on_finer, on_half] = [self.carried(place, best?), self.carried(best?, place)];
+        Some(Errors::new(on_finer.as_ref().or(own)?, on_half.as_ref().or(truth)?))
+    }
+
+    /// The run at `from` on the mesh of that at `to`, in as many steps as that was made of its own; nothing where it
+    /// was not, and where one of them failed.
+    fn carried(&self, from: usize, to: usize) -> Option<Solution> {
+        let [own, other] = [from, to].map(|k| self.runs[k].solution.as_ref().ok());
+        let (mut meshes, mut at): (Vec<&Derived>, _) = (Vec::new(), to);
+        while at != from {
+            let (of, mesh) = self.runs[at].trial.mesh.as_ref()?;
+            meshes.push(mesh);
+            at = *of;
+        }
+        let Solution { u, elements, .. } = own?.clone();
+        let fields = meshes.iter().rev().fold((u, elements), |(u, elements), mesh| {
+            let states = mesh.triangles.iter().map(|id| elements[id.index()].clone());
+            (mesh.displacements(&u), states.collect())
+        });
+        Some(other?.with_fields(fields.0, fields.1))
     }
 
     /// Orders of convergence, from meshes each of half the element size of the one before; nothing where
     /// one of them failed.
     fn orders(&self) -> Vec<Order> {
-        let solutions: Vec<&Solution> =
-            self.runs.iter().filter_map(|run| run.solution.as_ref().ok()).collect();
-        let Some(&finest) = solutions.last().filter(|_| solutions.len() == self.runs.len()) else {
-            return Vec::new();
-        };
-        let stiffness = Stiffness::new(&finest.model, |x| x);
-        let levels = solutions.par_iter().enumerate();
-        let on_finest: Vec<Solution> = levels
-            .map(|(level, solution)| prolonged((*solution).clone(), &self.meshes[level..], finest))
-            .collect();
-        let norm = stiffness.energy_norm(&finest.u);
-        let between = |a: usize, b: usize| {
-            over(stiffness.energy_norm(&(&on_finest[a].u - &on_finest[b].u)), norm)
-        };
-        let neighbours = (1..solutions.len()).map(|l| between(l - 1, l));
-        let displacements = solutions.iter().map(|s| max_displacement(&s.u)).collect();
+        let finest = self.runs.len() - 1;
+        let levels = (0..=finest).into_par_iter().map(|level| self.carried(level, finest));
+        let Some(on_finest) = levels.collect::<Option<Vec<Solution>>>() else { return Vec::new() };
+        let stiffness = Stiffness::new(&on_finest[finest].model, |x| x);
+        let norm = stiffness.energy_norm(&on_finest[finest].u);
+        let between =
+            |pair: &[Solution]| over(stiffness.energy_norm(&(&pair[0].u - &pair[1].u)), norm);
         let stress = |solution: &Solution| {
             let bodies = summaries(solution);
             bodies.iter().map(|body| body.max_von_mises_stress).fold(0.0, f64::max)
         };
         // Differences relative to the last value.
-        let of_values = |quantity, values: Vec<f64>| {
-            let last = values.last().copied().unwrap_or(1.0);
-            let differences = values.windows(2).map(|pair| over(pair[0] - pair[1], last).abs());
+        let of_values = |quantity, value: &dyn Fn(&Solution) -> f64| {
+            let values: Vec<f64> = on_finest.iter().map(value).collect();
+            let differences =
+                values.windows(2).map(|pair| over(pair[0] - pair[1], values[finest]).abs());
             Order::fit(quantity, differences.collect(), 1)
         };
         vec![
-            Order::fit("energy norm", neighbours.collect(), 2),
-            of_values("largest displacement", displacements),
-            of_values("largest von Mises stress", on_finest.iter().map(stress).collect()),
+            Order::fit("energy norm", on_finest.windows(2).map(between).collect(), 2),
+            of_values("largest displacement", &|solution| max_displacement(&solution.u)),
+            of_values("largest von Mises stress", &stress),
         ]
     }
 }

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::Varied;
 use super::errors::Errors;
 use super::order::Order;
 use engine::estimates::Certainty;
@@ -22,15 +21,15 @@ pub struct Trade {
     /// Why there is no equilibrium to measure errors against; absent where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_reference: Option<String>,
-    /// A section for each parameter.
+    /// A section for each axis.
     pub sections: Vec<Section>,
 }
 
-/// The trials of a parameter.
+/// The trials of an axis.
 #[derive(Clone, Debug, Serialize)]
 pub struct Section {
-    /// The parameter.
-    pub parameter: Varied,
+    /// The name of the axis.
+    pub parameter: &'static str,
     /// What errors are measured against, in words.
     pub against: &'static str,
     /// What was measured of each trial, in the order of the trials.
@@ -42,7 +41,7 @@ pub struct Section {
 /// What was measured of a trial. Times are this machine's.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Where the parameter stood, in words.
+    /// The value of the axis, in words.
     #[serde(rename = "setting")]
     pub label: String,
     /// The variant that ran.
@@ -59,13 +58,13 @@ pub struct Row {
     pub runs: usize,
     /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
-    /// How far it is from the same variant where the scene has the parameter; nothing where the scene
-    /// has none of the places.
+    /// How far it is from the same variant with the scene's own value; nothing where that was not
+    /// tried.
     pub change: Option<Errors>,
-    /// Whether rounding decides who is in contact; nothing of a failure and of a parameter that has no
-    /// verdict.
+    /// Whether rounding decides who is in contact; nothing of a failure and of an axis whose errors
+    /// are not against the equilibrium.
     pub certainty: Option<Certainty>,
-    /// Whether this is where the scene has the parameter.
+    /// Whether this is the scene's own value.
     pub own: bool,
     /// Whether no other row of the section is quicker and nearer.
     pub pareto: bool,

@@ -1,13 +1,13 @@
 //! Speed against accuracy, for people, for machines and as a picture.
 
-use crate::trade::{AccurateSolution, Errors, Order, Outcome, Row, Section, Trade};
+use crate::trade::{AccurateSolution, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
 use report::model::{Cell, Report, Table};
 use report::numbers::reason;
 use report::picture::{Axis, Series, Style, chart};
 
-/// Reports a table for each parameter.
+/// Reports a table for each axis.
 pub fn report(trade: &Trade) -> Report {
     let report = Report::titled(format!(
         "Speed against accuracy: scene {}, {} nodes, {} triangles; {}",
@@ -94,7 +94,7 @@ fn orders(orders: &[Order]) -> Table<Vec<&Order>> {
         })
 }
 
-/// Draws time against error: a series for each parameter, and rings around what is on its front. None where
+/// Draws time against error: a series for each axis, and rings around what is on its front. None where
 /// nothing was timed.
 pub fn picture(trade: &Trade) -> Option<String> {
     let place = |row: &Row| row.seconds.zip(row.error).map(|(s, e)| [s, e.displacement]);
@@ -128,21 +128,21 @@ pub fn picture(trade: &Trade) -> Option<String> {
 pub fn reached(reached: &AccurateSolution, accuracy: f64) -> Report {
     let printed = reached.solution.request.variant == Variant::Printed;
     let attempts = reached.attempts.iter().map(|attempt| {
-        let outcome = match &attempt.outcome {
-            Outcome::NotRun(why) => format!("not run: {why}"),
-            Outcome::Failed(why) => format!("failed, so up one precision: {why}"),
-            Outcome::Bound(0.0) => "no rounding: taken".into(),
-            Outcome::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
-            Outcome::Bound(bound) if bound.is_finite() => {
+        let rounding = match &attempt.rounding {
+            Rounding::NotRun(why) => format!("not run: {why}"),
+            Rounding::Failed(why) => format!("failed, so up one precision: {why}"),
+            Rounding::Bound(0.0) => "no rounding: taken".into(),
+            Rounding::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
+            Rounding::Bound(bound) if bound.is_finite() => {
                 format!("within {bound:.0e}, so up one precision")
             }
-            Outcome::Bound(_) => {
+            Rounding::Bound(_) => {
                 "no bound, as where rounding may have decided who is in contact: up one precision"
                     .into()
             }
         };
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));
-        format!("{scalar} by {solver}: {outcome}")
+        format!("{scalar} by {solver}: {rounding}")
     });
     let verdict = match reached.mesh > accuracy {
         true => "larger than what was asked, and no precision fixes that: refine the mesh",

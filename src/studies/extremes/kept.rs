@@ -1,4 +1,4 @@
-//! What comes of one problem at one magnitude.
+//! What an answer keeps of the exact one.
 
 use std::fmt;
 
@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use engine::error::Error;
 
-/// What a run was worth against the exact answer.
+/// What an answer keeps of the exact one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", content = "detail", rename_all = "lowercase")]
-pub enum Verdict {
+pub enum Kept {
     /// The exact answer.
     Exact,
     /// An answer with so many right digits.
@@ -22,29 +22,29 @@ pub enum Verdict {
     Unknown,
 }
 
-impl Verdict {
+impl Kept {
     /// From the relative error of an answer.
     pub fn of_error(error: f64) -> Self {
         if error.is_nan() {
-            Verdict::Wrong("NaN")
+            Kept::Wrong("NaN")
         } else if error == 0.0 {
-            Verdict::Exact
+            Kept::Exact
         } else if error > 0.1 {
-            Verdict::Wrong("no digit")
+            Kept::Wrong("no digit")
         } else {
-            Verdict::Digits(-error.log10())
+            Kept::Digits(-error.log10())
         }
     }
 
-    /// Returns the verdict on a status: exact if it is the right one, else wrong.
+    /// Of a status: exact if it is the right one, else wrong.
     pub fn of_status(same: bool) -> Self {
-        if same { Verdict::Exact } else { Verdict::Wrong("contact") }
+        if same { Kept::Exact } else { Kept::Wrong("contact") }
     }
 
     /// No more digits than the scalar carries: an error may be less than its rounding by chance.
     pub fn at_most(self, carried: f64) -> Self {
         match self {
-            Verdict::Digits(digits) => Verdict::Digits(digits.min(carried)),
+            Kept::Digits(digits) => Kept::Digits(digits.min(carried)),
             other => other,
         }
     }
@@ -53,24 +53,24 @@ impl Verdict {
     /// compared with none.
     pub fn digits(&self, carried: f64) -> Option<f64> {
         match self {
-            Verdict::Exact => Some(carried),
-            Verdict::Digits(digits) => Some(*digits),
-            Verdict::Wrong(_) => Some(0.0),
-            Verdict::Refused(_) | Verdict::Unknown => None,
+            Kept::Exact => Some(carried),
+            Kept::Digits(digits) => Some(*digits),
+            Kept::Wrong(_) => Some(0.0),
+            Kept::Refused(_) | Kept::Unknown => None,
         }
     }
 
     /// Whether it is refused, or has fewer than `least` digits.
     pub fn breaks_down(&self, least: f64) -> bool {
-        let refused = matches!(self, Verdict::Refused(_));
+        let refused = matches!(self, Kept::Refused(_));
         refused || self.digits(f64::INFINITY).is_some_and(|digits| digits < least)
     }
 }
 
-impl From<Error> for Verdict {
+impl From<Error> for Kept {
     /// The error in a few words: its kind and its place.
     fn from(error: Error) -> Self {
-        Verdict::Refused(match error {
+        Kept::Refused(match error {
             Error::Input(error) => format!("input: {}", error.place),
             Error::Listing(failure) => format!("{} line {}", failure.listing, failure.line),
             Error::Execution(_) => "the listing".into(),
@@ -80,14 +80,14 @@ impl From<Error> for Verdict {
     }
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for Kept {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Verdict::Exact => f.write_str("exact"),
-            Verdict::Digits(digits) => write!(f, "{:.0}", digits.floor()),
-            Verdict::Wrong(why) => write!(f, "WRONG ({why})"),
-            Verdict::Refused(why) => write!(f, "refused ({why})"),
-            Verdict::Unknown => f.write_str("?"),
+            Kept::Exact => f.write_str("exact"),
+            Kept::Digits(digits) => write!(f, "{:.0}", digits.floor()),
+            Kept::Wrong(why) => write!(f, "WRONG ({why})"),
+            Kept::Refused(why) => write!(f, "refused ({why})"),
+            Kept::Unknown => f.write_str("?"),
         }
     }
 }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::blocks::Blocks;
+use super::kept::Kept;
 use super::search::{Quantity, Search};
-use super::verdict::Verdict;
 use super::{Generator, Made, answer};
 use engine::error::Error;
 use engine::linear::ScalarName;
@@ -23,16 +23,16 @@ struct Method {
 }
 
 /// Solves the problem of a value, and judges the answer.
-type Measure = dyn Fn(f64) -> Result<Verdict, Error> + Send + Sync;
+type Measure = dyn Fn(f64) -> Result<Kept, Error> + Send + Sync;
 
 impl Method {
     /// Whether a verdict counts as broken.
-    fn is_broken(&self, verdict: &Verdict) -> bool {
+    fn is_broken(&self, verdict: &Kept) -> bool {
         verdict.breaks_down(LEAST.min(self.carried / 2.0))
     }
 
-    fn verdict(&self, value: f64) -> Verdict {
-        (self.measure)(value).unwrap_or_else(Verdict::from).at_most(self.carried)
+    fn verdict(&self, value: f64) -> Kept {
+        (self.measure)(value).unwrap_or_else(Kept::from).at_most(self.carried)
     }
 }
 
@@ -42,7 +42,7 @@ fn carried(scalar: ScalarName) -> f64 {
 }
 
 /// Judges a quantity of a search.
-type OfSearch = fn(Quantity, Search) -> Result<Verdict, Error>;
+type OfSearch = fn(Quantity, Search) -> Result<Kept, Error>;
 
 /// The scalars that are tried, each with how it judges a search: those that keep a bound compute as those that
 /// they bound, and exact numbers are what all are compared with.
@@ -86,12 +86,9 @@ fn on_search(search: fn(f64) -> Search, quantities: &[Quantity]) -> Vec<Method> 
 /// What the methods made of the scenes of a generator.
 #[derive(Clone, Debug, Serialize)]
 pub struct SweepTable {
-    /// The generator's name.
-    pub name: &'static str,
-    /// What the generator tries, in a line for people.
-    pub title: &'static str,
-    /// What was swept, with its unit.
-    pub magnitude: &'static str,
+    /// The generator.
+    #[serde(flatten)]
+    pub generator: &'static Generator,
     /// The magnitudes, powers of ten.
     pub magnitudes: Vec<f64>,
     /// The verdicts, a column for each method.
@@ -106,7 +103,7 @@ pub struct Column {
     /// The digits that the method's scalar carries.
     pub carried: f64,
     /// A verdict for each magnitude.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<Kept>,
     /// Where it breaks down towards smaller magnitudes.
     pub below: Option<Break>,
     /// Where it breaks down towards larger ones.
@@ -119,7 +116,7 @@ pub struct Break {
     /// Power of ten, bisected to half a decade.
     pub exponent: f64,
     /// The verdict there.
-    pub verdict: Verdict,
+    pub verdict: Kept,
 }
 
 /// A power of ten. A whole one is read, not computed: correctly rounded on every machine.
@@ -132,7 +129,7 @@ fn power(exponent: f64) -> f64 {
 
 impl Generator {
     /// Runs all methods on all powers of ten.
-    pub(super) fn measure(&self) -> SweepTable {
+    pub(super) fn measure(&'static self) -> SweepTable {
         let (from, to, step) = self.decades;
         let exponents: Vec<f64> = (from..=to).step_by(step).map(f64::from).collect();
         let methods = match self.made {
@@ -140,9 +137,7 @@ impl Generator {
             Made::Search(search, quantities) => on_search(search, quantities),
         };
         SweepTable {
-            name: self.name,
-            title: self.title,
-            magnitude: self.magnitude,
+            generator: self,
             magnitudes: exponents.iter().map(|e| power(*e)).collect(),
             columns: methods.par_iter().map(|method| column(method, &exponents)).collect(),
         }
@@ -152,7 +147,7 @@ impl Generator {
 /// Judges a method at each power of ten, and finds where it breaks down on both sides of 1.
 fn column(method: &Method, exponents: &[f64]) -> Column {
     let verdicts: Vec<_> = exponents.par_iter().map(|e| method.verdict(power(*e))).collect();
-    let known: Vec<(f64, &Verdict)> = exponents.iter().copied().zip(&verdicts).collect();
+    let known: Vec<(f64, &Kept)> = exponents.iter().copied().zip(&verdicts).collect();
     let start = exponents.partition_point(|e| *e < 0.0);
     let below = breakdown(known[..=start].iter().rev(), method);
     let above = breakdown(known[start..].iter(), method);
@@ -162,7 +157,7 @@ fn column(method: &Method, exponents: &[f64]) -> Column {
 /// The first of the points outwards at which a method breaks down, bisected towards the point
 /// before it; nothing where there is none.
 fn breakdown<'a>(
-    mut outwards: impl Iterator<Item = &'a (f64, &'a Verdict)>,
+    mut outwards: impl Iterator<Item = &'a (f64, &'a Kept)>,
     method: &Method,
 ) -> Option<Break> {
     let mut sound = None;
