@@ -14,6 +14,7 @@ use clap::Parser;
 use nalgebra::DVector;
 use plane_contact::engine::linear::SparseCholesky;
 use plane_contact::engine::{Elimination, Stiffness};
+use plane_contact::output::exports::{self, Export};
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
@@ -21,7 +22,6 @@ use plane_contact::problem::element::Plane;
 use plane_contact::problem::model::Restraint;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use plane_contact::report::exports::{self, Export};
 use plane_contact::{Request, solve};
 use serde_json::{Value, json};
 

@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use plane_contact::engine::Assessment;
-use plane_contact::report::picture::Drawing;
-use plane_contact::report::vtu::vtu;
+use plane_contact::output::picture::Drawing;
+use plane_contact::output::vtu::vtu;
 use plane_contact::{Error, Request, Scene, files, solve};
 
 /// Solves the scene and writes `fields.vtu` to a folder.

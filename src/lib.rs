@@ -78,7 +78,7 @@
 //! | [`paper`] | the listings, their mirror, readings, and how the model reaches them |
 //! | [`engine`] | solvers, requests, solutions, the published iterations, unilateral contact, error estimates |
 //! | [`studies`] | audit, snapshots, trade, extremes, lesson, plan, benchmarks, CalculiX |
-//! | [`report`] | tables, pictures, pages, documents |
+//! | [`output`] | tables, pictures, pages, documents |
 #![forbid(unsafe_code)]
 
 pub mod input;
@@ -124,13 +124,13 @@ pub mod guide {
 pub use base::{child, choices, error, exit, files, limits, plain, suggestion, xml};
 #[cfg(feature = "cli")]
 pub use {commands, studies};
-pub use {engine, mathcad, numbers, paper, problem, report};
+pub use {engine, mathcad, numbers, output, paper, problem};
 
 #[doc(inline)]
 pub use engine::error::Error;
 #[doc(inline)]
 pub use engine::{Request, Solution, distance as compare, solve};
 #[doc(inline)]
-pub use problem::scene::{Scene, SceneBuilder};
+pub use output::ResultFile;
 #[doc(inline)]
-pub use report::ResultFile;
+pub use problem::scene::{Scene, SceneBuilder};

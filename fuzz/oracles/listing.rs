@@ -11,11 +11,11 @@ use plane_contact::mathcad::array::Table;
 use plane_contact::mathcad::xmcd::document::{self, Content};
 use plane_contact::mathcad::xmcd::page::Page;
 use plane_contact::mathcad::{self, Array, Limits, Listing, Settings, Sheet, Value, file};
+use plane_contact::output::evaluation;
 use plane_contact::paper::door;
 use plane_contact::paper::edited::Edited;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Cause, Failure, Km, Pairs, Reading, Worksheet, c_cnt};
-use plane_contact::report::evaluation;
 
 use super::{drawn, sound};
 

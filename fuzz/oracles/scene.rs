@@ -3,8 +3,8 @@
 
 use plane_contact::engine::plan::Plan;
 use plane_contact::input::Variant;
+use plane_contact::output;
 use plane_contact::problem::scene::{SceneBuilder, file, gmsh};
-use plane_contact::report;
 use plane_contact::studies::snapshot::Input;
 use plane_contact::{Request, Scene};
 
@@ -37,6 +37,6 @@ fn reads_back(scene: &Scene) {
 fn is_planned(scene: &Scene, variant: Variant) {
     match Plan::new(&Request::new(scene).variant(variant)) {
         Err(error) => sound::input_error(&error),
-        Ok(plan) => drop(sound::document(&report::plan::json(scene, &plan))),
+        Ok(plan) => drop(sound::document(&output::plan::json(scene, &plan))),
     }
 }

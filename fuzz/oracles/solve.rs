@@ -8,8 +8,8 @@ use plane_contact::engine::contact::pulling;
 use plane_contact::engine::linear::cost;
 use plane_contact::engine::plan::Plan;
 use plane_contact::input::{Arithmetic, ScalarName, Solver, Variant};
+use plane_contact::output::{ResultFile, tables};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::{ResultFile, tables};
 use plane_contact::{Request, Solution, solve};
 
 use super::{drawn, sound};

@@ -4,7 +4,7 @@
 use plane_contact::Error;
 use plane_contact::error::InputError;
 use plane_contact::input::Variant;
-use plane_contact::report::failure::failure;
+use plane_contact::output::failure::failure;
 use serde_json::Value;
 
 /// An error of the input says what is wrong, and how to fix it.

@@ -4,7 +4,7 @@
 use plane_contact::mathcad::Listing;
 use plane_contact::mathcad::worksheet::execute;
 use plane_contact::mathcad::xmcd::document::{Content, Region, read};
-use plane_contact::report::worksheet;
+use plane_contact::output::worksheet;
 
 use super::{listing, sound};
 

@@ -11,13 +11,13 @@ use engine::Request;
 use engine::error::Result;
 use engine::linear::{Arithmetic, Inputs, ScalarName, Solver};
 use engine::options::Options;
+use output::json;
+use output::model::Report;
 use paper::mirror::Reading;
 use problem::modelling::{
     Coupling, Friction, Geometry, StatusRule, Variant, check_iterations, check_tolerance,
 };
 use problem::scene::{Scene, SceneBuilder};
-use report::json;
-use report::model::Report;
 
 /// The numbers and the solver of a run.
 #[derive(Clone, Copy, clap::Args)]

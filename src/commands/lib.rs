@@ -4,12 +4,12 @@
 
 mod arguments;
 mod offered;
-mod output;
+mod printing;
 pub mod process;
 pub mod shells;
 mod usage;
 
 pub use arguments::*;
 pub use offered::*;
-pub use output::*;
+pub use printing::*;
 pub use usage::report_usage;

@@ -6,7 +6,7 @@ use clap::Command;
 use clap_complete::CompleteEnv;
 use clap_complete::env::Shells;
 
-use crate::output::{print, report_written};
+use crate::printing::{print, report_written};
 use base::files;
 use engine::error::Result;
 

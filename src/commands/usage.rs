@@ -2,12 +2,12 @@
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use crate::output::{print, print_stderr, report_failure};
+use crate::printing::{print, print_stderr, report_failure};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::plain::is_hidden;
 use engine::error::Error;
-use report::failure::failure;
+use output::failure::failure;
 
 /// Prints to standard error what is wrong with the command line, and where `json` asks for it to standard output too;
 /// returns its exit status.

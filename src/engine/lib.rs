@@ -17,6 +17,7 @@ pub mod plan;
 mod published;
 pub mod quantities;
 mod range;
+mod reactions;
 pub mod reduction;
 mod refinement;
 mod request;
@@ -25,7 +26,6 @@ mod solve;
 mod sparse;
 mod stiffness;
 mod stretches;
-mod support;
 mod unilateral;
 
 pub use assessment::{Assessment, SolutionDistance};
@@ -38,6 +38,7 @@ pub use quantities::{
     summaries,
 };
 pub use range::{beyond_range, locking, locking_of};
+pub use reactions::share_of_load;
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
@@ -48,5 +49,4 @@ pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
 pub use stretches::{Resultant, Stretch, resultant, stretches};
-pub use support::share_of_load;
 pub use unilateral::{Implied, implied};

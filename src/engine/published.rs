@@ -15,12 +15,12 @@ use super::decisions::{Decision, decisions};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
+use super::reactions::transmitted_force;
 use super::request::Request;
 use super::solution::{
     Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
 };
 use super::sparse::is_dense;
-use super::support::transmitted_force;
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
 use base::limits;

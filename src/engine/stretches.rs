@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::{ROUNDING_OF_A_FORCE, rounding};
 use super::quantities::ContactNode;
+use super::reactions::sides;
 use super::solution::{Detail, Solution};
-use super::support::sides;
 use numbers::joined::joined;
 use problem::model::{Model, NodeId};
 

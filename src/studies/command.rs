@@ -3,8 +3,8 @@
 use clap::Subcommand;
 
 use crate::{
-    audit, document, extremes, field, guide, lesson, listing, scene, snapshot, solve, sweep, trade,
-    worksheet,
+    audit, compare, extremes, guide, lesson, listing, mathcad, report, scene, snapshot, solve,
+    sweep, trade,
 };
 use base::exit::ExitStatus;
 use engine::error::Result;
@@ -19,13 +19,13 @@ pub enum Command {
     #[command(subcommand)]
     Sweep(sweep::command::Command),
     Audit(audit::command::Args),
-    Report(document::command::Args),
+    Report(report::command::Args),
     Lesson(lesson::command::Args),
-    Compare(field::command::Args),
+    Compare(compare::command::Args),
     #[command(subcommand)]
     Listing(listing::Command),
     #[command(subcommand)]
-    Mathcad(worksheet::Command),
+    Mathcad(mathcad::Command),
     #[command(subcommand)]
     Snapshot(snapshot::command::Command),
     #[command(subcommand)]
@@ -46,11 +46,11 @@ impl Command {
             Command::Trade(args) => trade::command::run(&args).map(done),
             Command::Sweep(command) => sweep::command::run(&command).map(done),
             Command::Audit(args) => audit::command::run(&args).map(done),
-            Command::Report(args) => document::command::run(&args).map(done),
+            Command::Report(args) => report::command::run(&args).map(done),
             Command::Lesson(args) => lesson::command::run(&args).map(done),
-            Command::Compare(args) => field::command::run(&args),
+            Command::Compare(args) => compare::command::run(&args),
             Command::Listing(command) => listing::run(&command),
-            Command::Mathcad(command) => worksheet::run(&command),
+            Command::Mathcad(command) => mathcad::run(&command),
             Command::Snapshot(command) => snapshot::command::run(&command),
             Command::Scene(command) => scene::run(&command).map(done),
             Command::Guide(args) => guide::run(&args).map(done),

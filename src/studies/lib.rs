@@ -2,18 +2,19 @@
 #![forbid(unsafe_code)]
 
 pub mod audit;
-pub mod benchmark;
 pub mod calculix;
 pub mod command;
-pub mod document;
+pub mod compare;
 pub mod extremes;
-pub mod field;
 mod guide;
 pub mod lesson;
 mod listing;
+mod mathcad;
+pub mod report;
 mod scene;
 pub mod snapshot;
 mod solve;
 pub mod sweep;
 pub mod trade;
-mod worksheet;
+
+pub use scene::benchmark;

@@ -12,13 +12,13 @@ use engine::estimates::perturbed;
 use engine::linear::Solver;
 use engine::plan::Plan;
 use engine::{self, Assessment, Request, Solution, Step};
+use output::folder::FolderOptions;
+use output::model::Report;
+use output::{self, tables};
 use paper::edited::Edited;
 use paper::listings::Which;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::folder::FolderOptions;
-use report::model::Report;
-use report::{self, tables};
 
 use commands::{
     RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_report, print_stderr,
@@ -42,7 +42,7 @@ Examples:
   plane-contact solve strand --accuracy 1e-3
   plane-contact solve fig1 --variant tied --c-cnt my-c_cnt.txt
   plane-contact solve strand --variant unilateral --check-rounding
-  plane-contact solve my/scene.json --reading R6=stress,R8=m", report::folder::help()))]
+  plane-contact solve my/scene.json --reading R6=stress,R8=m", output::folder::help()))]
 #[command(mut_arg("json", |json| json.help("Print result.json in place of the tables; files are written only to a folder that --out names")))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
@@ -97,15 +97,15 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let wanted = FolderOptions { pictures: !args.no_pictures, fields: args.fields };
     let is_written = !args.tables.json || args.out.is_some();
     if is_written {
-        files::check_folder(&out, &report::folder::names(wanted))?;
+        files::check_folder(&out, &output::folder::names(wanted))?;
     }
     // The plan's count of the factors takes a fifth of the time of a large run.
     let (plan, solved) = rayon::join(|| Plan::new(&request), || solve(args, &request));
     let ((solution, accuracy), plan) = (solved?, plan?);
     let assessment = waiting("assessing", || assess(args, &solution));
     let result = waiting("writing", || match is_written {
-        true => report::folder::write(&out, &solution, &assessment, Some(&plan), wanted),
-        false => Ok(report::folder::result(&solution, &assessment, Some(&plan), wanted)),
+        true => output::folder::write(&out, &solution, &assessment, Some(&plan), wanted),
+        false => Ok(output::folder::result(&solution, &assessment, Some(&plan), wanted)),
     })?;
     if args.tables.json {
         print_stderr(&accuracy.text(usize::MAX));
@@ -118,7 +118,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         .then(accuracy)
         .then(beside_the_print(&solution))
         .then(tables::steps(&solution, &assessment, args.changes.all_iterations()))
-        .line(report::plan::line(&plan))
+        .line(output::plan::line(&plan))
         .line(format!("Written to {}", shown(&out)));
     print_report(report.clone())?;
     if args.tables.is_whole() {
@@ -193,7 +193,7 @@ fn beside_the_print(solution: &Solution) -> Report {
     let mut request = solution.request.clone();
     request.edited.clear();
     match engine::solve(&request, &mut |_| ()) {
-        Ok(printed) => report::edited::report(&printed, solution),
+        Ok(printed) => output::edited::report(&printed, solution),
         Err(why) => Report::default().line(format!("The edited listings run; as printed: {why}")),
     }
 }

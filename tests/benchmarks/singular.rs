@@ -17,10 +17,10 @@ use crate::cook::membrane;
 use crate::kirsch::sheet;
 use plane_contact::engine::estimates::{Cause, Estimates, NoLimit, singular};
 use plane_contact::engine::{Assessment, Solution, max_displacement};
+use plane_contact::output::tables;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
-use plane_contact::report::tables;
 use plane_contact::{Request, solve};
 use serde_json::json;
 

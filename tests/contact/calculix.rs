@@ -18,7 +18,7 @@ use plane_contact::paper::corrected::{Bound, STEPS, iterate};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{Contact, Pair, Part, deck, float, parse, run};
-use plane_contact::studies::field::Beside;
+use plane_contact::studies::compare::Beside;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 

@@ -6,10 +6,10 @@ use std::process::Command;
 
 use plane_contact::engine::{self, Request};
 use plane_contact::mathcad::array::Table;
+use plane_contact::output::exports::{Export, octave};
 use plane_contact::paper::mirror::{Km, Pairs, Reading, Worksheet, c_cnt};
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::exports::{Export, octave};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use tempfile::TempDir;

@@ -16,16 +16,16 @@ use plane_contact::mathcad::{
     Array, Cause, Conjunction, Failure, Limits, Listing, ParseError, Recorder, Settings, Sheet,
     Value, unsupported,
 };
+use plane_contact::output::page::INTERPRETER;
 use plane_contact::paper::corrected::{Bound, FAULTS, Program, program};
 use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, edited, elasticity, settings, tables};
 use plane_contact::paper::mirror::{Reading, Worksheet};
 use plane_contact::problem::model::Model;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::language::Language;
-use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case as Audited;
 use plane_contact::studies::audit::findings::{FINDINGS, Repair};
+use plane_contact::studies::lesson::language::Language;
 use plane_contact::studies::lesson::page::{self as lesson, Chapter};
 use plane_contact::studies::lesson::{Switch, chapter, reference, switches};
 use proptest::strategy::{Strategy, ValueTree};

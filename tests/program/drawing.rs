@@ -2,7 +2,7 @@
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use plane_contact::report::picture::{
+use plane_contact::output::picture::{
     Axis, Contact, Drawing, Field, MOST_SHAPES, Series, Style, chart, field, mesh,
 };
 use roxmltree::Document;

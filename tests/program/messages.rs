@@ -5,16 +5,16 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use plane_contact::output::page::INTERPRETER;
 use plane_contact::paper::corrected::FAULTS;
 use plane_contact::paper::listings::Which;
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
-use plane_contact::report::language::{messages, of_interpreter};
-use plane_contact::report::page::INTERPRETER;
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Presence, Repair};
 use plane_contact::studies::audit::prices::table::ORDER;
+use plane_contact::studies::lesson::language::{messages, of_interpreter};
 use plane_contact::studies::lesson::page::{ITERATE, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};
 
@@ -112,9 +112,12 @@ fn the_table_has_what_the_lesson_says_and_nothing_else() {
     let said: BTreeSet<String> = said.collect();
     let table: BTreeSet<String> = messages().map(|(english, _)| english.to_string()).collect();
     let missing: Vec<_> = said.difference(&table).collect();
-    assert!(missing.is_empty(), "without Russian in src/report/messages.tsv: {missing:#?}");
+    assert!(missing.is_empty(), "without Russian in src/studies/lesson/messages.tsv: {missing:#?}");
     let unused: Vec<_> = table.difference(&said).collect();
-    assert!(unused.is_empty(), "in src/report/messages.tsv, yet not of the lesson: {unused:#?}");
+    assert!(
+        unused.is_empty(),
+        "in src/studies/lesson/messages.tsv, yet not of the lesson: {unused:#?}"
+    );
 }
 
 #[test]

@@ -5,9 +5,9 @@ use crate::common::json::build;
 use plane_contact::engine::linear::{Arithmetic, Solver};
 use plane_contact::engine::plan::{Idle, Plan, Storage};
 use plane_contact::engine::{Request, solve};
+use plane_contact::output::plan::line;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::plan::line;
 use serde_json::json;
 
 fn plan_of(scene: &Scene, variant: Variant, solver: Option<Solver>) -> Plan {

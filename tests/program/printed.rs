@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use plane_contact::report::model::{Cell, Report, Table};
-use plane_contact::report::text::fitted;
+use plane_contact::output::model::{Cell, Report, Table};
+use plane_contact::output::text::fitted;
 use tempfile::TempDir;
 
 use crate::common::program::run;

@@ -1,6 +1,6 @@
 //! Numbers as reports print them: round ones, ticks, significant digits, values with their errors.
 
-use plane_contact::report::numbers::{
+use plane_contact::output::numbers::{
     Decimal, common_exponent, figure, percent, shifted, significant, ticks,
 };
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plane_contact::report::quantities::page;
+use plane_contact::output::quantities::page;
 
 use crate::common::golden_file::assert_file;
 

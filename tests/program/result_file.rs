@@ -3,9 +3,9 @@
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::plan::Plan;
 use plane_contact::engine::{Assessment, Request, solve};
+use plane_contact::output::{MOST_TRIANGLES, ResultFile};
 use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::report::{MOST_TRIANGLES, ResultFile};
 
 fn result(scene: &str, changed: impl Fn(Request) -> Request) -> ResultFile {
     let scene = Scene::open(scene).expect("an embedded scene");

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::Command;
 
 use flate2::read::ZlibDecoder;
-use plane_contact::report::quantities::Array;
-use plane_contact::report::vtu::document;
+use plane_contact::output::quantities::Array;
+use plane_contact::output::vtu::document;
 use plane_contact::xml::Element;
 use roxmltree::Document;
 use tempfile::TempDir;

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use super::{BodySummary, IterationRow, NodeFields, SupportForce, TriangleValues};
+use crate::reactions::{reactions_of_supports, share_of_load};
 use crate::solution::{Solution, Step};
-use crate::support::{reactions_of_supports, share_of_load};
 use numbers::largest::{Largest, largest};
 use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
 use problem::model::{Body, Model, Support, TriangleId};

@@ -4,9 +4,9 @@ use nalgebra::DVector;
 
 use super::forces::{contact_forces, load_of};
 use crate::contact::{Sense, Status, Surfaces, Traction};
+use crate::reactions::{reactions, support_force, transmitted_force};
 use crate::solution::{APART, Solution, max_displacement};
 use crate::stiffness::Stiffness;
-use crate::support::{reactions, support_force, transmitted_force};
 use base::error::Result;
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Variant};

@@ -11,10 +11,10 @@ use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
 use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction, Watched};
 use crate::error::{Cause, Error, NoEquilibrium};
+use crate::reactions::{reactions, support_force, transmitted_force};
 use crate::solution::{
     self, Detail, Overlap, Path, Solution, Start, Step, last_under_each_load, max_displacement,
 };
-use crate::support::{reactions, support_force, transmitted_force};
 
 /// How often a step without an equilibrium is halved.
 const HALVINGS: usize = 6;

@@ -15,11 +15,11 @@ use base::files;
 use base::suggestion::did_you_mean;
 use engine::error::Result;
 use engine::{Assessment, Hertz, Solution};
+use output::folder::FolderOptions;
+use output::{folder, json, pressure};
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::folder::FolderOptions;
-use report::{folder, json, pressure};
 
 use commands::{
     ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,

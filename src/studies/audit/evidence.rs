@@ -12,11 +12,11 @@ use engine::error::Error;
 use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
 use numbers::finite;
+use output::layout::first_line;
+use output::model::Cell;
+use output::numbers::{Digits, short};
 use paper::mirror::Failure;
 use problem::modelling::Variant;
-use report::layout::first_line;
-use report::model::Cell;
-use report::numbers::{Digits, short};
 
 /// What is said in place of a figure that inputs of the same meaning change.
 pub const BY_ROUNDING: &str = "decided by rounding";

@@ -179,7 +179,7 @@ fn equilibrium_row(solution: &Solution, is_whole: bool) -> EquilibriumRow {
         in_contact: solution.in_contact().count(),
         target_share: variants::target_share(solution),
         bodies: summaries(solution),
-        overlap: report::tables::overlap(solution),
+        overlap: output::tables::overlap(solution),
         mesh_error: variants::mesh_error(solution),
         nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: if is_whole { perturbed(solution) } else { None },

@@ -12,9 +12,9 @@ use crate::benchmark::Strand;
 use base::choices;
 use base::error::Result;
 use engine::Request;
+use output::numbers::percent;
 use paper::mirror::{Reading, ToleranceUnit};
 use problem::scene::Scene;
-use report::numbers::percent;
 
 choices! {
     /// What the paper leaves open of its example.

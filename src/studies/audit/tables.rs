@@ -12,16 +12,16 @@ use crate::audit::readings::Effect;
 use crate::audit::variants::{VariantRow, VariantRun};
 use crate::audit::{Audit, EquilibriumRow, FrictionContact, words};
 use engine::Cycle;
+use output::json;
+use output::layout::listed;
+use output::model::{Cell, Report, Table};
+use output::numbers::{or_dash, short};
+use output::tables::perturbed;
 use paper::listings::Which;
 use paper::mirror::Reading;
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::json;
-use report::layout::listed;
-use report::model::{Cell, Report, Table};
-use report::numbers::{or_dash, short};
-use report::tables::perturbed;
 
 /// Reports what the verdict and the claims rest on: readings, findings, variants, friction.
 pub fn evidence(audit: &Audit) -> Report {

@@ -12,13 +12,13 @@ use crate::audit::variants::{PressedAcross, VariantRow, VariantRun};
 use crate::audit::{Assumption, Audit, tables};
 use crate::calculix::RECORDED;
 use engine::BodySummary;
+use output::layout::{counted, listed};
+use output::model::{Cell, Report, Table};
+use output::numbers::{coordinates, figure, percent, with_unit};
+use output::tables::PROBABLY_MORE;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::layout::{counted, listed};
-use report::model::{Cell, Report, Table};
-use report::numbers::{coordinates, figure, percent, with_unit};
-use report::tables::PROBABLY_MORE;
 
 /// The most columns of the first screen.
 pub const WIDTH: usize = 100;

@@ -1,5 +1,5 @@
 //! CalculiX: an input deck that `ccx` runs unchanged, and the displacements that it prints. They are one more
-//! field from elsewhere, which [`field`](crate::field) puts beside a solution.
+//! field from elsewhere, which [`field`](crate::compare) puts beside a solution.
 //!
 //! | contact    | in the deck                                       | what is compared         |
 //! |------------|---------------------------------------------------|--------------------------|

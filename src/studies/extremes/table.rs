@@ -3,9 +3,9 @@
 use serde_json::json;
 
 use crate::extremes::{Break, Column, Kept, SweepTable};
-use report::json;
-use report::model::{Cell, Report, Table};
-use report::picture::{Axis, Series, Style, chart};
+use output::json;
+use output::model::{Cell, Report, Table};
+use output::picture::{Axis, Series, Style, chart};
 
 /// Returns the content of `extremes.json`: a row for each generator.
 pub fn json(measured: &[SweepTable]) -> String {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::audit::Case;
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Price};
+use crate::lesson::language::Language;
 use crate::lesson::page::{self as page, Chapter, Measured};
 use crate::lesson::{self as study, Repairs, Switch, reference, run as execute, switches};
 use base::files::{self, HTML};
@@ -16,7 +17,6 @@ use paper::door::check_restraints;
 use paper::edited::Edited;
 use problem::model::Model;
 use problem::scene::Scene;
-use report::language::Language;
 
 use commands::{offered, read_listing, report_written, waiting};
 

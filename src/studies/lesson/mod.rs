@@ -3,6 +3,7 @@
 
 pub(crate) mod command;
 mod iterations;
+pub mod language;
 pub mod page;
 mod repairs;
 mod switches;

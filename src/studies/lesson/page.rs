@@ -14,17 +14,17 @@ use serde_json::{Value, json};
 use crate::audit::findings::{Evidence, Finding};
 use crate::audit::prices::Price;
 use crate::audit::tables::FindingRow;
+use crate::lesson::language::{Language, messages, of_interpreter};
 use crate::lesson::{MOST_SOLVED, Repairs, Switch};
 use mathcad::unsupported::{FUNCTIONS, UNITS};
 use mathcad::{Listing, Settings};
+use output::json::document;
+use output::page::{INTERPRETER, Page};
+use output::tables::figure_numbers;
 use paper::corrected::{Program, program};
 use paper::listings::Which;
 use problem::model::{Element, Model};
 use problem::scene::Scene;
-use report::json::document;
-use report::language::{Language, messages, of_interpreter};
-use report::page::{INTERPRETER, Page};
-use report::tables::figure_numbers;
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
 pub struct Chapter {

@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use ::report::evaluation as report;
-use ::report::model::Report;
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
@@ -15,6 +13,8 @@ use mathcad::{
     json::{self, Written},
     unsupported::is_unit,
 };
+use output::evaluation as report;
+use output::model::Report;
 
 use commands::{print, print_either, read_listing, report_error, waiting};
 

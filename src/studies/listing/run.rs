@@ -10,6 +10,7 @@ use base::plain::shown;
 use engine::Request;
 use engine::error::Result;
 use mathcad::SparseSquare;
+use output::{json, matrix_market, tables};
 use paper::door::{Call, check_restraints, node_n};
 use paper::edited::{Edited, Interpreter};
 use paper::listings;
@@ -17,7 +18,6 @@ use paper::mirror::Reading;
 use problem::model::Model;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::{json, matrix_market, tables};
 
 use commands::{ReadingArg, TablesArgs, print, read_listing, write_or_print};
 

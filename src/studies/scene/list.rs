@@ -2,9 +2,9 @@
 
 use crate::audit::findings::FINDINGS;
 use crate::benchmark::Kind;
-use ::report::scenes as report;
 use clap::Subcommand;
 use engine::error::Result;
+use output::scenes as report;
 use problem::scene::{SCENES, Scene};
 
 use commands::print_report;

@@ -1,5 +1,6 @@
 //! `plane-contact scene`.
 
+pub mod benchmark;
 mod copy;
 mod export;
 mod list;

@@ -6,8 +6,8 @@ use base::error::InputError;
 use base::files;
 use base::plain::{shell_word, shown};
 use engine::error::Result;
+use output::model::Report;
 use problem::scene::first;
-use report::model::Report;
 
 use commands::print_report;
 

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use ::report::plan as report;
 use engine::error::Result;
 use engine::plan::Plan;
+use output::plan as report;
 use problem::scene::Scene;
 
 use commands::{RunArgs, TablesArgs, print};

@@ -13,8 +13,8 @@ use base::error::{InputError, Result};
 use base::files::{self, json};
 use base::plain::shown;
 use engine::{Request, check};
+use output::json::pretty;
 use problem::scene::{Scene, Units};
-use report::json::pretty;
 
 /// How a snapshot is made.
 const FIX: &str = "give a snapshot as `plane-contact snapshot record` writes it";

@@ -6,11 +6,11 @@ use super::words;
 use super::{Presence, Verified, VerifiedRun};
 use base::xml::Element;
 use engine::error::Error;
-use report::failure::Failure;
-use report::json;
-use report::layout::{counted, first_line};
-use report::model::Report;
-use report::text::COLUMNS;
+use output::failure::Failure;
+use output::json;
+use output::layout::{counted, first_line};
+use output::model::Report;
+use output::text::COLUMNS;
 
 /// A snapshot's file and what verifying it found, or why it could not be verified.
 pub struct VerifiedFile {

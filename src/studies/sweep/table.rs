@@ -13,9 +13,9 @@ use base::choices;
 use base::error::{InputError, Result};
 use base::files::json::{Kind, read};
 use base::plain::{shell_quoted, shown};
+use output::json;
+use output::model::{Cell, Table};
 use problem::scene::sha256;
-use report::json;
-use report::model::{Cell, Table};
 
 choices! {
     /// An engine that runs jobs.

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use crate::trade::table as report;
 use crate::trade::{self, AXES, Axis};
-use ::report::json;
 use base::files;
 use base::plain::shown;
 use clap::builder::PossibleValuesParser;
 use engine::Request;
 use engine::error::Result;
+use output::json;
 use problem::scene::Scene;
 
 use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};

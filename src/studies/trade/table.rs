@@ -2,10 +2,10 @@
 
 use crate::trade::{AccurateSolution, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
+use output::model::{Cell, Report, Table};
+use output::numbers::reason;
+use output::picture::{Axis, Series, Style, chart};
 use problem::modelling::Variant;
-use report::model::{Cell, Report, Table};
-use report::numbers::reason;
-use report::picture::{Axis, Series, Style, chart};
 
 /// Reports a table for each axis.
 pub fn report(trade: &Trade) -> Report {

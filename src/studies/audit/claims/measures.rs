@@ -8,9 +8,9 @@ use crate::audit::variants::{Penetration, apart};
 use engine::contact::pulling;
 use engine::estimates::moves;
 use engine::{Solution, distance, max_displacement, over};
+use output::numbers::percent;
 use paper::door::Call;
 use problem::modelling::Variant;
-use report::numbers::percent;
 
 /// A relative change that shows in a picture: one part in a hundred.
 const NOTICEABLE: f64 = 0.01;

@@ -24,10 +24,10 @@ use super::range::{ParameterValue, Range};
 use super::readings::others;
 use base::choices;
 use base::error::InputError;
+use output::layout::first_line;
+use output::numbers::short;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
-use report::layout::first_line;
-use report::numbers::short;
 
 /// Something that the paper says.
 #[derive(Clone, Debug, Serialize)]

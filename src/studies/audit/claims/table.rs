@@ -7,12 +7,12 @@ use serde::Serialize;
 use crate::audit::claims::{Basis, CLAIMS, Claim, Elsewhere, JudgedClaim, UnderReading};
 use crate::audit::evidence::MeshError;
 use crate::audit::range::Parameter;
+use output::layout::listed;
+use output::model::{Report, Table};
+use output::numbers::{or_dash, percent, short};
+use output::tables::PROBABLY_MORE;
 use paper::mirror::{READINGS, Reading};
 use problem::scene::Scene;
-use report::layout::listed;
-use report::model::{Report, Table};
-use report::numbers::{or_dash, percent, short};
-use report::tables::PROBABLY_MORE;
 
 /// How the estimate of the error of the mesh compares with the error, as golden/tables/mesh_errors.md has it.
 pub const ESTIMATES: &str = "Beside a mesh 64 times finer it was below the error in 8 of 10 runs, at the median 0.75 of it \

@@ -7,13 +7,13 @@ use serde::Serialize;
 use crate::audit::claims::table::under;
 use crate::audit::evidence::{NoFigures, Outcome};
 use crate::audit::prices::{CorrectedRun, NOTHING, Price, Weight, needed};
+use output::json;
+use output::layout::{counted, first_line, listed};
+use output::model::{Cell, Report, Table};
+use output::numbers::percent;
+use output::picture::{Axis, Series, Style, chart};
 use paper::mirror::Reading;
 use problem::scene::Scene;
-use report::json;
-use report::layout::{counted, first_line, listed};
-use report::model::{Cell, Report, Table};
-use report::numbers::percent;
-use report::picture::{Axis, Series, Style, chart};
 
 /// How the order of repairs is found, in words.
 pub const ORDER: &str = "The order is found from the end: \

@@ -7,10 +7,10 @@ use serde_json::{Value, json};
 use super::Shared;
 use crate::audit::prices::table::ORDER;
 use crate::lesson::Repairs;
+use crate::lesson::language::fill;
 use mathcad::Settings;
+use output::layout::listed;
 use paper::corrected::FAULTS;
-use report::language::fill;
-use report::layout::listed;
 
 /// Returns the title, with the number of edits.
 pub fn title(repairs: &Repairs) -> Value {

@@ -8,9 +8,9 @@ use base::files;
 use base::plain::shown;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use engine::error::Result;
+use output::model::Report;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
-use report::model::Report;
 
 use commands::{MethodArgs, offered, print_report, waiting};
 

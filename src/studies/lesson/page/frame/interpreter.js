@@ -1,6 +1,6 @@
 // What the interpreter says, in the page's language: its own sentences are English, as the program's are.
 
-/** The sentences of the interpreter and their parts (src/report/interpreter.tsv), each with its pattern. */
+/** The sentences of the interpreter and their parts (src/studies/lesson/interpreter.tsv), each with its pattern. */
 const SENTENCES = data.interpreter.map(([english, russian]) => {
   const names = [...english.matchAll(/\{(\w+)\}/g)].map(([, name]) => name);
   const texts = english.split(/\{\w+\}/).map((text) => text.replace(/[.*+?^$()|[\]\\]/g, "\\$&"));

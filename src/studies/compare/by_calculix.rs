@@ -7,11 +7,11 @@ use crate::calculix::{CalculixRun, Contact, Pair, Part};
 use base::error::Result;
 use engine::Solution;
 use engine::estimates::Certainty;
+use output::numbers::{short, with_unit};
+use output::tables::certainty;
 use problem::element::Plane;
 use problem::modelling::Friction;
 use problem::scene::Units;
-use report::numbers::{short, with_unit};
-use report::tables::certainty;
 
 /// How CalculiX came to a field.
 #[derive(Clone, Debug, Serialize)]

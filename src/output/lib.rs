@@ -17,7 +17,6 @@
 //! | `edited`, `scenes`                                 | edited listings, scenes that are there |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
-//! | `language`                                         | the lesson's words in Russian          |
 #![forbid(unsafe_code)]
 
 mod csv;
@@ -28,7 +27,6 @@ pub mod failure;
 pub mod folder;
 pub mod html;
 pub mod json;
-pub mod language;
 pub mod layout;
 pub mod markdown;
 pub mod matrix_market;

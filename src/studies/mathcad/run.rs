@@ -3,7 +3,6 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ::report::worksheet as report;
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
@@ -12,6 +11,7 @@ use engine::error::Result;
 use flate2::read::MultiGzDecoder;
 use mathcad::worksheet::{self, Verdict};
 use mathcad::{Limits, xmcd::document};
+use output::worksheet as report;
 
 use commands::{print_either, progress};
 

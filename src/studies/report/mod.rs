@@ -14,18 +14,18 @@ use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
 use crate::audit::words::{Depth, evidence, report as audit_report};
 use crate::audit::{Audit, relative_radius};
-use crate::field::{Compared, table as comparison};
+use crate::compare::{Compared, table as comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
+use output::folder;
+use output::html::figure;
+use output::layout::listed;
+use output::model::{Report, Table};
+use output::picture::{self, Drawing};
+use output::quantities::triangle_array;
+use output::{pressure, tables};
 use paper::listings::Which;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
-use report::folder;
-use report::html::figure;
-use report::layout::listed;
-use report::model::{Report, Table};
-use report::picture::{self, Drawing};
-use report::quantities::triangle_array;
-use report::{pressure, tables};
 
 /// What an audit report is made of.
 pub struct Contents<'a> {

@@ -6,19 +6,19 @@ use std::path::{Path, PathBuf};
 use crate::audit::prices::{self, Price};
 use crate::audit::{Audit, Case, audit};
 use crate::calculix::{self, Pair};
-use crate::document::page;
-use crate::document::{Contents, Run, document};
-use crate::field;
+use crate::compare;
+use crate::report::page;
+use crate::report::{Contents, Run, document};
 use base::error::InputError;
 use base::files::{self, HTML, MARKDOWN};
 use base::plain::{shell_word, shown};
 use engine::error::Result;
 use engine::estimates::Certainty;
 use engine::{Assessment, Solution};
+use output::markdown::figures_of;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
-use report::markdown::figures_of;
 
 use commands::{offered, report_written, waiting};
 
@@ -203,7 +203,7 @@ fn asked(scene: &Scene) -> Vec<(&'static str, String)> {
 }
 
 /// Runs CalculiX's own contact beside `unilateral`.
-fn calculix<'a>(program: &str, case: &'a Case) -> Result<field::Compared<'a>> {
+fn calculix<'a>(program: &str, case: &'a Case) -> Result<compare::Compared<'a>> {
     let solution: &Solution = case.run(Variant::Unilateral).map_err(|why| {
         let what = format!("unilateral, which stands beside CalculiX, does not run: {why}");
         InputError::new("--ccx", what, "leave --ccx out")
@@ -212,5 +212,5 @@ fn calculix<'a>(program: &str, case: &'a Case) -> Result<field::Compared<'a>> {
     let parts = [pair.into()];
     let ran = calculix::run(program, &case.scene.title, &solution.model, &parts)?;
     let certainty = Certainty::Unchecked;
-    Ok(field::Compared::with_calculix(solution, certainty, &parts, ran, None)?)
+    Ok(compare::Compared::with_calculix(solution, certainty, &parts, ran, None)?)
 }

@@ -10,10 +10,10 @@ use crate::audit::prices::table::by_cost;
 use crate::audit::words::{Depth, JUDGED, Section, sections};
 use crate::audit::{Assumption, Audit};
 use base::xml::escape;
+use output::html::{anchor, prose};
+use output::layout::counted;
+use output::model::Report;
 use paper::mirror::READINGS;
-use report::html::{anchor, prose};
-use report::layout::counted;
-use report::model::Report;
 
 /// Returns the head of the page and its first screen.
 pub fn html(contents: &Contents, menu: &str) -> String {

@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 
 use super::{Contents, Run, first, parts};
 use engine::{Assessment, TriangleValues};
+use output::json::document;
+use output::page::Page;
+use output::picture::{colour, points};
+use output::{ResultFile, pressure, quantities};
 use problem::model::{Model, NodeId};
-use report::json::document;
-use report::page::Page;
-use report::picture::{colour, points};
-use report::{ResultFile, pressure, quantities};
 
 /// The contact nodes of a result, and what `quantities` calls what stands there.
 const CONTACT: (&str, &str) = ("contact", "contact");
@@ -51,7 +51,7 @@ pub fn html(contents: &Contents) -> String {
         body: &body,
         style: include_str!("page/report.css"),
         script: &[
-            report::page::TABLE,
+            output::page::TABLE,
             include_str!("page/fields.js"),
             include_str!("page/raster.js"),
             include_str!("page/viewer.js"),

@@ -13,9 +13,9 @@ use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
-use report::failure::failure;
-use report::model::Report;
-use report::text::{COLUMNS, fitted};
+use output::failure::failure;
+use output::model::Report;
+use output::text::{COLUMNS, fitted};
 
 /// What is said on standard error beside errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

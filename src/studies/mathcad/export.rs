@@ -6,12 +6,12 @@ use base::error::InputError;
 use base::files;
 use engine::error::{Error, Result};
 use engine::{self, Request};
+use output::exports::{CorrectedExport, Export, Run, mathcad, octave};
 use paper::corrected::{Bound, STEPS, check, iterate};
 use paper::door;
 use problem::model::Model;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use report::exports::{CorrectedExport, Export, Run, mathcad, octave};
 
 use commands::{ReadingArg, offered, print_stderr, waiting, write_or_print};
 

@@ -1,6 +1,6 @@
 //! The glossary of the guide, as a table of the report.
 
-use report::model::{Cell, Report, Table};
+use output::model::{Cell, Report, Table};
 
 /// Reports each term with its meaning.
 pub fn report() -> Report {

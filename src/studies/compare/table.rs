@@ -5,15 +5,15 @@ use serde_json::{Value, json};
 
 use super::{AtNode, Beside, BodyDifference, ByCalculix, ContactValues};
 use engine::{Distance, Overlap};
-use problem::model::NodeId;
-use problem::modelling::{ContactModel, Variant};
-use report::json;
-use report::model::{Cell, Report, Table};
-use report::numbers::{
+use output::json;
+use output::model::{Cell, Report, Table};
+use output::numbers::{
     Digits, coordinates, figure, percent, quantity, reason, six_digits, with_unit,
 };
-use report::pressure;
-use report::tables::{decimals, overlap};
+use output::pressure;
+use output::tables::{decimals, overlap};
+use problem::model::NodeId;
+use problem::modelling::{ContactModel, Variant};
 
 /// How many nodes are listed, those with the largest differences.
 const WORST: usize = 10;
