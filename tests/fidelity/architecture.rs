@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// The parts of the workspace, each of which uses those before it only.
 const PARTS: [&str; 9] =
-    ["base", "numbers", "mathcad", "problem", "paper", "engine", "report", "commands", "studies"];
+    ["base", "numbers", "mathcad", "problem", "paper", "engine", "output", "commands", "studies"];
 
 fn manifest(part: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(part).join("Cargo.toml");
