@@ -32,7 +32,8 @@ pub struct Step {
     pub shape: Arc<Vec<[f64; 2]>>,
     /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
-    /// The number of entries of the contact surface in contact.
+    /// The number of entries of the contact surface in contact, of a published variant in the shape from which the
+    /// step started.
     pub in_contact: usize,
     /// The largest total displacement |u| of a node, length.
     pub max_displacement: f64,

@@ -7,7 +7,7 @@ use crate::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread, of_
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
 use crate::audit::prices::table::{self as prices, Cost};
-use crate::audit::range::{is_example, recorded};
+use crate::audit::range::{self, is_example};
 use crate::audit::variants::{PressedAcross, VariantRow, VariantRun};
 use crate::audit::{Assumption, Audit, tables};
 use crate::calculix::RECORDED;
@@ -164,8 +164,8 @@ fn verdict(audit: &Audit) -> Vec<String> {
         None => Some("No run of the paper's algorithm ends with a result.".into()),
     };
     let is_example = is_example(scene);
-    let range =
-        (is_example && conclusion.reading == Reading::default()).then(|| recorded().to_string());
+    let range = (is_example && conclusion.reading == Reading::default())
+        .then(|| range::RECORDED.to_string());
     let strongest = of_the_paper(&audit.variants).filter(|row| is_nearest(conclusion, row));
     let strongest = strongest.filter_map(|row| Some((row.variant, wrong_with(row, scene)?)));
     let strongest = strongest.enumerate().map(|(k, (variant, words))| match variant {

@@ -40,8 +40,8 @@ pub enum Truth {
     Last(&'static str),
     /// The finest mesh that ran; the order of convergence is fitted.
     Finest,
-    /// The trial of the same variant where the scene has the axis.
-    Whole,
+    /// The trial of the same variant that has what the scene has, in words.
+    Own(&'static str),
 }
 
 impl Truth {
@@ -51,12 +51,11 @@ impl Truth {
             Truth::Equilibrium => {
                 "the equilibrium under the scene's own friction on the same mesh (unilateral, mortar)"
             }
-            Truth::Last(words) => words,
+            Truth::Last(words) | Truth::Own(words) => words,
             Truth::Finest => {
                 "the reference solution on the finest mesh that ran, whose outline is the polygon of the \
                  scene's own"
             }
-            Truth::Whole => "the whole scene under the same variant",
         }
     }
 }
@@ -144,7 +143,7 @@ pub static AXES: [Axis; 8] = [
     Axis {
         name: "symmetry",
         meaning: "half of a symmetric scene",
-        truth: Truth::Whole,
+        truth: Truth::Own("the whole scene under the same variant"),
         trials: |request| Ok(halves(request)),
     },
 ];

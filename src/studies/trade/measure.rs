@@ -101,7 +101,7 @@ impl Bench<'_> {
                 let last = self.runs.iter().rposition(|run| run.solution.is_ok());
                 (self.between(place, last), None)
             }
-            Truth::Whole => (from_own(), None),
+            Truth::Own(_) => (from_own(), None),
         };
         Row {
             label: trial.label.clone(),

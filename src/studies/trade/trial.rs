@@ -52,7 +52,7 @@ impl Run {
         let solution = match axis.truth {
             // What rounding decides shows in all steps.
             Truth::Equilibrium => solution,
-            Truth::Last(_) | Truth::Finest | Truth::Whole => solution.map(light),
+            Truth::Last(_) | Truth::Finest | Truth::Own(_) => solution.map(light),
         };
         let solution = solution.map_err(|why| why.to_string());
         Run { trial, seconds, solution, certainty: None }
