@@ -210,7 +210,7 @@ fn status(solution: &Solution) -> ExitStatus {
 fn solve(args: &Args, request: &Request) -> Result<(Solution, Report)> {
     if let Some(asked) = args.accuracy {
         let reached = solve_to(request, asked)?;
-        let words = crate::trade::table::reached(&reached, asked);
+        let words = crate::trade::trial_tables::reached(&reached, asked);
         return Ok((reached.solution, words));
     }
     let progress = match request.variant {

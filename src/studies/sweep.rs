@@ -7,7 +7,7 @@
 //! ```
 
 pub(crate) mod command;
-pub mod table;
+pub mod engines;
 
 use std::collections::HashMap;
 use std::path::Path;

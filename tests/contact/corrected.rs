@@ -229,12 +229,12 @@ fn where_it_does_not_hold_the_prices_say_so() {
     let roof = roof.bodies.scene(&Writing::default(), Coupling::Nts, Geometry::Initial);
     let roof = roof.build().unwrap();
     let (prices, repairs) = prices_of(&Case::new(roof.clone()));
-    let document = prices::table::PricesOnScene {
+    let document = prices::price_tables::PricesOnScene {
         reading: Reading::default(),
         prices: &prices,
         repairs: &repairs,
     };
-    let report = prices::table::report(&document, &roof).text(usize::MAX);
+    let report = prices::price_tables::report(&document, &roof).text(usize::MAX);
     assert!(report.contains("The corrected algorithm itself is 265 %"), "{report}");
     let plate = annulus(2, 4).build().unwrap();
     let refused = prices::on(&Case::new(plate), &|| ()).expect_err("no contact").to_string();
@@ -249,7 +249,7 @@ fn without_a_load_no_fault_is_weighed() {
     assert!(scene.model.load.iter().all(|f| *f == 0.0));
     let (prices, repairs) = prices_of(&Case::new(scene));
     assert_eq!(prices::needed(&repairs), None);
-    let why = prices::table::unsound(&prices).expect("a reason");
+    let why = prices::price_tables::unsound(&prices).expect("a reason");
     assert!(why.contains("no load passes"), "{why}");
 }
 
@@ -280,5 +280,5 @@ fn on_a_target_that_is_held_the_load_passes() {
     let run = prices[0].outcome.as_ref().expect("a result");
     assert!(!run.passes_nothing);
     assert_near("transmitted", run.transmitted, 1.0, 1.0, &CORRECTED);
-    assert_eq!(prices::table::of_weight(&prices, Weight::Fatal), ["K1"]);
+    assert_eq!(prices::price_tables::of_weight(&prices, Weight::Fatal), ["K1"]);
 }

@@ -15,7 +15,7 @@ use plane_contact::engine::{Request, distance, solve};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::modelling::{Friction, Variant};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::table::ESTIMATES;
+use plane_contact::studies::audit::claims::claim_tables::ESTIMATES;
 use plane_contact::studies::audit::claims::{
     Basis, CLAIMS, ClaimId, JudgedClaim, Scope, Verdict, judge,
 };

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use crate::common::golden::assert_golden_by;
 use crate::common::tolerances::{EXTREME_DECADES, EXTREME_DIGITS};
-use plane_contact::studies::extremes::table as report;
+use plane_contact::studies::extremes::digit_tables as report;
 use plane_contact::studies::extremes::{Column, GENERATORS, Kept, SweepTable, measure};
 
 fn text(measured: &[SweepTable]) -> String {

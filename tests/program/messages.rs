@@ -13,7 +13,7 @@ use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
 use plane_contact::studies::audit::Case;
 use plane_contact::studies::audit::findings::{FINDINGS, Finding, Presence, Repair};
-use plane_contact::studies::audit::prices::table::ORDER;
+use plane_contact::studies::audit::prices::price_tables::ORDER;
 use plane_contact::studies::lesson::language::{messages, of_interpreter};
 use plane_contact::studies::lesson::page::{ITERATE, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};

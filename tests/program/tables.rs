@@ -91,7 +91,7 @@ fn prices() {
     let on_fig1 = prices::on(&fig1, &|| ()).expect("fig1 has a solution");
     let repairs = prices::repairs(&fig1, &on_fig1, &|| ()).expect("fig1 has a solution");
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
-    assert_eq!(prices::table::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
+    assert_eq!(prices::price_tables::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
     for price in &alone {
         let is_free = [None, Some(FindingId::C7), Some(FindingId::C12), Some(FindingId::K4)]
             .contains(&price.finding);
@@ -272,21 +272,21 @@ fn claims() {
     let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title = format!(
         "What the paper claims, {}: {}.",
-        studies::audit::claims::table::counts(),
+        studies::audit::claims::claim_tables::counts(),
         counts.collect::<Vec<_>>().join(", ")
     );
     assert_table(
         "claims",
         &title,
         "audit --range",
-        &studies::audit::claims::table::verdicts(&JUDGED).markdown(),
+        &studies::audit::claims::claim_tables::verdicts(&JUDGED).markdown(),
     );
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
          figures on the scene strand, whose mesh is of Gmsh, differ a little.",
         "audit --range",
-        &studies::audit::claims::table::range(&JUDGED).markdown(),
+        &studies::audit::claims::claim_tables::range(&JUDGED).markdown(),
     );
     // What the verdict on the paper's own example cites.
     let p12 = JUDGED.iter().find(|judged| judged.claim.id == ClaimId::P12).expect("a claim");

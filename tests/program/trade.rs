@@ -16,7 +16,7 @@ use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuil
 use plane_contact::studies::audit::claims::ClaimId;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
-use plane_contact::studies::trade::table as report;
+use plane_contact::studies::trade::trial_tables as report;
 use plane_contact::studies::trade::{self, AXES, Order, Point, Rounding, Trade, pareto, solve_to};
 use serde_json::{Value, json};
 

@@ -9,7 +9,7 @@ use crate::audit::prices;
 use crate::audit::range::{Range, range};
 use crate::audit::words::{self, Depth};
 use crate::audit::{Audit, Case, audit, steps, tables};
-use crate::audit::{claims::table as claims, prices::table as price_report};
+use crate::audit::{claims::claim_tables as claims, prices::price_tables as price_report};
 use base::error::InputError;
 use base::files;
 use base::suggestion::did_you_mean;

@@ -1,7 +1,7 @@
 //! What the printed faults cost, against the solution of the same conditions: the corrected algorithm of
 //! `listings/corrected/` with one fault reintroduced at a time, and with all of them, repaired one at a time.
 
-pub mod table;
+pub mod price_tables;
 
 use std::collections::BTreeSet;
 use std::iter;

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
-use crate::audit::claims::table as claims;
+use crate::audit::claims::claim_tables as claims;
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::findings::{Evidence, Finding, Repair};
-use crate::audit::prices::table as prices;
+use crate::audit::prices::price_tables as prices;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{VariantRow, VariantRun};
 use crate::audit::{Audit, EquilibriumRow, FrictionContact, words};

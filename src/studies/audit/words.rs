@@ -1,12 +1,12 @@
 //! What an audit says: a verdict to quote, the runs beside the equilibrium, the claims by how far their verdicts
 //! reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests on.
 
-use crate::audit::claims::table as claims;
+use crate::audit::claims::claim_tables as claims;
 use crate::audit::claims::{ClaimId, JudgedClaim, Scope, Verdict};
 use crate::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread, of_the_paper};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
-use crate::audit::prices::table::{self as prices, Cost};
+use crate::audit::prices::price_tables::{self as prices, Cost};
 use crate::audit::range::{self, is_example};
 use crate::audit::variants::{PressedAcross, VariantRow, VariantRun};
 use crate::audit::{Assumption, Audit, tables};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueHint;
 use nalgebra::DVector;
 
-use super::table::{self, Compared};
+use super::comparison::{self, Compared};
 use super::{Beside, Rows};
 use crate::calculix::arguments::DeckArgs;
 use crate::calculix::{self, ContactKind};
@@ -146,8 +146,8 @@ fn beside_file(args: &Args, path: &Path) -> Result<ExitStatus> {
 /// Prints what was compared.
 fn finish(args: &Args, compared: &Compared) -> Result<ExitStatus> {
     match args.tables.json {
-        true => print(&table::json(compared))?,
-        false => args.tables.print(table::report(compared))?,
+        true => print(&comparison::json(compared))?,
+        false => args.tables.print(comparison::report(compared))?,
     }
     Ok(ExitStatus::compared(compared.is_same() != Some(false)))
 }

@@ -9,12 +9,12 @@
 mod beside;
 mod by_calculix;
 pub(crate) mod command;
+pub mod comparison;
 mod csv;
-pub mod table;
 
 pub use beside::{AtNode, Beside, BodyDifference, ContactValues};
 pub use by_calculix::ByCalculix;
-pub use table::Compared;
+pub use comparison::Compared;
 
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::extremes::table as report;
+use crate::extremes::digit_tables as report;
 use crate::extremes::{GENERATORS, Generator, SweepTable, measure};
 use base::files;
 use clap::builder::PossibleValuesParser;

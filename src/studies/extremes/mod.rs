@@ -11,10 +11,10 @@
 mod answer;
 mod blocks;
 pub(crate) mod command;
+pub mod digit_tables;
 mod kept;
 mod method;
 mod search;
-pub mod table;
 
 use rayon::prelude::*;
 use serde::Serialize;

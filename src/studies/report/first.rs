@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
-use crate::audit::claims::{CLAIMS, Claim, table as claims};
+use crate::audit::claims::{CLAIMS, Claim, claim_tables as claims};
 use crate::audit::findings::{FINDINGS, Finding};
-use crate::audit::prices::table::by_cost;
+use crate::audit::prices::price_tables::by_cost;
 use crate::audit::words::{Depth, JUDGED, Section, sections};
 use crate::audit::{Assumption, Audit};
 use base::xml::escape;

@@ -6,7 +6,7 @@ mod glossary;
 pub mod page;
 
 use crate::audit::claims::Verdict;
-use crate::audit::claims::table::in_full;
+use crate::audit::claims::claim_tables::in_full;
 use crate::audit::evidence::NoFigures;
 use crate::audit::findings::{FindingId, Presence};
 use crate::audit::prices::Price;
@@ -14,7 +14,7 @@ use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
 use crate::audit::words::{Depth, evidence, report as audit_report};
 use crate::audit::{Audit, relative_radius};
-use crate::compare::{Compared, table as comparison};
+use crate::compare::{Compared, comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use output::folder;
 use output::html::figure;

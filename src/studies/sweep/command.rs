@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::sweep::table::{self as report, Engine};
+use crate::sweep::engines::{self as report, Engine};
 use crate::sweep::{Job, Jobs, Row};
 use base::error::InputError;
 use base::files;

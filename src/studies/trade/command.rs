@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::trade::table as report;
+use crate::trade::trial_tables as report;
 use crate::trade::{self, AXES, Axis};
 use base::files;
 use base::plain::shown;

@@ -16,8 +16,8 @@ mod errors;
 mod measure;
 mod order;
 mod rows;
-pub mod table;
 mod trial;
+pub mod trial_tables;
 
 pub use accuracy::{AccurateSolution, Rounding, check_accuracy, solve_to};
 pub use axis::{AXES, Axis, Truth};

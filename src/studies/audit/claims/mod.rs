@@ -5,9 +5,9 @@
 //! listings it is true of any scene. Where it rests on a scene it is measured over the range of what
 //! the paper leaves open too.
 
+pub mod claim_tables;
 mod measures;
 mod register;
-pub mod table;
 
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use serde_json::{Value, json};
 
 use super::Shared;
-use crate::audit::prices::table::ORDER;
+use crate::audit::prices::price_tables::ORDER;
 use crate::lesson::Repairs;
 use crate::lesson::language::fill;
 use mathcad::Settings;

@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use crate::audit::claims::table::under;
+use crate::audit::claims::claim_tables::under;
 use crate::audit::evidence::{NoFigures, Outcome};
 use crate::audit::prices::{CorrectedRun, NOTHING, Price, Weight, needed};
 use output::json;
