@@ -84,7 +84,8 @@ macro_rules! by_own_elimination {
                         let x = DVector::from_vec(x);
                         Ok(Solved { residual: symmetric.residual(&x, b), x })
                     }
-                    Solver::SparseLu | Solver::SparseCholesky => Self::solve_symmetric(&symmetric, b),
+                    Solver::SparseLu => unreachable!("it is offered in f64 alone"),
+                    Solver::SparseCholesky => Self::solve_symmetric(&symmetric, b),
                 }
             }
 
@@ -148,7 +149,8 @@ impl Precision for Exact {
                 let b = b.iter().map(|x| value(*x)).collect();
                 Ok(exact(solve_dense(|i, j| value(a[(i, j)]), b)?))
             }
-            Solver::SparseLu | Solver::SparseCholesky => Self::solve_symmetric(&lower(a), b),
+            Solver::SparseLu => unreachable!("it is offered in f64 alone"),
+            Solver::SparseCholesky => Self::solve_symmetric(&lower(a), b),
         }
     }
 

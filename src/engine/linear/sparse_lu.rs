@@ -33,7 +33,9 @@ impl SparseLu {
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
         let Some((columns, factors)) = factored(matrix) else {
-            return Err(judged(matrix, f64::INFINITY).expect("a pivot is 0"));
+            // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
+            let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
+            return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));
         };
         let lu = SparseLu { matrix: columns, factors };
         // Under loads of 1, both scaled to columns whose largest entry is 1.
