@@ -30,51 +30,137 @@ fn assert_text(folder: &str, name: &str, args: &[&str]) -> String {
     text
 }
 
+/// Compares texts as this file's head says.
 pub fn same_text(expected: &str, value: &str) -> bool {
     let (expected, value) = (expected.trim_end(), value.trim_end());
-    let different = expected.lines().zip(value.lines()).find(|(e, v)| !same_line(e, v));
-    if let Some((e, v)) = different {
+    let [e, v] = [expected, value].map(pieces);
+    // Where rounding itself is printed otherwise, columns may have other widths.
+    let is_folded = numbers(&e).zip(numbers(&v)).any(|(e, v)| is_noise(e) && e.len() != v.len());
+    let is_same = match is_folded {
+        false => same_pieces(&e, &v),
+        true => same_pieces(&pieces(&folded(expected)), &pieces(&folded(value))),
+    };
+    let different = expected.lines().zip(value.lines()).find(|(e, v)| e != v);
+    if let (false, Some((e, v))) = (is_same, different) {
         eprintln!("expected {e}\n     got {v}");
     }
-    different.is_none() && expected.lines().count() == value.lines().count()
+    is_same
 }
 
-fn same_line(expected: &str, value: &str) -> bool {
-    let (expected, value) = (words(expected), words(value));
-    expected.len() == value.len() && expected.iter().zip(&value).all(|(e, v)| same_word(e, v))
-}
-
-/// The words of a line; a rule under a heading is as wide as its column, whatever that is.
-fn words(line: &str) -> Vec<&str> {
-    let word = |word: &&str| !(word.len() > 1 && word.chars().all(|c| c == '-'));
-    line.split([' ', ',', ';', '(', ')', '=', '%']).filter(|w| !w.is_empty()).filter(word).collect()
-}
-
-fn same_word(expected: &str, value: &str) -> bool {
-    let (Some((e, step)), Some((v, _))) = (float(expected), float(value)) else {
-        return expected == value;
+fn same_pieces(expected: &[Piece], value: &[Piece]) -> bool {
+    let is_same = |(e, v): (&Piece, &Piece)| match (e, v) {
+        (Piece::Words(e), Piece::Words(v)) => e == v,
+        (Piece::Number(e), Piece::Number(v)) => same_number(e, v),
+        (Piece::Words(_), Piece::Number(_)) | (Piece::Number(_), Piece::Words(_)) => false,
     };
-    let is_noise = |x: f64| x.abs() < NOISE;
-    is_noise(e) && is_noise(v) || (e - v).abs() <= 1.001 * step
+    expected.len() == value.len() && expected.iter().zip(value).all(is_same)
 }
 
-/// A number that is not whole, and one in its last printed digit.
-fn float(word: &str) -> Option<(f64, f64)> {
-    let value: f64 = word.parse().ok().filter(|_| word.contains(['.', 'e']) || word == "0")?;
-    let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let exponent: i32 = exponent.parse().ok()?;
-    Some((value, 10f64.powi(exponent - i32::try_from(decimals).ok()?)))
+/// A part of a text.
+#[derive(Clone, Copy)]
+enum Piece<'t> {
+    Words(&'t str),
+    /// A number that is not whole, or 0.
+    Number(&'t str),
+}
+
+/// Divides a text.
+fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let (mut pieces, mut start, mut at) = (Vec::new(), 0, 0);
+    while let Some(c) = text[at..].chars().next() {
+        let before = text[..at].chars().next_back();
+        let is_inside = before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '.' | '_'));
+        let sign = usize::from(c == '-');
+        let length = if is_inside { None } else { number(&text[at + sign..]).map(|n| sign + n) };
+        match length {
+            Some(length) => {
+                pieces.extend([
+                    Piece::Words(&text[start..at]),
+                    Piece::Number(&text[at..at + length]),
+                ]);
+                at += length;
+                start = at;
+            }
+            None => at += c.len_utf8(),
+        }
+    }
+    pieces.push(Piece::Words(&text[start..]));
+    pieces
+}
+
+/// Returns the length of the number at the start of a text, if one is there that is not whole, or 0.
+fn number(text: &str) -> Option<usize> {
+    let end = text.find(|c: char| !c.is_ascii_alphanumeric() && !matches!(c, '.' | '-' | '_'));
+    let word = text[..end.unwrap_or(text.len())].trim_end_matches(['.', '-']);
+    let starts = word.starts_with(|c: char| c.is_ascii_digit());
+    let is_number =
+        starts && word.parse::<f64>().is_ok() && (word.contains(['.', 'e']) || word == "0");
+    is_number.then_some(word.len())
+}
+
+fn numbers<'t>(pieces: &[Piece<'t>]) -> impl Iterator<Item = &'t str> {
+    pieces.iter().filter_map(|piece| match piece {
+        Piece::Words(_) => None,
+        Piece::Number(number) => Some(*number),
+    })
+}
+
+fn is_noise(number: &str) -> bool {
+    number.parse::<f64>().is_ok_and(|x| x.abs() < NOISE)
+}
+
+/// Returns a text with one blank in place of several, and one dash.
+fn folded(text: &str) -> String {
+    let mut folded = String::new();
+    text.chars().for_each(|c| match (c, folded.chars().next_back()) {
+        (' ' | '-', Some(last)) if last == c => (),
+        (_, _) => folded.push(c),
+    });
+    folded
+}
+
+/// Compares numbers by value and printed digits.
+fn same_number(expected: &str, value: &str) -> bool {
+    if is_noise(expected) || is_noise(value) {
+        return is_noise(expected) && is_noise(value);
+    }
+    let [(e, step), (v, own)] = [expected, value].map(|number| {
+        let (mantissa, exponent) = number.split_once('e').unwrap_or((number, "0"));
+        let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let exponent: i32 = exponent.parse().expect("a whole exponent");
+        (number.parse::<f64>().expect("a number"), 10f64.powi(exponent - decimals as i32))
+    });
+    step == own && (e - v).abs() <= 1.001 * step
 }
 
 #[test]
 fn texts_differ_by_words_and_by_more_than_a_digit() {
     assert!(same_text("a 0.123  5e-17", "a 0.124  0"));
     assert!(!same_text("a 0.123", "a 0.125"));
+    assert!(!same_text("a 0.123", "a 0.12"));
     assert!(!same_text("a 3", "a 4"));
+    assert!(!same_text("a 0", "a 0.9"));
     assert!(!same_text("a 1.5e-3", "a 1.7e-3"));
     assert!(!same_text("nodes 5, 6", "nodes 5, 7"));
-    assert!(same_text("---  ----\n1", "----  ---\n1"));
+    assert!(!same_text("30 %", "30"));
+    assert!(!same_text("(no load) 5", "no load 5"));
+    assert!(!same_text("a   1.5", "a 1.5"));
+    assert!(!same_text("---  ----\n1", "----  ---\n1"));
+}
+
+/// Without a per cent sign, a bracket or a column of blanks no golden text is the same.
+#[test]
+fn no_golden_text_can_lose_a_sign() {
+    let golden = Path::new(ROOT).join("golden");
+    for name in ["fig1/audit", "fig1/report", "strand/audit", "strand/solve-tied", "help"] {
+        let text = std::fs::read_to_string(golden.join(format!("{name}.snap"))).expect("a text");
+        for sign in ["%", "(", ")", ",", "  "] {
+            assert!(
+                !text.contains(sign) || !same_text(&text, &text.replacen(sign, "", 1)),
+                "{name} {sign:?}"
+            );
+        }
+    }
 }
 
 const SCENES: [&str; 3] = ["fig1", "two-blocks", "strand"];
