@@ -107,11 +107,16 @@ pub fn report_error(error: &Error) -> ExitStatus {
 
 /// Prints the error that ends a command, where `json` asks for it to standard output too; returns its exit status.
 pub fn report_failure(error: &Error, json: bool) -> ExitStatus {
+    print_failure(error, json);
+    report_error(error)
+}
+
+/// Prints to standard output the error that ends a command, where `json` asks for it.
+pub(crate) fn print_failure(error: &Error, json: bool) {
     if json {
         // The error itself counts, not that its JSON could not be printed.
         let _ = print(&failure(error));
     }
-    report_error(error)
 }
 
 /// Does `work`, with a sign of life on standard error for what may take over two seconds; it shows

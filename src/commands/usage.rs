@@ -2,12 +2,11 @@
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use crate::printing::{print, print_stderr, report_failure};
+use crate::printing::{print_failure, print_stderr, report_failure};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::plain::is_hidden;
 use engine::error::Error;
-use output::failure::failure;
 
 /// Prints to standard error what is wrong with the command line, and where `json` asks for it to standard output too;
 /// returns its exit status.
@@ -17,10 +16,7 @@ pub fn report_usage(mut why: clap::Error, grammar: &clap::Command, json: bool) -
     }
     name_subcommands(&mut why, grammar);
     escape(&mut why);
-    if json {
-        // The error itself counts, not that its JSON could not be printed.
-        let _ = print(&failure(&fault(&why)));
-    }
+    print_failure(&fault(&why), json);
     print_stderr(&rendered(&why));
     ExitStatus::Input
 }
@@ -43,6 +39,7 @@ fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
     let tip = format!("there are {}", names.join(", "));
     why.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
 }
+
 /// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as escapes.
 fn escape(why: &mut clap::Error) {
     let escaped = |text: &String| text.escape_debug().to_string();

@@ -4,7 +4,6 @@ use crate::faced;
 use engine::contact::search::{Segment, closest};
 use engine::contact::status::statuses;
 use engine::contact::{Pairing, Surfaces, Traction, reactions};
-
 use engine::{self, Constraint, Detail, Request};
 use nalgebra::DVector;
 use paper::door::{self, Call};

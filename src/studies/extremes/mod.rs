@@ -4,7 +4,7 @@
 //! ```text
 //!  Generator: powers of ten, how a scene is made of one
 //!       |
-//!       +--> what is Kept of each value by each method: exact, digits, wrong, refused
+//!       +--> what is kept of each value by each method: exact, digits, wrong, refused
 //!       +--> for each method, where it breaks down: bisected to half a decade
 //! ```
 
