@@ -113,8 +113,8 @@ fn body(
 
 /// What is asked of a scene. Exact numbers are left to scenes that are known to be cheap.
 pub fn request(u: &mut Unstructured, scene: &Scene) -> Result<Request> {
-    use ScalarName::{Bounded, BoundedDouble, F32, F64, F64x2};
-    let scalar = *u.choose(&[F64, F64, F64, F64x2, Bounded, BoundedDouble, F32])?;
+    use ScalarName::{F32, F64, F64x2};
+    let scalar = *u.choose(&[F64, F64, F64, F64x2, F32])?;
     let solver = match seldom(u)? {
         true => Some(*u.choose(Solver::ALL)?),
         false => None,

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use super::distance::{Distance, distance};
 use super::error::Error;
-use super::estimates::{Estimates, Perturbed};
+use super::estimates::{Estimates, Perturbed, perturbed};
 use super::hertz::Hertz;
 use super::quantities::{BodySummary, summaries};
 use super::request::Request;
@@ -17,10 +17,10 @@ use problem::modelling::{ContactModel, Friction, Variant};
 pub struct Assessment<'a> {
     /// The largest values of each body.
     pub bodies: Vec<BodySummary>,
-    /// The estimated errors from rounding and from the mesh; None where they are left out.
+    /// The estimated errors from the mesh; None where they are left out.
     pub estimates: Option<Estimates>,
-    /// What changes of the input in the last digits do to a run of `unilateral`; None where that was not
-    /// measured.
+    /// What changes of the input in the last digits do to the run; None where that was not measured, and of exact
+    /// numbers.
     pub rounding: Option<Perturbed>,
     /// The largest difference of a displacement component from a path of half as many steps of the
     /// load, length: what is left of the size of the steps; or why that path has no end. None without a
@@ -47,15 +47,17 @@ pub struct SolutionDistance<'a> {
 
 impl<'a> Assessment<'a> {
     /// Assesses a solution, and solves for the reference solution and for the equilibrium
-    /// under the scene's own friction and geometry, unless it is one of them.
+    /// under the scene's own friction and geometry, unless it is one of them. What rounding does is measured under
+    /// the paper's variants; under `unilateral` that may take long, and is asked for.
     pub fn new(solution: &'a Solution) -> Self {
         let request = &solution.request;
-        let ((others, half), estimates) = rayon::join(
+        let ((others, half), (estimates, rounding)) = rayon::join(
             || rayon::join(|| others(solution), || half_as_many_steps(request)),
-            || Estimates::new(solution),
+            || rayon::join(|| Estimates::new(solution), || rounding(solution)),
         );
+        let path_change = change(half, solution);
         let assessment = Assessment::beside(solution, others);
-        Assessment { estimates: Some(estimates), path_change: change(half, solution), ..assessment }
+        Assessment { estimates: Some(estimates), rounding, path_change, ..assessment }
     }
 
     /// Does the same without the estimates: neither their fields nor `path_change`, which takes
@@ -74,8 +76,9 @@ impl<'a> Assessment<'a> {
     pub fn against(solution: &'a Solution, others: [Option<&'a Solution>; 2]) -> Self {
         let estimates = Some(Estimates::new(solution));
         let path_change = change(half_as_many_steps(&solution.request), solution);
+        let rounding = rounding(solution);
         let others = others.map(|other| other.map(|other| Ok(Cow::Borrowed(other))));
-        Assessment { estimates, path_change, ..Assessment::beside(solution, others) }
+        Assessment { estimates, rounding, path_change, ..Assessment::beside(solution, others) }
     }
 
     /// Assesses a solution without estimates beside the reference solution and the equilibrium.
@@ -144,6 +147,14 @@ fn others<'a>(solution: &'a Solution) -> [Option<OtherSolution<'a>>; 2] {
     let has_own = !own.is_same_equilibrium(&reference);
     let (reference, own) = rayon::join(|| solved(&reference), || has_own.then(|| solved(&own)));
     [Some(reference), own]
+}
+
+/// Measures what rounding does to a run of the paper's variants; None under `unilateral`.
+fn rounding(solution: &Solution) -> Option<Perturbed> {
+    match solution.request.variant {
+        Variant::Printed | Variant::Tied | Variant::Stepped => perturbed(solution),
+        Variant::Unilateral => None,
+    }
 }
 
 /// Returns the largest difference of displacements at the end of a path of half as many steps from those

@@ -3,7 +3,6 @@
 
 mod assessment;
 pub mod contact;
-mod decisions;
 mod distance;
 mod elimination;
 mod equations;
@@ -29,7 +28,6 @@ mod stretches;
 mod unilateral;
 
 pub use assessment::{Assessment, SolutionDistance};
-pub use decisions::{Decision, decisions};
 pub use distance::{BodyDistance, Distance, distance, over};
 pub use elimination::{Constraint, Elimination, Motion, support_constraints};
 pub use hertz::Hertz;
@@ -42,8 +40,8 @@ pub use reactions::share_of_load;
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
-    Path, Published, Solution, Start, Step, StepBounds, Unilateral, Uniqueness,
-    last_under_each_load, max_displacement,
+    Path, Published, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load,
+    max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::is_dense;

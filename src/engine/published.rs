@@ -10,16 +10,13 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, Mortar, Surfaces, Traction, reactions, status};
-use super::decisions::{Decision, decisions};
+use super::contact::{ContactNode, Surfaces, Traction, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
 use super::reactions::transmitted_force;
 use super::request::Request;
-use super::solution::{
-    Cycle, Detail, FoundPairs, Published, Solution, Step, StepBounds, max_displacement,
-};
+use super::solution::{Cycle, Detail, FoundPairs, Published, Solution, Step, max_displacement};
 use super::sparse::is_dense;
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
@@ -77,7 +74,6 @@ pub(super) fn published<T: Precision>(
         digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
         equilibrium: None,
         overlap: None,
-        error_bound: error_bound(&run.u, &steps),
         u: run.u.map(T::to_f64),
         request: request.clone(),
         model: Arc::clone(&model),
@@ -110,13 +106,6 @@ fn number_of<T: Scalar>(request: &Request, x: f64) -> T {
         Inputs::Binary => T::from_f64(x),
         Inputs::Decimal => T::from_decimal(x),
     }
-}
-
-/// Returns the bound on the error of an entry of `u`, where T keeps one; infinite where a decision of
-/// a step is left to rounding, or that is not known.
-fn error_bound<T: Scalar>(u: &DVector<T>, steps: &[Step]) -> Option<f64> {
-    let bound = u.iter().try_fold(0.0, |m: f64, u| u.error_bound().map(|e| m.max(e)))?;
-    Some(if steps.iter().all(Step::is_certain) { bound } else { f64::INFINITY })
 }
 
 /// Checks that no load vanished or is too small for all digits of the scalar: zero displacements
@@ -187,16 +176,16 @@ struct FoundState<T> {
     constraints: Vec<Constraint<T>>,
     /// The position of each node in contact on its target edge, to measure eq. (1).
     places: Vec<NodeToSegment<T>>,
-    /// The decisions that rounding may have taken; None where T keeps no bound.
-    undecided: Option<Vec<Decision>>,
 }
 
 impl<T: Precision> Run<'_, T> {
     fn iterate(&mut self, k: usize) -> Result<Step, Error> {
-        let found = self.search(k)?;
+        let found = self.search()?;
         let entries = found.pairs.k_cnt.as_matrix().iter().copied().enumerate();
-        let k_cnt: Vec<(usize, T)> = entries.filter(|(_, entry)| !entry.same(T::zero())).collect();
-        let is_found = |visited: &Visited<T>| visited.is(&k_cnt, &found.constraints);
+        let k_cnt: Vec<(usize, T)> = entries.filter(|(_, entry)| !entry.is_zero()).collect();
+        let is_found = |visited: &Visited<T>| {
+            visited.k_cnt == k_cnt && visited.constraints == found.constraints
+        };
         let before = self.visited.iter().position(is_found);
         let (cycle, solved) = match before.map(|at| self.visited.swap_remove(at)) {
             Some(visited) => {
@@ -215,36 +204,24 @@ impl<T: Precision> Run<'_, T> {
         Ok(step)
     }
 
-    /// Finds the contact state in the current shape in iteration `k`.
-    fn search(&self, k: usize) -> Result<FoundState<T>, Error> {
+    /// Finds the contact state in the current shape.
+    fn search(&self) -> Result<FoundState<T>, Error> {
         let Equations { request, model, sheet, interpreter, .. } = self.equations;
         let node_n = door::displaced_nodes(sheet, &self.u);
         let reading = &request.reading;
-        let keeps_bound = T::zero().error_bound().is_some();
         if !model.has_contact() {
             // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(sheet.R());
-            let undecided = keeps_bound.then(Vec::new);
-            let (constraints, places) = (Vec::new(), Vec::new());
-            return Ok(FoundState { node_n, pairs, constraints, places, undecided });
+            return Ok(FoundState { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
         }
-        let rule = request.contact.status;
-        let by_listing = request.decides_by_listing();
         let edited = interpreter.and_then(|edited| edited.c_cnt(&node_n));
         let pairs = if let Some(pairs) = edited {
             pairs?
-        } else if by_listing {
+        } else if request.decides_by_listing() {
             mirror::c_cnt(sheet, reading, &node_n)?
         } else {
-            let found = status::statuses(rule, model, sheet, reading, &node_n)?;
+            let found = status::statuses(request.contact.status, model, sheet, reading, &node_n)?;
             door::pairs(model, sheet, reading, &node_n, &found)?
-        };
-        let undecided = if !keeps_bound {
-            None
-        } else if by_listing {
-            Some(decisions(sheet, reading, &node_n, &pairs, k))
-        } else {
-            Some(status::decisions(rule, model, sheet, reading, &node_n, k)?)
         };
         let linked = door::linked(sheet, &pairs);
         let places = if request.is_edited(Which::CCnt) {
@@ -254,33 +231,21 @@ impl<T: Precision> Run<'_, T> {
             door::on_edges(sheet, &pairs, reading, &node_n)?
         };
         let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
-        let of_mortar = self.bind_by_mortar(&mut constraints, &node_n, k);
-        let undecided =
-            undecided.map(|own: Vec<Decision>| own.into_iter().chain(of_mortar).collect());
-        Ok(FoundState { node_n, pairs, constraints, places, undecided })
+        self.bind_by_mortar(&mut constraints, &node_n);
+        Ok(FoundState { node_n, pairs, constraints, places })
     }
 
     /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
-    /// edges cover the target in iteration `k`. Returns the decisions on them that rounding may have
-    /// taken.
-    fn bind_by_mortar(
-        &self,
-        constraints: &mut [Constraint<T>],
-        node_n: &Table<T>,
-        k: usize,
-    ) -> Vec<Decision> {
-        let Some(surfaces) = &self.surfaces else { return Vec::new() };
+    /// edges cover the target.
+    fn bind_by_mortar(&self, constraints: &mut [Constraint<T>], node_n: &Table<T>) {
+        let Some(surfaces) = &self.surfaces else { return };
         let Equations { request, sheet, .. } = self.equations;
         let shape = door::shape(mirror::weights_from(sheet, &request.reading, node_n));
-        let Mortar { pairings, mut unsure } = surfaces.mortar(&shape);
-        for pairing in pairings.into_iter().flatten() {
+        for pairing in surfaces.mortar(&shape).into_iter().flatten() {
             for bound in constraints.iter_mut().filter(|bound| bound.node == pairing.node) {
                 bound.masters.clone_from(&pairing.masters);
             }
         }
-        unsure.retain(|(node, _)| constraints.iter().any(|bound| bound.node == *node));
-        let condition = || "a comparison of mortar's integrals".into();
-        unsure.into_iter().map(|(node, by)| Decision::unsure(k, node, condition(), by)).collect()
     }
 
     /// Advances from one shape to the next.
@@ -305,7 +270,7 @@ impl<T: Precision> Run<'_, T> {
         cycle: Option<Cycle>,
         solved: &Increment<T>,
     ) -> Step {
-        let FoundState { node_n, pairs, constraints, places, undecided } = found;
+        let FoundState { node_n, pairs, constraints, places } = found;
         let bound: &[Constraint<T>] = match self.equations.request.variant {
             Variant::Printed => &[],
             Variant::Tied | Variant::Stepped | Variant::Unilateral => constraints,
@@ -325,24 +290,10 @@ impl<T: Precision> Run<'_, T> {
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),
-                undecided: undecided.clone(),
-                bounds: self.bounds(pairs),
                 eq1_residual: residual(&self.u),
                 eq1_residual_step: residual(&solved.u),
             }),
         }
-    }
-
-    /// Returns the bounds on the errors of `pairs` and of the displacements; None where T keeps none.
-    fn bounds(&self, pairs: &Pairs<T>) -> Option<StepBounds> {
-        T::zero().error_bound()?;
-        let largest =
-            |numbers: &[T]| numbers.iter().filter_map(|x| x.error_bound()).fold(0.0, f64::max);
-        Some(StepBounds {
-            yt: largest(pairs.yt.as_slice()),
-            weights: largest(pairs.k_cnt.as_matrix().as_slice()),
-            u: largest(self.u.as_slice()),
-        })
     }
 
     /// Returns the contact surface at the end.
@@ -370,23 +321,6 @@ impl<T: Precision> Run<'_, T> {
             forces: &reactions(self.equations.model, &pairings, reaction, eliminated),
         };
         Ok(traction.nodes())
-    }
-}
-
-impl<T: Scalar> Visited<T> {
-    /// Returns whether this is the state of `k_cnt`, where that is not 0, and `constraints`.
-    fn is(&self, k_cnt: &[(usize, T)], constraints: &[Constraint<T>]) -> bool {
-        let same_weights = |a: &Constraint<T>, b: &Constraint<T>| {
-            let mut masters = a.masters.iter().zip(&b.masters);
-            a.node == b.node
-                && a.masters.len() == b.masters.len()
-                && masters.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
-        };
-        let mut entries = self.k_cnt.iter().zip(k_cnt);
-        self.k_cnt.len() == k_cnt.len()
-            && entries.all(|(a, b)| a.0 == b.0 && a.1.same(b.1))
-            && self.constraints.len() == constraints.len()
-            && self.constraints.iter().zip(constraints).all(|(a, b)| same_weights(a, b))
     }
 }
 

@@ -7,7 +7,6 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::contact::{ContactNode, InsideNode, Pairing, ROUNDING_OF_A_FORCE, Status, Watched};
-use super::decisions::Decision;
 use super::elimination::Constraint;
 use super::error::{Cause, NoEquilibrium};
 use super::range::inside_out;
@@ -62,11 +61,6 @@ pub enum Detail {
 pub struct Published {
     /// The pairs that `c_cnt` found in the shape at the start.
     pub pairs: FoundPairs,
-    /// The decisions on who is in contact that rounding may have taken; None where the numbers keep
-    /// no bound on their error, or under a status rule whose decisions are not looked at.
-    pub undecided: Option<Vec<Decision>>,
-    /// Bounds on the rounding errors of the iteration; None where the numbers keep none.
-    pub bounds: Option<StepBounds>,
     /// The residual of eq. (1): the largest |u_cont − u_targ|, |v_cont − v_targ| over nodes in
     /// contact, in total displacements, length.
     pub eq1_residual: f64,
@@ -123,17 +117,6 @@ impl FoundPairs {
     pub fn whole(&self) -> Pairs<f64> {
         Pairs { ct: self.ct.clone(), yt: self.yt.clone(), dy: self.dy.clone(), k_cnt: self.k_cnt() }
     }
-}
-
-/// Bounds on the rounding errors of an iteration, each of the largest error in an array.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct StepBounds {
-    /// The bound on the entries of `yt`, length.
-    pub yt: f64,
-    /// The bound on the entries of `k_cnt`.
-    pub weights: f64,
-    /// The bound on the total displacements after the iteration, length.
-    pub u: f64,
 }
 
 /// An iteration of the active set.
@@ -324,20 +307,6 @@ impl Step {
         }
     }
 
-    /// Returns the decisions on who is in contact that rounding may have taken; None where that is
-    /// not known of the step alone.
-    pub fn undecided(&self) -> Option<&[Decision]> {
-        match &self.detail {
-            Detail::Published(step) => step.undecided.as_deref(),
-            Detail::Unilateral(_) => None,
-        }
-    }
-
-    /// Returns whether it is known that rounding took no decision in the step.
-    pub fn is_certain(&self) -> bool {
-        self.undecided().is_some_and(<[Decision]>::is_empty)
-    }
-
     /// Returns the residual of the contact condition, length: of eq. (1), or of the gaps.
     pub fn contact_residual(&self) -> f64 {
         match &self.detail {
@@ -391,10 +360,6 @@ pub struct Solution {
     pub factored: usize,
     /// All significant digits of `u`, where the scalar has more than an `f64`.
     pub digits: Option<Vec<RBig>>,
-    /// A bound on the largest error of an entry of `u` against the same run without rounding,
-    /// length, where the scalar computes one; infinite where rounding may have changed who is in
-    /// contact.
-    pub error_bound: Option<f64>,
     /// Where bodies lie in each other though no group of contact keeps them apart, under `unilateral`; None where they
     /// do not, and where triangles are turned inside out.
     pub overlap: Option<Overlap>,
@@ -462,7 +427,7 @@ pub struct Equilibrium {
 
 impl Solution {
     /// Returns a solution of the same model with other displacements, by degree of freedom, length, and the states
-    /// of each triangle. What was known of its own displacements alone, their digits and their error, is not kept;
+    /// of each triangle. The digits of its own displacements are not kept;
     /// the contact surface, the reactions and the steps stay those of this solution.
     #[must_use]
     pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
@@ -477,7 +442,6 @@ impl Solution {
             equilibrium,
             ..
         } = self.clone();
-        let (digits, error_bound) = (None, None);
         Solution {
             request,
             model,
@@ -487,11 +451,16 @@ impl Solution {
             elements,
             contact,
             factored,
-            digits,
-            error_bound,
+            digits: None,
             overlap,
             equilibrium,
         }
+    }
+
+    /// Returns the displacements by degree of freedom with all their digits, length.
+    pub fn exact_displacements(&self) -> Vec<RBig> {
+        let value = |u: &f64| RBig::try_from(*u).expect("displacements are finite");
+        self.digits.clone().unwrap_or_else(|| self.u.iter().map(value).collect())
     }
 
     /// Returns whether other equilibria than the one that was found are known.

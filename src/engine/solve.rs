@@ -8,7 +8,7 @@ use super::unilateral::unilateral;
 use crate::linear::{ScalarName, Solver};
 use base::error::InputError;
 use base::limits;
-use numbers::scalar::{self, Bounded, BoundedDouble, Exact, F64x2};
+use numbers::scalar::{self, Exact, F64x2};
 use paper::door;
 use paper::listings::Which;
 use problem::element::State;
@@ -21,8 +21,6 @@ macro_rules! in_scalar {
             ScalarName::F64 => $work::<f64>($($argument),*),
             ScalarName::F32 => $work::<f32>($($argument),*),
             ScalarName::F64x2 => $work::<F64x2>($($argument),*),
-            ScalarName::Bounded => $work::<Bounded>($($argument),*),
-            ScalarName::BoundedDouble => $work::<BoundedDouble>($($argument),*),
             ScalarName::Exact => scalar::scope(|| $work::<Exact>($($argument),*)),
         }
     };

@@ -15,7 +15,6 @@ use engine::{
     Resultant, Solution, Stretch, SupportForce, TriangleValues,
     contact::{InitialGaps, Surfaces},
 };
-use numbers::finite;
 use numbers::scalar::rational;
 use paper::listings::Which;
 use paper::mirror::Reading;
@@ -75,9 +74,6 @@ pub struct ResultFile {
     pub c_tll: Option<f64>,
     /// The materials that triangles have, each once.
     pub materials: Vec<Material>,
-    /// A bound on the error of each entry of `u`, length, where the scalar keeps a finite one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error_bound: Option<f64>,
     /// What was built and what not, in one line; absent where no plan was made.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plan: Option<String>,
@@ -111,8 +107,7 @@ pub struct ResultFile {
     /// How far the numbers may be from the truth; absent where that was left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_estimates: Option<ErrorEstimates>,
-    /// What changes of the input in the last digits do to a run of `unilateral`; absent where that was not
-    /// measured.
+    /// What changes of the input in the last digits do to the run; absent where that was not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounding: Option<Perturbed>,
     /// What `unilateral` knows of its equilibrium: the path of the load, and whether there are
@@ -199,11 +194,6 @@ impl ResultFile {
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
             materials: materials(solution),
-            // Digits beyond those of an f64 are rounded away in `u`.
-            error_bound: solution.error_bound.and_then(|bound| {
-                let written = if solution.digits.is_some() { f64::EPSILON / 2.0 } else { 0.0 };
-                finite(bound + written * solution.u.amax())
-            }),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),

@@ -297,10 +297,9 @@ tolerances! {
         "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 \
          and two-blocks";
 
-    /// The bound on an error over the error.
-    BOUND_WIDTH = 1e3,
-        "roundings add up in the bound and cancel in fact; the issue's own number on well-scaled \
-         scenes";
+    /// What rounding is measured to do over what it does.
+    MEASURED_ROUNDING = 1e3,
+        "an error may be small by chance, where the changed last digits all add up";
 
     /// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
     NORM_ESTIMATE = 1e-10,

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use nalgebra::DVector;
-use plane_contact::engine::linear::{Arithmetic, ScalarName};
+use plane_contact::engine::estimates::{Perturbed, When, perturbed};
 use plane_contact::engine::{Request, Solution, Step, solve};
 use plane_contact::mathcad::{Settings, unsupported};
 use plane_contact::output::page::INTERPRETER;
@@ -41,14 +41,19 @@ fn small() -> Vec<Scene> {
     NAMED.into_iter().map(|name| Scene::open(name).unwrap()).chain(drawn).collect()
 }
 
-/// The number of iterations before the first whose contact is left to rounding.
+/// The number of iterations before the first whose contact the last digit decides.
 fn certain(scene: &Scene, variant: Variant) -> usize {
-    let arithmetic = Arithmetic { scalar: ScalarName::Bounded, ..Arithmetic::default() };
-    let mut request = Request::new(scene).variant(variant).arithmetic(arithmetic);
+    let mut request = Request::new(scene).variant(variant);
     request.iterations = STEPS;
-    let mut steps = vec![];
-    let _ = solve(&request, &mut |step| steps.push(step.is_certain()));
-    steps.into_iter().take_while(|is_certain| *is_certain).count()
+    let Ok(solution) = solve(&request, &mut |_| ()) else { return 0 };
+    match perturbed(&solution).expect("it is rounded") {
+        Perturbed { contact: Some(change), .. } => match change.when {
+            When::Iteration(k) => k - 1,
+            When::Load(_) => unreachable!("a variant of the paper"),
+        },
+        Perturbed { failures, .. } if !failures.is_empty() => 0,
+        Perturbed { .. } => STEPS,
+    }
 }
 
 /// The contact nodes in contact and the displacements after an iteration.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use plane_contact::engine::estimates::Estimates;
+use plane_contact::engine::estimates::{Certainty, Estimates};
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{
     Assessment, Solution, SolutionDistance, Stiffness, distance, implied, solve, summaries,
@@ -412,7 +412,7 @@ fn rounded(x: f64) -> f64 {
     (1e6 * x).round() / 1e6
 }
 
-/// The paper's settings, in numbers in which rounding decides nothing.
+/// The paper's settings, in double-doubles where the last digit decides who is in contact.
 #[test]
 fn settings() {
     let arithmetic = Arithmetic { scalar: ScalarName::F64x2, ..Arithmetic::default() };
@@ -427,22 +427,26 @@ fn settings() {
             });
             let count = row.in_contact.expect("strand has contact");
             let cycle = row.cycle.map_or("-".into(), |cycle| cycle.to_string());
+            let decides = match row.certainty {
+                Some(Certainty::InDoubleDouble | Certainty::Decided) => "yes",
+                Some(Certainty::Certain | Certainty::Unchecked) | None => "-",
+            };
             format!(
-                "{} | {} | {} | {count} | {cycle} | {error} | {change}",
+                "{} | {} | {} | {count} | {cycle} | {error} | {change} | {decides}",
                 section.parameter, row.label, row.variant
             )
         })
     });
     let table = markdown(
-        "what is varied | value | variant | contact nodes at the end | contact state repeats after, iterations | error | change",
+        "what is varied | value | variant | contact nodes at the end | contact state repeats after, iterations | error | change | the last digit of the inputs decides",
         rows,
     );
     assert_table(
         "trade",
         "The paper's settings, varied: largest difference of a displacement over the largest \
          displacement. The error is against the equilibrium under friction, of half a scene \
-         against the whole; the change against the scene's own value. In double-doubles, in which \
-         rounding decides nothing.",
+         against the whole; the change against the scene's own value. Where the last digit of the \
+         inputs decides who is in contact, the row is of double-doubles.",
         "trade strand --only c_tll,iterations,symmetry",
         &table,
     );

@@ -23,7 +23,6 @@ pub mod status;
 mod surface;
 pub use crate::quantities::ContactNode;
 pub use initial::InitialGaps;
-pub use mortar::Mortar;
 pub use order::{along, hidden, oddity, turned};
 pub use overlap::{InsideNode, Watched};
 pub use pairing::{Pairing, STEEP, Sense, Status};
@@ -41,7 +40,7 @@ impl Surfaces {
     pub fn pairings(&self, coupling: Coupling, shape: &[[f64; 2]]) -> Vec<Option<Pairing>> {
         match coupling {
             Coupling::Nts => nts::pairings(self, shape),
-            Coupling::Mortar => self.mortar(shape).pairings,
+            Coupling::Mortar => self.mortar(shape),
         }
     }
 }

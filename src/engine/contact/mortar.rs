@@ -28,8 +28,7 @@
 //! The integrals are computed in any scalar. A target edge that covers less than [`ROUNDING`] of a
 //! contact edge does not count, so that no sliver hangs on rounding; what may hang on it is whether two
 //! edges face each other, which of two overlapping target edges is nearer, and whether a node is covered
-//! at all. In numbers with a bound each such comparison is reported with the nodes whose weights it counts
-//! for.
+//! at all.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -39,7 +38,7 @@ use rustc_hash::FxHashMap;
 use super::pairing::{Pairing, unit};
 use super::search::dot;
 use super::surface::{Edge, FACING, PlacedEdge, Surface, Surfaces};
-use numbers::scalar::{Scalar, Unsure, compared};
+use numbers::scalar::Scalar;
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
 
@@ -61,33 +60,19 @@ const BEHIND: f64 = 0.5;
 /// How far one target edge may lie behind another that it touches, over the contact edge's length: rounding.
 const JUMP: f64 = 1e-9;
 
-/// What mortar finds in a shape.
-pub struct Mortar<T> {
-    /// For each contact surface entry, the average of the target that its edges cover.
-    pub pairings: Vec<Option<Pairing<T>>>,
-    /// The comparisons that rounding may have decided, each with a node for whose weights it counts;
-    /// none in numbers without a bound.
-    pub unsure: Vec<(NodeId, Unsure)>,
-}
-
 impl Surfaces {
-    /// Averages the target over what the edges of each contact node cover in a shape, given as the
-    /// coordinates of each node, length.
-    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Mortar<T> {
+    /// Returns, for each contact surface entry, the average of the target that its edges cover in a shape, given as
+    /// the coordinates of each node, length.
+    pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<Option<Pairing<T>>> {
         let target: Vec<PlacedEdge<T>> =
             self.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
         let mut gathered: FxHashMap<NodeId, NodeIntegrals<T>> = FxHashMap::default();
         let at = |n: NodeId| shape[n.index()].map(T::to_f64);
         let tree = Tree::new(self.target.edges.iter().map(|edge| edge.nodes.map(at)).enumerate());
-        let bounds = shape.iter().flatten().filter_map(|x| x.error_bound());
-        let search =
-            Search { surfaces: self, target: &target, tree, margin: bounds.fold(0.0, f64::max) };
-        let mut unsure = Vec::new();
+        let search = Search { surfaces: self, target: &target, tree };
         let cover = |(edge, at_rest): (&Edge, &PlacedEdge)| {
             let placed = edge.in_shape(shape);
-            let (stretches, left) = compared(|| search.cover(&placed, at_rest.at(0.5)));
-            unsure.extend(edge.nodes.iter().flat_map(|node| left.iter().map(|one| (*node, *one))));
-            Covered { stretches, length: placed.length }
+            Covered { stretches: search.cover(&placed, at_rest.at(0.5)), length: placed.length }
         };
         let covered: Vec<Covered<T>> =
             self.contact.edges.iter().zip(&self.contact.undeformed).map(cover).collect();
@@ -110,13 +95,10 @@ impl Surfaces {
         let pairing = |(node, tributary): (&NodeId, T)| {
             let least = T::from_f64(COVERED) * tributary;
             let gathered = gathered.remove(node)?;
-            let (is_covered, left) = compared(|| gathered.length >= least);
-            unsure.extend(left.into_iter().map(|one| (*node, one)));
-            is_covered.then(|| gathered.pairing(*node, shape, &self.contact))
+            (gathered.length >= least).then(|| gathered.pairing(*node, shape, &self.contact))
         };
         let tributary = self.tributary(shape);
-        let pairings = self.nodes.iter().zip(tributary).map(pairing).collect();
-        Mortar { pairings, unsure }
+        self.nodes.iter().zip(tributary).map(pairing).collect()
     }
 }
 
@@ -162,8 +144,6 @@ struct Search<'a, T> {
     surfaces: &'a Surfaces,
     target: &'a [PlacedEdge<T>],
     tree: Tree,
-    /// A bound on the error of a coordinate of the shape, length; 0 in numbers without one.
-    margin: f64,
 }
 
 impl<T: Scalar> Search<'_, T> {
@@ -178,8 +158,7 @@ impl<T: Scalar> Search<'_, T> {
         let (start, tangent) = (contact.start.map(T::to_f64), contact.tangent.map(T::to_f64));
         let across = |b: Bounds| {
             let [least, most] = b.along(start, tangent);
-            let length = contact.length.to_f64() + self.margin;
-            (most >= -self.margin && least <= length).then_some(0.0)
+            (most >= 0.0 && least <= contact.length.to_f64()).then_some(0.0)
         };
         let mut beside = Vec::new();
         self.tree.visit(&across, &mut |edge| beside.push(edge));
@@ -199,7 +178,6 @@ impl<T: Scalar> Search<'_, T> {
             }
         }
         facing.sort_by(|a, b| in_order(a.0, b.0).then(a.1.edge.cmp(&b.1.edge)));
-        self.compare_distances(&facing);
         let mut covered: Vec<Stretch<T>> = Vec::new();
         for (_, stretch) in facing {
             for (from, to) in uncovered(&covered, stretch.from, stretch.to) {
@@ -275,26 +253,9 @@ impl<T: Scalar> Search<'_, T> {
         let least = depth(ends.map(|k| self.target[k])).min(depth(undeformed));
         least > JUMP * length.to_f64()
     }
-
-    /// Compares the distances of target edges that may face the same stretch, for `compared` to see;
-    /// two that share a node lie on either side of it.
-    fn compare_distances(&self, facing: &[(T, Stretch<T>)]) {
-        for (k, (distance, stretch)) in facing.iter().enumerate() {
-            let nodes = self.surfaces.target.edges[stretch.edge].nodes;
-            for (other_distance, other) in &facing[k + 1..] {
-                let (from, to) =
-                    (Scalar::max(stretch.from, other.from), Scalar::min(stretch.to, other.to));
-                let shared =
-                    self.surfaces.target.edges[other.edge].nodes.iter().any(|n| nodes.contains(n));
-                if !shared && to - from > T::from_f64(ROUNDING) {
-                    let _ = distance < other_distance;
-                }
-            }
-        }
-    }
 }
 
-/// Returns the order of two distances, without a comparison of the scalar itself, which would be recorded.
+/// Returns the order of two distances.
 fn in_order<T: Scalar>(a: T, b: T) -> Ordering {
     let beyond = || (a - b).to_f64().partial_cmp(&0.0).unwrap_or(Ordering::Equal);
     a.to_f64().total_cmp(&b.to_f64()).then_with(beyond)

@@ -28,12 +28,11 @@
 
 use std::collections::BTreeSet;
 
-use super::super::decisions::{self, Decision};
 use super::search::{Segment, closest};
 
 use mathcad::Conjunction;
 use mathcad::array::Table;
-use numbers::scalar::{Scalar, compared};
+use numbers::scalar::Scalar;
 use paper::door::{self, ContactStatus};
 use paper::mirror::{self, Failure, Pairs, Reading, Worksheet, c_cnt};
 use problem::model::{EdgeId, Model, NodeId};
@@ -58,7 +57,9 @@ pub fn statuses<T: Scalar>(
     match rule {
         StatusRule::Signs => Ok(door::statuses(model, &c_cnt(sheet, reading, node_n)?)),
         StatusRule::Intersection => {
-            let pairs = c_cnt(sheet, &guarded(reading), node_n)?;
+            // A false operand keeps its lines from failing, as the sign rule is not used.
+            let guarded = Reading { r4: Conjunction::Guarded, ..*reading };
+            let pairs = c_cnt(sheet, &guarded, node_n)?;
             let target = Target::new(model, node_n);
             let by_rule = |(k, status)| {
                 by_intersection(model, &target, node_n, is_near(sheet, &pairs, k + 1), status)
@@ -73,61 +74,6 @@ fn is_near<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>, i1: usize) -> bool
     let condition = mirror::is_near(&pairs.ct, &pairs.yt, sheet.c_tll, i1);
     pairs.ct[i1] > 0
         && mirror::and(Conjunction::LeftToRight, &condition).expect("line 16 names no other row")
-}
-
-/// The reading under which *intersection* calls `c_cnt`: it does not use the sign rule, and a false
-/// operand keeps its lines from failing.
-fn guarded(reading: &Reading) -> Reading {
-    Reading { r4: Conjunction::Guarded, ..*reading }
-}
-
-/// Returns the decisions of a rule in iteration `k` that rounding may have taken, in numbers that carry
-/// a bound.
-///
-/// # Errors
-/// Those of [`statuses`].
-pub fn decisions<T: Scalar>(
-    rule: StatusRule,
-    model: &Model,
-    sheet: &Worksheet<T>,
-    reading: &Reading,
-    node_n: &Table<T>,
-    k: usize,
-) -> Result<Vec<Decision>, Failure> {
-    match rule {
-        StatusRule::Signs => {
-            Ok(decisions::decisions(sheet, reading, node_n, &c_cnt(sheet, reading, node_n)?, k))
-        }
-        StatusRule::Intersection => {
-            let reading = guarded(reading);
-            let pairs = c_cnt(sheet, &reading, node_n)?;
-            let found = door::statuses(model, &pairs);
-            let mut left = unsure(rule, model, node_n, k, |target, i| {
-                let is_near = is_near(sheet, &pairs, i + 1);
-                by_intersection(model, target, node_n, is_near, found[i])
-            });
-            left.extend(decisions::decisions(sheet, &reading, node_n, &pairs, k));
-            Ok(left)
-        }
-    }
-}
-
-/// Returns the comparisons that rounding may have decided where `status` of each contact node, by its
-/// place in the surface, is found in iteration `k`; the first node has those of the target itself.
-fn unsure<T: Scalar>(
-    rule: StatusRule,
-    model: &Model,
-    node_n: &Table<T>,
-    k: usize,
-    status: impl Fn(&Target<T>, usize) -> ContactStatus<T>,
-) -> Vec<Decision> {
-    let nodes = &model.contact.nodes;
-    let (target, of_target) = compared(|| Target::new(model, node_n));
-    let of_nodes = (0..nodes.len()).map(|i| (nodes[i], compared(|| status(&target, i)).1));
-    let all = [(nodes[0], of_target)].into_iter().chain(of_nodes);
-    all.flat_map(|(node, unsure)| unsure.into_iter().map(move |by| (node, by)))
-        .map(|(node, by)| Decision::unsure(k, node, format!("a comparison of the rule {rule}"), by))
-        .collect()
 }
 
 /// The target edges in a shape that bound a triangle with an area, whose inner side is therefore known.

@@ -3,12 +3,10 @@
 //!
 //! ```text
 //!  Model, States --recovery--> stresses --discretisation--> error of the mesh, in the energy norm
-//!  Solution, paper's variants --------------arithmetic----> bounds on rounding
-//!  Solution, unilateral --------------------perturbed-----> what rounding does, measured
+//!  Solution --------------------------------perturbed-----> what rounding does, measured
 //!  Solution --------------------------------singular------> where stress has no limit
 //! ```
 
-pub mod arithmetic;
 pub mod discretisation;
 mod perturbed;
 mod recovery;
@@ -17,13 +15,12 @@ mod singular;
 use serde::{Deserialize, Serialize};
 
 use super::solution::{Solution, max_displacement};
-use crate::Decision;
-pub use arithmetic::{Certainty, certain};
 use discretisation::Discretisation;
 use numbers::finite;
 use numbers::largest::{is_as_large, largest};
 pub use perturbed::{
-    ContactChange, Perturbed, RUNS, equivalent, moves, perturbed, perturbed_requests,
+    Certainty, ContactChange, Perturbed, RUNS, When, certain, equivalent, moves, perturbed,
+    perturbed_requests,
 };
 use problem::model::{Body, NodeId};
 pub use singular::{Cause, Singular, contact_ends, singular};
@@ -37,14 +34,10 @@ pub struct Estimates {
     pub mesh: Discretisation,
 }
 
-/// How far the numbers of a run may be from the truth; nothing where that is not known. What the mesh does to
+/// How far the mesh leaves the numbers of a run from the truth; nothing where that is not known. What it does to
 /// one displacement or stress is not estimated: `trade --only mesh` measures it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimates {
-    /// What rounding may do to a displacement, length; nothing under `unilateral`.
-    pub displacement_arithmetic: Option<f64>,
-    /// The decisions on who is in contact that rounding may have taken; nothing under `unilateral`.
-    pub decided_by_rounding: Option<Vec<Decision>>,
     /// The node at which the largest displacement has no limit as the mesh is refined, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement_no_limit: Option<(NodeId, Cause)>,
@@ -64,8 +57,6 @@ pub struct BodyEstimates {
     /// A point of the body where the stress has no limit as the mesh is refined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<NoLimit>,
-    /// What rounding may do to that stress, stress; nothing where that is not known.
-    pub arithmetic: Option<f64>,
 }
 
 /// A point of a body where the stress grows without limit as the mesh is refined.
@@ -83,21 +74,11 @@ impl Estimates {
     /// Estimates the errors of a run.
     pub fn new(solution: &Solution) -> Self {
         let model = &*solution.model;
-        let of_rounding = || {
-            let rounding = arithmetic::rounding(solution)?;
-            let bounded = arithmetic::bounded(model);
-            let stress = arithmetic::stress_bounds(solution, &bounded, rounding.displacement);
-            Some((rounding, stress))
-        };
-        let of_mesh = || (Discretisation::new(model, &solution.elements), singular(solution));
-        let (rounding, (mesh, points)) = rayon::join(of_rounding, of_mesh);
+        let (mesh, points) = (Discretisation::new(model, &solution.elements), singular(solution));
         let of_body = |body: &Body| {
             let stresses =
                 body.triangles.iter().map(|id| solution.elements[id.index()].von_mises_stress);
             let found = largest(stresses).expect("a body has a triangle");
-            let bound = rounding.as_ref().and_then(|(_, stress)| {
-                finite(body.triangles.iter().map(|id| stress[id.index()]).fold(0.0, f64::max))
-            });
             let near = |point: &&Singular, triangle: usize| {
                 point.is_near(model.triangle(body.triangles[triangle]))
             };
@@ -113,15 +94,10 @@ impl Estimates {
                     cause: point.cause,
                     is_largest: is_largest(&point),
                 }),
-                arithmetic: bound,
             }
         };
         let bodies = model.bodies.iter().map(of_body).collect();
-        let (displacement_arithmetic, decided_by_rounding) =
-            rounding.map_or((None, None), |(known, _)| (known.displacement, known.decisions));
         let errors = ErrorEstimates {
-            displacement_arithmetic,
-            decided_by_rounding,
             displacement_no_limit: unlimited(solution, &points),
             mesh_energy_relative: finite(mesh.relative()),
             bodies,

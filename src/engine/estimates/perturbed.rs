@@ -1,12 +1,13 @@
-//! What rounding does under `unilateral`, measured: the run is repeated with coordinates, loads and moduli
-//! changed at random in their last digits. What that changes, rounding may change too, as every later rounding
-//! acts like such a change.
+//! What rounding does to a solution, measured: the run is repeated in double-doubles, where these are offered, and
+//! with coordinates, loads and moduli changed at random in their last digits. What that changes, rounding may change
+//! too, as every later rounding acts like such a change.
 //!
 //! A coordinate is changed in the last digit that a coordinate of the scene's size has: a node that lies on an
 //! axis is as uncertain as one that does not. Loads that are 0 stay 0.
 //!
-//! The measurement is of three runs with the same random numbers every time: no bound, but it does not call
-//! unknown what it can try. The audit repeats all that it prints on the same inputs ([`equivalent`]), two of
+//! The measurement is of a few runs with the same random numbers every time: no bound, but it does not call
+//! unknown what it can try. A decision that three runs on changed inputs miss by chance is still the right one where
+//! double-doubles take it too. The audit repeats all that it prints on the same inputs ([`equivalent`]), two of
 //! them with another load too: a load is not known to nine digits.
 //!
 //! Source: D. S. Parker, "Monte Carlo arithmetic", UCLA CSD-970002 (1997); J. Vignes, Math. Comput. Simul. 35
@@ -16,15 +17,18 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use fastrand::Rng;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Status;
 use crate::distance::over;
-use crate::{Request, Solution, last_under_each_load, solve};
+use crate::linear::{Arithmetic, ScalarName};
+use crate::{Detail, Request, Solution, Step, check, last_under_each_load, solve};
 use numbers::finite;
 use problem::model::{Force, Model, NodeId};
+use problem::modelling::Variant;
 
-/// The number of runs.
+/// The number of runs with changed inputs.
 pub const RUNS: usize = 3;
 
 /// The largest change, in units of the last digit.
@@ -39,17 +43,20 @@ const NOTICEABLE: f64 = 1e-6;
 /// The part of a quantity's own scale that is as good as 0 beside [`NOTICEABLE`].
 const SMALL: f64 = 1e-3;
 
-/// What changes of the input in the last digits did to a solution under `unilateral`.
+/// What changes of the input in the last digits did to a solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Perturbed {
     /// The number of runs.
     pub runs: u64,
+    /// Whether one of them is in double-doubles.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub in_double_doubles: bool,
     /// Why runs ended without a result.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<String>,
     /// The number of runs whose load took other steps, as where a step finds no equilibrium.
     pub other_steps: u64,
-    /// The first change of who is in contact under a load; nothing where there is none.
+    /// The first change of who is in contact; nothing where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactChange>,
     /// The largest change of a displacement component, over the largest; nothing where no run has a result.
@@ -63,25 +70,41 @@ pub struct Perturbed {
 pub struct ContactChange {
     /// The first node that has another status.
     pub node: NodeId,
-    /// The part of the load's path after which it has.
-    pub load: f64,
-    /// The most nodes that have another status under one load, in one run.
+    /// When it first has.
+    #[serde(flatten)]
+    pub when: When,
+    /// The most nodes that have another status at one time, in one run.
     pub nodes: usize,
 }
 
-/// Repeats a run of `unilateral` with changed inputs; None of another variant.
+/// A time at which who is in contact is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum When {
+    /// After a part of the load's path, under `unilateral`.
+    Load(f64),
+    /// In an iteration, from 1, under the paper's variants.
+    Iteration(usize),
+}
+
+/// Repeats a run with changed inputs; None in exact numbers, which are not rounded.
 pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
-    solution.last().unilateral()?;
+    if solution.request.arithmetic.scalar.is_exact() {
+        return None;
+    }
+    let requests = perturbed_requests(&solution.request);
     let mut found = Perturbed {
-        runs: RUNS as u64,
+        runs: requests.len() as u64,
+        in_double_doubles: requests.len() > RUNS,
         other_steps: 0,
         failures: Vec::new(),
         contact: None,
         displacement: None,
         stress: None,
     };
-    for request in perturbed_requests(&solution.request) {
-        match solve(&request, &mut |_| ()) {
+    let solved: Vec<_> = requests.par_iter().map(|request| solve(request, &mut |_| ())).collect();
+    for solved in solved {
+        match solved {
             Ok(other) => found.add(solution, &other),
             Err(why) => found.failures.push(why.to_string()),
         }
@@ -125,42 +148,99 @@ impl Perturbed {
         self.displacement = larger(self.displacement, moved);
         let (ends, others) = (ends(solution), ends(other));
         self.other_steps += u64::from(ends.len() != others.len());
-        let others: HashMap<u64, &[Status]> =
-            others.into_iter().map(|(load, statuses)| (load.to_bits(), statuses)).collect();
-        for (load, statuses) in ends {
+        for (when, statuses) in ends {
             // Loads between the steps, where a node closes, are other ones.
-            let Some(others) = others.get(&load.to_bits()) else { continue };
+            let Some((_, others)) = others.iter().find(|(other, _)| *other == when) else {
+                continue;
+            };
             let differ: Vec<usize> =
                 (0..statuses.len()).filter(|i| statuses[*i] != others[*i]).collect();
             let Some(first) = differ.first() else { continue };
             let node = solution.model.contact.nodes[*first];
-            let change = self.contact.get_or_insert(ContactChange { node, load, nodes: 0 });
+            let change = self.contact.get_or_insert(ContactChange { node, when, nodes: 0 });
             change.nodes = change.nodes.max(differ.len());
         }
     }
 }
 
-/// Returns each load on the way, and the statuses at its end.
-fn ends(solution: &Solution) -> Vec<(f64, &[Status])> {
-    let steps = last_under_each_load(&solution.steps).into_iter();
-    let own = steps.filter_map(|step| solution.steps[step].unilateral());
-    own.map(|own| (own.load, &own.statuses[..])).collect()
+/// Returns the statuses in each iteration of the paper's variants, and at the end of each load of a path.
+fn ends(solution: &Solution) -> Vec<(When, Vec<Status>)> {
+    let found = |step: &Step| match &step.detail {
+        Detail::Published(own) => {
+            let status = |dy: &usize| if *dy == 1 { Status::Stick } else { Status::Open };
+            (When::Iteration(step.k), own.pairs.dy.iter().map(status).collect())
+        }
+        Detail::Unilateral(own) => (When::Load(own.load), own.statuses.to_vec()),
+    };
+    let steps = match solution.request.variant {
+        Variant::Unilateral => last_under_each_load(&solution.steps),
+        Variant::Printed | Variant::Tied | Variant::Stepped => (0..solution.steps.len()).collect(),
+    };
+    steps.into_iter().map(|step| found(&solution.steps[step])).collect()
 }
 
-/// Returns the requests of the runs with changed inputs.
-pub fn perturbed_requests(request: &Request) -> impl Iterator<Item = Request> {
-    (0..RUNS as u64).map(|seed| changed(request, seed, 1.0))
+/// Whether rounding decides who is in contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Certainty {
+    /// It was seen to decide nothing.
+    Certain,
+    /// It decides in the numbers asked for; the run is the one in double-doubles.
+    InDoubleDouble,
+    /// It decides, in double-doubles too, or these have no result.
+    Decided,
+    /// Under `unilateral` it was not looked at: [`perturbed`] measures it.
+    Unchecked,
+}
+
+/// Returns the solution itself where rounding decides nothing in it, else that of the same request in
+/// double-doubles, and which of the two it is. Under `unilateral` the solution stays as it is.
+pub fn certain(solution: Solution) -> (Solution, Certainty) {
+    let own = solution.request.arithmetic;
+    if solution.request.variant == Variant::Unilateral {
+        return (solution, Certainty::Unchecked);
+    }
+    if !perturbed(&solution).is_some_and(|found| found.decides()) {
+        return (solution, Certainty::Certain);
+    }
+    if own.scalar == ScalarName::F64x2 {
+        return (solution, Certainty::Decided);
+    }
+    let finer = solution.request.clone().arithmetic(in_double_doubles(own));
+    match solve(&finer, &mut |_| ()) {
+        Ok(again) => (again, Certainty::InDoubleDouble),
+        Err(_) => (solution, Certainty::Decided),
+    }
+}
+
+/// Returns the requests of the runs: with changed inputs, then in double-doubles where these are offered and have more
+/// digits.
+pub fn perturbed_requests(request: &Request) -> Vec<Request> {
+    let own = request.arithmetic;
+    let changed = (0..RUNS as u64).map(|seed| changed(request, seed, 1.0));
+    let finer = request.clone().arithmetic(in_double_doubles(own));
+    let is_finer = own.scalar.properties().digits < ScalarName::F64x2.properties().digits;
+    changed.chain(Some(finer).filter(|finer| is_finer && check(finer).is_ok())).collect()
+}
+
+/// Returns double-doubles, by their own solver.
+fn in_double_doubles(own: Arithmetic) -> Arithmetic {
+    Arithmetic { scalar: ScalarName::F64x2, solver: None, ..own }
 }
 
 /// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.
 fn changed(request: &Request, seed: u64, factor: f64) -> Request {
+    let last_digit = match request.arithmetic.scalar {
+        ScalarName::F32 => f64::from(f32::EPSILON),
+        ScalarName::F64 | ScalarName::F64x2 | ScalarName::Exact => f64::EPSILON,
+    };
     let mut rng = Rng::with_seed(seed);
     let mut request = request.clone();
     let model: &mut Model = Arc::make_mut(&mut request.scene.model);
     // A whole number of units in the last place, other than none.
     let mut part = || {
         let ulps = rng.i32(1..=ULPS);
-        f64::from(if rng.bool() { ulps } else { -ulps }) * f64::EPSILON
+        f64::from(if rng.bool() { ulps } else { -ulps }) * last_digit
     };
     let size = model.bounds().larger_side();
     for x in model.nodes.iter_mut().flatten() {

@@ -14,10 +14,6 @@ choices! {
         F32 = "f32",
         /// 31 digits.
         F64x2 = "f64x2",
-        /// f64 with a bound on the error of displacements.
-        Bounded = "f64-bounded",
-        /// f64x2 with such a bound.
-        BoundedDouble = "f64x2-bounded",
         /// Rational numbers, for some hundred equations.
         Exact = "exact",
     }
@@ -65,9 +61,9 @@ impl ScalarName {
     pub fn properties(self) -> Properties {
         const OWN: &[Solver] = &[Solver::DenseLu, Solver::SparseCholesky];
         let (digits, solvers, no_mortar) = match self {
-            ScalarName::F64 | ScalarName::Bounded => (Some(16), Solver::ALL, None),
+            ScalarName::F64 => (Some(16), Solver::ALL, None),
             ScalarName::F32 => (Some(7), OWN, Some("its integrals lose too many digits")),
-            ScalarName::F64x2 | ScalarName::BoundedDouble => (Some(31), OWN, None),
+            ScalarName::F64x2 => (Some(31), OWN, None),
             ScalarName::Exact => (None, OWN, Some("its integrals take square roots")),
         };
         Properties { digits, solvers, no_mortar }
@@ -79,7 +75,7 @@ impl ScalarName {
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,
-    /// The solver; null: sparse-cholesky, but sparse-lu under printed in f64 and f64-bounded.
+    /// The solver; null: sparse-cholesky, but sparse-lu under printed in f64.
     pub solver: Option<Solver>,
     /// What the numbers of the scene stand for.
     pub inputs: Inputs,

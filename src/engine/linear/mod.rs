@@ -5,7 +5,7 @@
 //! | `arithmetic` | the scalar and the solver that are asked for |
 //! | `factors` | what factorisations share |
 //! | `dense` | faer's factors of dense matrices |
-//! | `error_bound` | how far a solution may be from the true one |
+//! | `inverse_norm` | the norm of an inverse |
 //! | `symmetric`, `ordering`, `cholesky` | sparse symmetric matrices; orders of their equations; faer's factor of one |
 //! | [`cost`] | the time that exact numbers take |
 //! | `sparse`, `schur` | factors that tell a singular matrix; what is left of one on its last equations |
@@ -18,8 +18,8 @@ mod cholesky;
 pub mod cost;
 mod dense;
 mod elimination;
-mod error_bound;
 mod factors;
+mod inverse_norm;
 mod ldlt;
 mod ordering;
 mod precision;
@@ -31,8 +31,8 @@ mod symmetric;
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use dense::{DenseCholesky, DenseLu};
 pub use elimination::solve_dense;
-pub use error_bound::{error_bound, error_of_rest, inverse_norm};
 pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
+pub use inverse_norm::inverse_norm;
 pub use ldlt::Ldlt;
 pub use precision::{Precision, Solved};
 pub use schur::{EliminatedLoad, Schur};

@@ -1,6 +1,6 @@
 //! The solution of A x = b in each scalar by each solver.
 //!
-//! | | `f32`, `f64x2`, `f64x2-bounded`, `exact` | `f64`, `f64-bounded` |
+//! | | `f32`, `f64x2`, `exact` | `f64` |
 //! |---|---|---|
 //! | `dense-lu` | own | faer |
 //! | `sparse-lu` | - | faer |
@@ -12,14 +12,13 @@ use nalgebra::DVector;
 use super::arithmetic::Solver;
 use super::dense::DenseLu;
 use super::elimination::solve_dense;
-use super::error_bound::error_bound;
-use super::factors::{Factors, Lu, Singular};
+use super::factors::{Lu, Singular};
 use super::ldlt::Ldlt;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::symmetric::SparseSymmetric;
 use mathcad::SparseSquare;
-use numbers::scalar::{Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, WithBound, scope};
+use numbers::scalar::{Exact, F64x2, Scalar, scope};
 
 /// A solution of linear equations.
 #[derive(Clone, Debug)]
@@ -99,49 +98,6 @@ macro_rules! by_own_elimination {
 
 by_own_elimination!(f32, F64x2);
 
-impl Precision for Bounded {
-    /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
-    /// of an entry.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
-        match by {
-            Solver::DenseLu => {
-                let lu = DenseLu::new(values.dense())?;
-                Ok(with_bound(&lu, a.entries(), b, solved(&lu, &f)))
-            }
-            Solver::SparseLu => {
-                let lu = SparseLu::new(&values)?;
-                Ok(with_bound(&lu, a.entries(), b, solved(&lu, &f)))
-            }
-            Solver::SparseCholesky => Self::solve_symmetric(&lower(a), b),
-        }
-    }
-
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
-        let f = b.map(Scalar::to_f64);
-        let x = factors.solve(&f);
-        let solved = Solved { residual: factors.residual(&x, &f), x };
-        Ok(with_bound(&factors, whole(a), b, solved))
-    }
-}
-
-impl Precision for BoundedDouble {
-    /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
-    /// largest error of an entry.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
-        let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
-        let solved = F64x2::solve(&a.map(WithBound::value), &b.map(WithBound::value), by)?;
-        Ok(with_bound(&factors, a.entries(), b, solved))
-    }
-
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
-        let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
-        let solved = F64x2::solve_symmetric(&a.map(|x| x.value()), &b.map(WithBound::value))?;
-        Ok(with_bound(&factors, whole(a), b, solved))
-    }
-}
-
 impl Precision for Exact {
     fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
         match by {
@@ -178,18 +134,6 @@ fn exact(x: Vec<RBig>) -> Solved<Exact> {
     Solved { x, residual: 0.0 }
 }
 
-/// Returns a solution of A x = b with the bound on its error, by factors of A rounded to `f64`;
-/// `entries` are those of the whole of A.
-fn with_bound<V: Rounded>(
-    factors: &dyn Factors,
-    entries: impl Iterator<Item = (usize, usize, WithBound<V>)>,
-    b: &DVector<WithBound<V>>,
-    solved: Solved<V>,
-) -> Solved<WithBound<V>> {
-    let error = error_bound(factors, entries, b, &solved.x);
-    Solved { x: solved.x.map(|x| WithBound::new(x, error)), residual: solved.residual }
-}
-
 fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {
     let x = lu.solve(b);
     Solved { residual: lu.residual(&x, b), x }
@@ -198,10 +142,4 @@ fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {
 /// Returns the lower triangle of a matrix, which is taken for symmetric.
 fn lower<T: Scalar>(matrix: &SparseSquare<T>) -> SparseSymmetric<T> {
     SparseSymmetric::new(matrix.size(), matrix.entries())
-}
-
-/// Returns the entries of both triangles of a symmetric matrix.
-fn whole<T: Scalar>(matrix: &SparseSymmetric<T>) -> impl Iterator<Item = (usize, usize, T)> {
-    let both = |(i, j, a)| [Some((i, j, a)), (i != j).then_some((j, i, a))];
-    matrix.entries().flat_map(both).flatten()
 }

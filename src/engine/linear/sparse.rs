@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::Cholesky;
-use super::error_bound::inverse_norm;
 use super::factors::{Factors, Normed, Singular};
+use super::inverse_norm::inverse_norm;
 use super::symmetric::SparseSymmetric;
 
 /// Displacements beyond this (5e14) under a load of the size of the stiffness mean a singular matrix; both are

@@ -1,4 +1,4 @@
-//! Linear systems at the edges: residuals, bounds on errors, and matrices that are nearly singular.
+//! Linear systems at the edges: residuals, norms of inverses, and matrices that are nearly singular.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -6,11 +6,11 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 use engine::linear::{
     Arithmetic, Factors, Precision, ScalarName, Schur, Singular, Solver, SparseCholesky, SparseLu,
-    SparseSymmetric, error_bound, error_of_rest, inverse_norm, solve_dense,
+    SparseSymmetric, inverse_norm, solve_dense,
 };
 use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
-use numbers::scalar::{Bounded, BoundedDouble, F64x2, Scalar};
+use numbers::scalar::{F64x2, Scalar};
 
 /// Makes a vector of its entries.
 macro_rules! dvector {
@@ -54,32 +54,12 @@ fn a_residual_is_over_the_norms_of_the_matrix_and_of_the_vectors() {
     assert_eq!(matrix.residual(&x, &b), 0.25);
 }
 
-/// The inverse of 2 ± 1/2 is at most 2/3; the rest of 1 ± 1/8 with x = 1/2 at most 1/8 + 1/4.
-#[test]
-fn a_bound_follows_from_the_errors_of_the_matrix_and_of_the_load() {
-    let half = Inverse::from_rows(1, &[0.5]);
-    let number = Bounded::new;
-    let bound = |a, b, x| {
-        error_bound(&half, [(0, 0, a)].into_iter(), &dvector![b], &DVector::from_element(1, x))
-    };
-    let found = bound(number(2.0, 0.5), number(1.0, 0.125), 0.5);
-    assert!((found - 0.25).abs() < 1e-12, "{found}");
-    let exact = DVector::from_element(1, BoundedDouble::new(F64x2::from_f64(0.0), 0.0));
-    assert_eq!(error_of_rest(&half, &exact, &dvector![1.0]), 0.0);
-    assert_eq!(error_of_rest(&half, &exact, &dvector![2.0]), f64::INFINITY, "it may be singular");
-}
-
 /// The column sums are 5, 8 and 9: the ascent ends at the second, which the signs of its zeros led to.
 #[test]
 fn the_norm_of_an_inverse_is_climbed_in_as_few_solutions_as_it_takes() {
     let inverse = Inverse::from_rows(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
     assert_eq!(inverse_norm(&inverse, &dvector![1.0, 1.0, 1.0]), 8.0);
     assert_eq!(inverse.solved.into_inner(), 6);
-    let inverse = Inverse::from_rows(3, &[0.0, 2.0, -3.0, 2.0, 3.0, -3.0, -3.0, -3.0, -3.0]);
-    let entries = (0..3).map(|i| (i, i, Bounded::new(1.0, 1.0 / 16.0)));
-    let b = DVector::from_element(3, Bounded::new(0.0, 1.0));
-    let found = error_bound(&inverse, entries, &b, &DVector::zeros(3));
-    assert!((found - 8.0 / (1.0 - 8.0 / 16.0)).abs() < 1e-9, "{found}");
 }
 
 /// What is orthogonal to equal loads and does not move the first equation is found by a load of

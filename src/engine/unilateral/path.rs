@@ -390,7 +390,6 @@ impl<'a> Run<'a> {
             factored,
             steps,
             digits: None,
-            error_bound: None,
             overlap: Overlap::of(&found),
             equilibrium: Some(solution::Equilibrium {
                 path,

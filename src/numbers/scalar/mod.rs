@@ -4,9 +4,7 @@
 //! |---|---|---|
 //! | `f32` | 7 | how much the answer hangs on the precision |
 //! | `f64` | 16 | Mathcad's own |
-//! | `Bounded` | 16 | `f64` with a bound on its error |
 //! | `F64x2` | 31 | a reference for scenes of any size |
-//! | `BoundedDouble` | 31 | the same with a bound on its error |
 //! | `Exact` | all | rational numbers: a reference without doubt, for small scenes |
 //!
 //! The traits are in `number`, which imports none of the others. Those below `f64` have the feature `precise`.

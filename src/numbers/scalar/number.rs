@@ -60,19 +60,9 @@ pub trait Scalar:
         (values, Self::one())
     }
 
-    /// Returns whether the two are the same in all that comes of them.
-    fn same(self, other: Self) -> bool {
-        self == other
-    }
-
     /// Returns the number in decimal with all the digits that are worth having, or nothing where
     /// its `f64` has them.
     fn digits(self) -> Option<String> {
-        None
-    }
-
-    /// Returns a bound on the error of the number, or nothing where none is kept.
-    fn error_bound(self) -> Option<f64> {
         None
     }
 

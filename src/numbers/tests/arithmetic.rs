@@ -1,12 +1,9 @@
 //! The scalars beside exact rational numbers: double-double within its proven errors, exact numbers
 //! to the last bit.
 
-use dashu_base::Abs;
 use dashu_ratio::RBig;
 use num_traits::{One, Zero};
-use numbers::scalar::{
-    Bounded, BoundedDouble, Exact, F64x2, Rounded, Scalar, SumOfProducts, rational, scope,
-};
+use numbers::scalar::{Exact, F64x2, Scalar, rational, scope};
 use proptest::prelude::*;
 use testing::random::fixed;
 use testing::tolerances::{DOUBLE_DOUBLE, Tolerance};
@@ -53,71 +50,6 @@ proptest! {
         within(x - y, &(&p - &q), &DOUBLE_DOUBLE);
         within(x * y, &(&p * &q), &DOUBLE_DOUBLE);
         within(x / y, &(&p / &q), &DOUBLE_DOUBLE);
-    }
-
-    /// What the factors may be off is held too, and the bound is above that of one sum after another by
-    /// a factor that grows with the square of the number of terms at most.
-    #[test]
-    fn the_bound_of_a_sum_of_products_holds_it(
-        terms in prop::collection::vec(
-            (double_double(60), double_double(60), prop_oneof![Just(0.0), 0.0..1e-20_f64]),
-            1..40,
-        ),
-        exactly in any::<bool>(),
-        split in 0..40_usize,
-    ) {
-        let within = |(x, y, off): &(F64x2, F64x2, f64)| {
-            // Without what the factors may be off, rounding alone is left.
-            [x, y].map(|z| BoundedDouble::new(*z, if exactly { 0.0 } else { off * z.to_f64().abs() }))
-        };
-        let (mut sum, mut other) = (SumOfProducts::ZERO, SumOfProducts::ZERO);
-        let (mut lowest, mut highest) = (RBig::ZERO, RBig::ZERO);
-        let mut one_by_one = BoundedDouble::from_f64(0.0);
-        for (k, term) in terms.iter().enumerate() {
-            let [x, y] = within(term);
-            if k < split { sum.add(x, y) } else { other.add(x, y) }
-            one_by_one += x * y;
-            let [p, q] = [x, y].map(|z| exact(z.value()));
-            let off = RBig::try_from(if exactly { 0.0 } else { term.2 }).expect("finite");
-            let spread = (&p * &q).abs() * (RBig::from(2) * &off + &off * &off);
-            (lowest, highest) = (lowest + &p * &q - &spread, highest + &p * &q + spread);
-        }
-        sum.join(&other);
-        let total = sum.total();
-        let (value, error) = (exact(total.value()), RBig::try_from(total.error()).expect("finite"));
-        prop_assert!(&value - &error <= lowest && highest <= &value + &error, "{total:?}");
-        let factor = (terms.len() as f64 + 11.0).powi(2) / 8.0;
-        prop_assert!(total.error() <= factor * one_by_one.error(), "{total:?} {one_by_one:?}");
-    }
-
-    /// The root of each end of an interval is within the bound of the root of its middle, which is
-    /// less than three times what the further of them needs.
-    #[test]
-    fn the_bound_of_a_root_holds_the_roots_about_it(x in float(20), part in 0.01..0.9_f64) {
-        let (middle, radius) = (x.abs(), x.abs() * part);
-        let root = Bounded::new(middle, radius).root();
-        let off = |x: f64| (x.sqrt() - root.value()).abs();
-        let furthest = off(middle - radius).max(off(middle + radius));
-        prop_assert!(furthest <= root.error() && root.error() < 3.0 * furthest, "{:?}", root);
-    }
-
-    /// The quotients of the ends of two intervals are within the bound of the quotient, in exact
-    /// numbers.
-    #[test]
-    fn the_bound_of_a_quotient_holds_the_quotients_about_it(
-        x in float(20),
-        y in float(20),
-        part in 0.01..0.99_f64,
-    ) {
-        let [x, y] = [x, y].map(|value| Bounded::new(value, value.abs() * part));
-        let quotient = x / y;
-        let number = |x: f64| RBig::try_from(x).expect("finite");
-        let ends = |x: Bounded| [-1.0, 1.0].map(|s| number(x.value()) + number(s * x.error()));
-        let bound = number(quotient.error());
-        for (p, q) in ends(x).iter().flat_map(|p| ends(y).map(|q| (p.clone(), q))) {
-            let off = p / q - number(quotient.value());
-            prop_assert!(-&bound <= off && off <= bound, "{:?} {:?}", x, y);
-        }
     }
 
     #[test]
@@ -236,10 +168,6 @@ fn a_tenth_as_written_and_as_stored() {
     assert_ne!(Exact::from_f64(0.1).to_rational(), Some(tenth));
     assert_eq!(F64x2::from_decimal(0.1).to_string(), "1e-1");
     assert_eq!(f64::from_decimal(0.1).to_bits(), 0.1_f64.to_bits());
-    // What is whole is stored as written, as far as a double has all whole numbers.
-    let error = |x: f64| Bounded::from_decimal(x).error();
-    assert_eq!((error(3.0), error(-7e14)), (0.0, 0.0));
-    assert!(error(0.1) > 0.0 && error(2.5) > 0.0 && error(2e15) > 0.0);
 }
 
 #[test]
@@ -291,50 +219,12 @@ fn a_sum_that_overflows_only_with_its_low_halves_is_infinite() {
     }
 }
 
-/// Between 0 and 1 the slope of the root is 1: what it passes on is rounded up as what is divided
-/// by 1.
-#[test]
-fn the_bound_of_a_root_covers_its_own_roundings() {
-    let x = Bounded::new(1.0, 8.0);
-    assert!(x.root().error() > (x / Bounded::new(1.0, 0.0)).error());
-}
-
 #[test]
 fn of_two_zeros_the_first_is_the_larger_and_the_smaller() {
     for [x, y] in [[0.0_f64, -0.0], [-0.0, 0.0]] {
         assert_eq!(Scalar::max(x, y).to_bits(), x.to_bits());
         assert_eq!(Scalar::min(x, y).to_bits(), x.to_bits());
     }
-}
-
-/// A divisor that may be 0 bounds nothing, be it 0 itself, or 1 ± 1, or 1 ± 2.
-#[test]
-fn what_is_divided_by_what_may_be_zero_has_no_bound() {
-    let exact = |x: f64| Bounded::new(x, 0.0);
-    let one = Bounded::new(1.0, 1.0 - 8.0 * f64::EPSILON);
-    assert_eq!(one.error(), 1.0, "its own rounding is added");
-    for divisor in [exact(0.0), one, Bounded::new(1.0, 2.0), Bounded::new(-1.0, f64::INFINITY)] {
-        for x in [0.0, 1.0] {
-            assert_eq!((exact(x) / divisor).error(), f64::INFINITY, "{x} {divisor:?}");
-        }
-    }
-    assert_eq!((exact(0.0) / Bounded::new(1.0, 0.5)).error(), 0.0);
-    assert!(!Scalar::is_finite(exact(1.0) / exact(0.0)) && Scalar::is_finite(one));
-}
-
-/// At 1e-280 a quotient does not underflow yet.
-#[test]
-fn rounding_errors_at_the_limit_of_underflow() {
-    let [small, one] = [1e-280, 1.0].map(F64x2::from_f64);
-    let error = F64x2::of_quotient(small, one, small);
-    assert!(0.0 < error && error < 1e-305, "{error:e}");
-    let below = F64x2::from_f64(0.9e-280);
-    assert!(F64x2::of_quotient(below, one, below) > 0.9e-300);
-    // What underflows in the rest counts as much more in the quotient.
-    let [tiny, divisor] = [1e-290, 1e-10].map(F64x2::from_f64);
-    assert!(F64x2::of_quotient(tiny, divisor, small) >= 0.9e-290);
-    assert!(f64::of_product(1e-280, 1.0, 1e-280) == 0.0);
-    assert!(f64::of_product(0.9e-280, 1.0, 0.9e-280) > 0.9e-300);
 }
 
 #[test]

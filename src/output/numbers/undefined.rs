@@ -38,13 +38,7 @@ const REASONS: &[(&str, &str)] = &[
         "mesh_energy_relative",
         "a Poisson's ratio near 0.5 locks the triangles, or a body has too few of them",
     ),
-    (
-        "arithmetic displacement_arithmetic",
-        "no bound is known; of unilateral solve --check-rounding measures it",
-    ),
-    ("bound", "no bound is known"),
-    ("margin", "no two finite sides were compared"),
-    ("decided_by_rounding", "it is not known; of unilateral solve --check-rounding measures it"),
+    ("bound", "what rounding does was not measured, or it changes who is in contact"),
     ("stress", "no run with changed inputs ended"),
     ("distance", "it was left out, there is no such solution, or the scene has no contact"),
     (

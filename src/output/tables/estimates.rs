@@ -2,91 +2,66 @@
 
 use crate::layout::{counted, first_line};
 use crate::model::Report;
-use crate::numbers::{or_dash, six_digits, with_unit};
-use engine::estimates::{BodyEstimates, Certainty, ContactChange, Perturbed};
-use engine::{Assessment, Decision, Solution};
-use problem::modelling::Variant;
+use crate::numbers::six_digits;
+use engine::estimates::{Certainty, ContactChange, Perturbed, When};
+use engine::{Assessment, Solution};
 
-/// What is said of a run of `unilateral` for which rounding was not measured.
+/// What is said of a run for which rounding was not measured.
 const UNCHECKED: &str = "rounding: not checked; solve --check-rounding repeats the run with inputs changed in \
                          the last digit";
 
-/// Says in which numbers a run is done where rounding in f64 may decide who is in contact.
+/// Says in which numbers a run is done where rounding in f64 decides who is in contact.
 pub fn certainty(certainty: Certainty) -> Option<String> {
-    let numbers = match certainty {
+    let words = match certainty {
         Certainty::Certain => return None,
-        Certainty::InDoubleDouble => "this is the run in double-doubles, where it decides nothing",
-        Certainty::Unknown => "in no other numbers is it known not to",
-        Certainty::Unchecked => return Some(UNCHECKED.into()),
+        Certainty::InDoubleDouble => {
+            "the last digit of the inputs decides who is in contact in f64; this is the run in double-doubles"
+        }
+        Certainty::Decided => "the last digit of the inputs decides who is in contact",
+        Certainty::Unchecked => UNCHECKED,
     };
-    Some(format!("rounding in f64 may decide who is in contact; {numbers}"))
+    Some(words.into())
 }
 
 /// Reports what rounding does to the result; nothing where that was left out.
 pub fn error_estimates(solution: &Solution, assessment: &Assessment) -> Report {
-    let Some(estimates) = &assessment.estimates else {
+    let measured = assessment.rounding.as_ref().map(perturbed);
+    if assessment.estimates.is_none() {
         // It was asked for even so.
-        return Report::default().notes(assessment.rounding.iter().flat_map(perturbed));
-    };
-    let (errors, units) = (&estimates.errors, &solution.request.scene.units);
-    let report = Report::default().heading("Rounding");
-    if solution.request.variant == Variant::Unilateral {
-        return report
-            .notes(assessment.rounding.as_ref().map_or(vec![UNCHECKED.into()], perturbed));
+        return Report::default().notes(measured.into_iter().flatten());
     }
-    let displacement = moved_by_rounding(errors.displacement_arithmetic, &units.length);
-    let stress = |body: &BodyEstimates| {
-        let moved = moved_by_rounding(body.arithmetic, &units.stress);
-        format!("largest von Mises stress, {}: {moved}", body.name)
+    let unmeasured = match solution.request.arithmetic.scalar.is_exact() {
+        true => "rounding: none, as the numbers are exact",
+        false => UNCHECKED,
     };
-    report
-        .note(format!("largest |u|: {displacement}"))
-        .notes(errors.bodies.iter().map(stress))
-        .notes(by_rounding(solution, errors.decided_by_rounding.as_deref()))
-}
-
-/// Says what rounding may do to a number, by the bound that is kept.
-fn moved_by_rounding(by: Option<f64>, unit: &str) -> String {
-    match by {
-        Some(by) => {
-            format!("rounding moves it by at most {}", with_unit(&format!("{by:.1e}"), unit))
-        }
-        None => "what rounding does to it is not known".into(),
-    }
-}
-
-/// Says what rounding may have decided: the first decision, and how many there are.
-fn by_rounding(solution: &Solution, decisions: Option<&[Decision]>) -> Option<String> {
-    let Some(decisions) = decisions else {
-        return Some("who is in contact: whether rounding decides it is not known".into());
-    };
-    let Decision { iteration, node, condition, margin, bound } = decisions.first()?;
-    let length = |x: f64| with_unit(&format!("{x:.1e}"), &solution.request.scene.units.length);
-    let margin = margin.map_or(String::new(), |margin| {
-        format!(" (margin {}, bound {})", length(margin), or_dash(*bound, length))
-    });
-    let times = counted(decisions.len(), "time", "times");
-    Some(format!(
-        "who is in contact: rounding may have decided {times}, first in iteration {iteration} at node \
-         {node}: {condition}{margin}"
-    ))
+    let notes = measured.unwrap_or_else(|| vec![unmeasured.into()]);
+    Report::default().heading("Rounding").notes(notes)
 }
 
 /// Says what inputs that differ in their last digits change.
 pub fn perturbed(found: &Perturbed) -> Vec<String> {
-    let Perturbed { runs, other_steps, failures, contact, displacement, stress } = found;
+    let Perturbed { other_steps, failures, contact, displacement, stress, .. } = found;
     let contact = match contact {
         None => "change no contact state".into(),
-        Some(ContactChange { node, load, nodes }) => format!(
-            "CHANGE WHO IS IN CONTACT: the status of {}, first at node {node} after {} of the load",
-            counted(*nodes, "node", "nodes"),
-            six_digits(*load)
-        ),
+        Some(ContactChange { node, when, nodes }) => {
+            let when = match when {
+                When::Load(load) => format!("after {} of the load", six_digits(*load)),
+                When::Iteration(k) => format!("in iteration {k}"),
+            };
+            let nodes = counted(*nodes, "node", "nodes");
+            format!("CHANGE WHO IS IN CONTACT: the status of {nodes}, first at node {node} {when}")
+        }
     };
     let part = |x: &Option<f64>| x.map_or("unknown".into(), |x| format!("{x:.0e}"));
-    let inputs = format!("rounding: inputs changed in the last digit ({runs} runs)");
+    let inputs = match found.in_double_doubles {
+        true => format!(
+            "rounding: a run in f64x2 and {} with inputs changed in the last digit",
+            found.runs - 1
+        ),
+        false => format!("rounding: inputs changed in the last digit ({} runs)", found.runs),
+    };
     let mut lines = Vec::new();
-    if (failures.len() as u64) < *runs {
+    if (failures.len() as u64) < found.runs {
         let steps = match other_steps {
             0 => String::new(),
             n => format!("; {n} of the runs take OTHER STEPS of the load"),

@@ -77,13 +77,6 @@ fn heading(solution: &Solution) -> Report {
         let (solver, inputs) = (request.solver(), arithmetic.inputs);
         format!("in {} by {solver}, inputs {inputs}", arithmetic.scalar)
     });
-    let bound = solution.error_bound.map(|bound| match bound.is_finite() {
-        true => {
-            let bound = with_unit(&format!("{bound:.1e}"), &units.length);
-            format!("rounding changes no displacement by more than {bound}")
-        }
-        false => "rounding error unknown".into(),
-    });
     // The paper's example is measured in mm.
     let is_in_metres = request.reading.r8 == ToleranceUnit::Metre && units.length != "mm";
     let tolerance = (is_in_metres && model.has_contact()).then(|| {
@@ -108,7 +101,6 @@ fn heading(solution: &Solution) -> Report {
         .notes(contact)
         .notes(edited)
         .notes(in_numbers)
-        .notes(bound)
         .notes(request.scene.adapted().to_vec())
         .notes(tolerance)
         .notes(dropped(model))

@@ -3,12 +3,12 @@
 //! [`c_cnt`] is the listing. Below it stand its parts: [`edges`] is lines 2 to 7, [`on_edges`] the rest:
 //! [`distances`] 8 to 10, [`weights`] 11 to 14 with [`status`] 15 to 18 and [`link`] 19 to 30.
 
-use super::conditions::{and, is_in_box, is_jumped_after, is_jumped_before, is_near};
+use super::conditions::{and, is_jumped_after, is_jumped_before, is_near};
 use super::failure::{Failure, Line};
 use super::reading::{NodeTable, Reading};
 use super::worksheet::Worksheet;
 use mathcad::Conjunction;
-use mathcad::array::{Column, Table, rows};
+use mathcad::array::{Column, Table, max, min, rows};
 use numbers::scalar::Scalar;
 
 /// The arrays that `c_cnt` computes; the listing returns `k_cnt`.
@@ -94,17 +94,18 @@ pub fn edges<T: Scalar>(sheet: &Worksheet<T>, node_n: &Table<T>) -> Result<Colum
     Ok(ct)
 }
 
-/// Computes `ntx` and `nty`, the box of the edge in row `i2` of `trg`: lines 5 and 6.
+/// Takes row `i2` of `trg` for the edge of row `i1` of `cnt` if its box has the node: lines 5 to 7.
 ///
 /// # Errors
-/// The box overflows, at row `i1` of `cnt`.
-pub fn edge_box<T: Scalar>(
+/// The box overflows.
+fn edge<T: Scalar>(
     sheet: &Worksheet<T>,
     node_n: &Table<T>,
     i1: usize,
     i2: usize,
-) -> Result<([T; 2], [T; 2]), Failure> {
-    let Worksheet { elem, trg, c_tll, .. } = sheet;
+    ct: &mut Column<usize>,
+) -> Result<(), Failure> {
+    let Worksheet { elem, trg, cnt, c_tll, .. } = sheet;
     let here = Line { i1, ct: trg[i2], ..Line::default() };
     //#  5 ntx ← (node_n[elem[trg[i2],6],2] − c_tll   node_n[elem[trg[i2],7],2] + c_tll)ᵀ
     let ntx = [
@@ -116,25 +117,10 @@ pub fn edge_box<T: Scalar>(
         here.at_line(6).finite(node_n[(elem[(trg[i2], 6)], 3)] - *c_tll)?,
         here.at_line(6).finite(node_n[(elem[(trg[i2], 7)], 3)] + *c_tll)?,
     ];
-    Ok((ntx, nty))
-}
-
-/// Takes row `i2` of `trg` for the edge of row `i1` of `cnt` if its box has the node: line 7.
-///
-/// # Errors
-/// Those of [`edge_box`].
-fn edge<T: Scalar>(
-    sheet: &Worksheet<T>,
-    node_n: &Table<T>,
-    i1: usize,
-    i2: usize,
-    ct: &mut Column<usize>,
-) -> Result<(), Failure> {
-    let Worksheet { trg, cnt, .. } = sheet;
-    let (ntx, nty) = edge_box(sheet, node_n, i1, i2)?;
+    let [x, y] = [2, 3].map(|column| node_n[(cnt[i1], column)]);
     // No operand of it fails: the order in which they are evaluated (R4) decides nothing.
     //#  7 ct[i1] ← trg[i2] if min(ntx) ≤ node_n[cnt[i1],2] ∧ node_n[cnt[i1],2] ≤ max(ntx) ∧ min(nty) ≤ node_n[cnt[i1],3] ∧ node_n[cnt[i1],3] ≤ max(nty)
-    if and(Conjunction::LeftToRight, &is_in_box(ntx, nty, node_n, cnt[i1]))? {
+    if min(ntx) <= x && x <= max(ntx) && min(nty) <= y && y <= max(nty) {
         ct[i1] = trg[i2];
     }
     Ok(())

@@ -24,10 +24,8 @@ mod reading;
 mod worksheet;
 
 pub use ambiguity::{Change, DefaultFrom, Trial, Value};
-pub use c_cnt::{Pairs, c_cnt, distances, edge_box, own_weights, status, weights, weights_from};
-pub use conditions::{
-    Comparison, Operand, and, is_in_box, is_jumped_after, is_jumped_before, is_near,
-};
+pub use c_cnt::{Pairs, c_cnt, distances, own_weights, status, weights, weights_from};
+pub use conditions::{Operand, and, is_jumped_after, is_jumped_before, is_near};
 pub use failure::{Cause, Failure};
 pub use km::Km;
 pub use reading::{

@@ -33,8 +33,8 @@ x, y, then ux, uy, as the nodes.csv of solve --csv), beside the equilibrium (uni
 and the scene's friction), or the run of --variant. Other files go through Python (guide scenes).
 
 --with calculix: exports the scene to a temporary folder, runs ccx there, and puts its displacements
-beside the run of --variant, else of the scene's. Where rounding in f64 may decide who is in
-contact, it is the run in double-doubles.
+beside the run of --variant, else of the scene's. Where the last digit decides who is in contact
+in f64, it is the run in double-doubles.
 --contact equation: the same linear systems solved by both; where the load is stepped, a deck for
 each contact state, summed.
 --contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for

@@ -26,13 +26,12 @@ fn solve(scene: &SceneBuilder, variant: Variant, scalar: ScalarName) -> Result<A
     let arithmetic = Arithmetic { scalar, ..Arithmetic::default() };
     let request = Request::new(&scene).variant(variant).arithmetic(arithmetic);
     let solution = engine::solve(&request, &mut |_| ())?;
-    let value = |x: &f64| RBig::try_from(*x).expect("a run's displacements are finite");
     let dofs = |node: &NodeId| node.dofs().map(|dof| dof.index());
     let bodies = solution.model.bodies.iter();
     Ok(Answer {
         in_contact: solution.last().statuses(),
         bodies: bodies.map(|body| body.nodes.iter().flat_map(dofs).collect()).collect(),
-        u: solution.digits.unwrap_or_else(|| solution.u.iter().map(value).collect()),
+        u: solution.exact_displacements(),
     })
 }
 

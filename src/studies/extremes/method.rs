@@ -44,15 +44,14 @@ fn carried(scalar: ScalarName) -> f64 {
 /// Judges a quantity of a search.
 type OfSearch = fn(Quantity, Search) -> Result<Kept, Error>;
 
-/// The scalars that are tried, each with how it judges a search: those that keep a bound compute as those that
-/// they bound, and exact numbers are what all are compared with.
+/// The scalars that are tried, each with how it judges a search: exact numbers are what all are compared with.
 fn tried() -> impl Iterator<Item = (ScalarName, OfSearch)> {
     let of = |scalar: &ScalarName| -> Option<(ScalarName, OfSearch)> {
         match scalar {
             ScalarName::F32 => Some((*scalar, Quantity::judge::<f32>)),
             ScalarName::F64 => Some((*scalar, Quantity::judge::<f64>)),
             ScalarName::F64x2 => Some((*scalar, Quantity::judge::<F64x2>)),
-            ScalarName::Bounded | ScalarName::BoundedDouble | ScalarName::Exact => None,
+            ScalarName::Exact => None,
         }
     };
     ScalarName::ALL.iter().filter_map(of)

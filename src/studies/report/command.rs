@@ -161,8 +161,9 @@ fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
             let same = solution.request.is_same_equilibrium(&(*other)?.request);
             measured.as_ref().filter(|_| same)?.rounding.clone()
         });
-        let assessment = Assessment::against(solution, others);
-        Run { solution, assessment: Assessment { rounding, ..assessment } }
+        let mut assessment = Assessment::against(solution, others);
+        assessment.rounding = rounding.or(assessment.rounding);
+        Run { solution, assessment }
     };
     runs.map(assessed).collect()
 }

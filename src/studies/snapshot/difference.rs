@@ -6,8 +6,8 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::numbers::{Number, Numbers, WITHOUT_BOUND};
-use super::{Entry, Run};
+use super::numbers::{Number, Numbers, UNMEASURED};
+use super::{Entry, Quantity, Run};
 
 /// A difference between two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,8 +34,6 @@ pub enum Kind {
     Unit { was: String, is: String },
     /// The arrays have other lengths or other rows.
     Shape { was: usize, is: usize, at: Option<f64> },
-    /// The bound of an array is none that a snapshot is recorded with: it lets pass what differs.
-    Bound { was: f64, most: f64 },
     /// Numbers differ by more than the limit.
     Numbers(Worst),
 }
@@ -57,7 +55,7 @@ pub struct Worst {
     pub differing: usize,
     /// How many numbers the array has.
     pub of: usize,
-    /// Whether `limit` comes from bounds on rounding errors, or from the user's own tolerance.
+    /// Whether `limit` comes from what rounding does, as measured, or from the user's own tolerance.
     pub bounded: bool,
 }
 
@@ -65,6 +63,12 @@ impl Difference {
     /// Returns whether it is one of discrete facts, or of what there is at all.
     pub fn is_discrete(&self) -> bool {
         !matches!(self.kind, Kind::Numbers(_))
+    }
+
+    /// Returns whether it is one of what was found, other than of the edge that a node has at a corner of two.
+    pub fn is_of_contact(&self) -> bool {
+        matches!(self.kind, Kind::Fact { .. })
+            && !matches!(self.entry.quantity, Quantity::Ct | Quantity::Mates)
     }
 
     /// Returns whether both runs have the entry.
@@ -124,7 +128,7 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
             Sides::New(_) => add(entry, Kind::Extra),
             Sides::Both(was, is) => {
                 compared += was.places().len();
-                let kinds = [unit(was, is), bound(was, is), numbers(was, is)];
+                let kinds = [unit(was, is), numbers(was, is)];
                 kinds.into_iter().flatten().for_each(|kind| add(entry, kind));
             }
         }
@@ -138,14 +142,8 @@ fn unit(was: &Numbers, is: &Numbers) -> Option<Kind> {
     (was.unit != is.unit).then(|| Kind::Unit { was: was.unit.clone(), is: is.unit.clone() })
 }
 
-/// Returns the recorded bound of an array where it is beyond its numbers: no run has such a one.
-fn bound(was: &Numbers, is: &Numbers) -> Option<Kind> {
-    let most = 1e3 * was.largest().max(was.floor.min(is.floor));
-    let bound = was.bound.filter(|bound| *bound > most && was.tolerance.is_none())?;
-    Some(Kind::Bound { was: bound, most })
-}
-
-/// Returns how two arrays differ; None where they do not.
+/// Returns how two arrays differ; None where they do not. What rounding does is measured in the new run: what an old
+/// file says of it lets nothing pass.
 fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     if was.values == is.values {
         return None;
@@ -156,15 +154,12 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
         return Some(Kind::Shape { was: old.len(), is: new.len(), at: elsewhere });
     }
     let largest = was.largest();
-    // A larger one in a file lets nothing pass that the run does not.
-    let floor = was.floor.min(is.floor);
-    let most = (WITHOUT_BOUND * largest).max(floor);
-    let bounds = was.bound.zip(is.bound).filter(|(a, b)| a.max(*b) <= most).map(|(a, b)| a + b);
+    let rounding = is.rounding();
     let limit = |value: f64| match was.tolerance {
-        Some(tolerance) => tolerance.limit(value, largest, floor),
-        None => bounds.map_or(most, |bounds| bounds.max(floor)),
+        Some(tolerance) => tolerance.limit(value, largest, rounding.unwrap_or(0.0)),
+        None => rounding.unwrap_or(UNMEASURED * largest),
     };
-    let bounded = was.tolerance.is_some() || bounds.is_some();
+    let bounded = was.tolerance.is_some() || rounding.is_some();
     let mut worst: Option<(f64, Worst)> = None;
     let mut differing = 0;
     for ((at, was), (_, is)) in old.iter().zip(&new) {
@@ -184,4 +179,9 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
         }
     }
     worst.map(|(_, worst)| Kind::Numbers(Worst { differing, ..worst }))
+}
+
+/// Returns the first iteration of which something differs; None where nothing does.
+pub fn first_iteration(differences: &[Difference]) -> Option<usize> {
+    differences.iter().filter_map(|d| d.entry.iteration).min()
 }

@@ -8,7 +8,7 @@ use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::{Bounds, FORMAT, Input, Options, Quantity, Run, VERSION, record};
+use super::{FORMAT, Input, Options, Quantity, Rounding, Run, VERSION, record};
 use base::error::{InputError, Result};
 use base::files::{self, json};
 use base::plain::shown;
@@ -47,7 +47,7 @@ impl Snapshot {
     pub fn record(
         scene: &Scene,
         requests: &[Request],
-        bounds: Bounds,
+        rounding: Rounding,
     ) -> engine::error::Result<Self> {
         let mut names = HashSet::new();
         for request in requests {
@@ -59,7 +59,7 @@ impl Snapshot {
             }
         }
         let recorded: engine::error::Result<Vec<Run>> =
-            requests.par_iter().map(|request| record(request, bounds)).collect();
+            requests.par_iter().map(|request| record(request, rounding)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
         Ok(Snapshot::of_runs(Input::from_scene(scene)?, None, runs))
     }

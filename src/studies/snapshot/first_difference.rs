@@ -4,10 +4,8 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::Run;
 use super::difference::{Difference, Kind};
-use super::{Entry, Quantity};
-use engine::Decision;
+use super::{Decision, Entry, Quantity, Run};
 use mathcad::Conjunction;
 use mathcad::array::Column;
 use paper::listings::Which;
@@ -37,7 +35,7 @@ pub struct Status {
     pub words: String,
     /// The line of `c_cnt` that decides it, as printed; None where none does.
     pub line: Option<String>,
-    /// The first decision up to that iteration that rounding may have taken in either run, as recorded.
+    /// The first decision up to that iteration that rounding takes in either run, as recorded.
     pub rounding: Option<String>,
 }
 

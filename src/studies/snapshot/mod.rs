@@ -8,13 +8,12 @@
 //! ```
 //!
 //! Discrete facts (who is in contact, the target edge of each node, the number of iterations) stand
-//! apart from numbers: facts are the same or not, numbers agree within the bounds on their rounding
-//! errors.
+//! apart from numbers: facts are the same or not, numbers agree but for what rounding does, as measured.
 //!
 //! | file                                       | what it holds                                      |
 //! |--------------------------------------------|----------------------------------------------------|
 //! | `file`, `input`                            | a snapshot, its reader and its writer; its scene   |
-//! | `run`, `entry`, `numbers`, `rounding`      | a run recorded, and what rounding does to it       |
+//! | `run`, `entry`, `numbers`                  | a run recorded, and what rounding does to it       |
 //! | `difference`, `changes`, `first_difference` | what differs: what came out, what went in, where  |
 //! | `verified`, `verified_file`, `words`       | snapshots compared, and what is said of that       |
 //! | `command`                                  | a file for each `plane-contact snapshot ...`       |
@@ -27,7 +26,6 @@ mod file;
 mod first_difference;
 mod input;
 mod numbers;
-mod rounding;
 mod run;
 mod verified;
 pub mod verified_file;
@@ -41,6 +39,6 @@ pub use entry::{Entry, FIELDS, Quantity};
 pub use file::Snapshot;
 pub use first_difference::{First, Status};
 pub use input::Input;
-pub use numbers::{Number, Numbers, Tolerance, Values, WITHOUT_BOUND};
-pub use run::{Bounds, Run, record};
+pub use numbers::{Number, Numbers, Tolerance, UNMEASURED, Values};
+pub use run::{Decision, Rounding, Run, record};
 pub use verified::{Presence, Verified, VerifiedRun, accept, difference, verify};

@@ -1,11 +1,17 @@
-//! Numbers of a run, each array with the bound on the rounding error of its numbers.
+//! Numbers of a run, each array with what rounding does to it, measured.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// The tolerance of numbers without a bound on their error, relative to the largest of the array.
-pub const WITHOUT_BOUND: f64 = 1e-9;
+/// The tolerance of numbers of which it is not known what rounding does, relative to the largest of the array.
+pub const UNMEASURED: f64 = 1e-9;
+
+/// How many times what rounding was seen to do is no difference: few runs underestimate it.
+const MARGIN: f64 = 10.0;
+
+/// The least that rounding does to a number, relative to the largest of its array.
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// An array of numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,14 +20,13 @@ pub struct Numbers {
     /// The unit, empty where the scene names none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// A bound on the rounding error of each number; null where none is known, or it is more than a billionth of
-    /// the largest: it would let pass what differs.
+    /// What rounding does to the numbers: the most that inputs changed in the last digit were seen to change of one;
+    /// null where that was not measured, or changes who is in contact.
     pub bound: Option<f64>,
-    /// What rounding may do at the least, by the sizes of which the numbers are differences: no limit
-    /// is smaller but an absolute tolerance.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    /// What rounding does at the least, in files of earlier versions.
+    #[serde(default, skip_serializing)]
     pub floor: f64,
-    /// The tolerance of a comparison in place of the bounds, where a user gives one.
+    /// The tolerance of a comparison in place of what rounding does, where a user gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerance>,
     /// The numbers.
@@ -144,57 +149,61 @@ impl TryFrom<Parts> for Tolerance {
 
 impl Tolerance {
     /// Returns the largest difference that is no difference from `value`, in an array whose largest
-    /// number is `largest`; what is a part of a number has the floor of its array.
-    pub fn limit(self, value: f64, largest: f64, floor: f64) -> f64 {
-        let relative = self.relative.map(|part| (part * largest).max(floor));
+    /// number is `largest`; what is a part of a number is no less than what `rounding` does.
+    pub fn limit(self, value: f64, largest: f64, rounding: f64) -> f64 {
+        let relative = self.relative.map(|part| (part * largest).max(rounding));
         let ulp = value.abs().next_up() - value.abs();
-        let ulps = self.ulps.map(|count| (count * ulp).max(floor));
+        let ulps = self.ulps.map(|count| (count * ulp).max(rounding));
         [self.absolute, relative, ulps].into_iter().flatten().fold(0.0, f64::max)
     }
 }
 
-/// What rounding may do to the numbers of an array.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Error {
-    /// A bound on the error of each; None where none is known.
-    pub bound: Option<f64>,
-    /// What it may do at the least.
-    pub floor: f64,
-}
-
-fn is_zero(floor: &f64) -> bool {
-    *floor == 0.0
-}
-
 impl Numbers {
     /// Returns numbers in a list.
-    pub fn list(unit: &str, values: impl IntoIterator<Item = f64>, error: Error) -> Self {
-        Numbers::new(unit, Values::List(values.into_iter().map(Number).collect()), error)
+    pub fn list(unit: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        Numbers::new(unit, Values::List(values.into_iter().map(Number).collect()))
     }
 
-    fn new(unit: &str, values: Values, Error { bound, floor }: Error) -> Self {
-        let floor = Some(floor).filter(|error| error.is_finite()).unwrap_or_default();
-        let numbers = Numbers { unit: unit.into(), bound: None, floor, tolerance: None, values };
-        let most = (WITHOUT_BOUND * numbers.largest()).max(floor);
-        Numbers { bound: bound.filter(|bound| *bound <= most), ..numbers }
+    fn new(unit: &str, values: Values) -> Self {
+        Numbers { unit: unit.into(), bound: None, floor: 0.0, tolerance: None, values }
     }
 
-    /// Returns whether what rounding does at the least is a thousandth of the numbers or more.
-    pub fn are_rounding(&self) -> bool {
-        self.floor > 0.0 && self.floor >= 1e-3 * self.largest()
+    /// Notes what rounding does to the numbers: the most by which `others`, the same array of runs whose inputs
+    /// differ in the last digit, are away from them.
+    pub fn measure<'a>(&mut self, others: impl Iterator<Item = &'a Numbers>) {
+        let own = self.places();
+        let away = |other: &Numbers| {
+            let pairs = own.iter().zip(other.places());
+            pairs
+                .map(|((_, a), (_, b))| (a - b).abs())
+                .filter(|x| x.is_finite())
+                .fold(0.0, f64::max)
+        };
+        let least = ROUNDED * self.largest();
+        self.bound = others.map(away).reduce(f64::max).map(|most| most.max(least));
+    }
+
+    /// Returns the largest difference that rounding may make, where that was measured.
+    pub fn rounding(&self) -> Option<f64> {
+        let measured = self.bound.map(|bound| MARGIN * bound);
+        measured.or((self.floor > 0.0).then(|| self.floor.max(UNMEASURED * self.largest())))
+    }
+
+    /// Returns the largest difference that rounding may make where that is a thousandth of the numbers or more.
+    pub fn most_of_noise(&self) -> Option<f64> {
+        self.rounding().filter(|most| *most > 0.0 && *most >= 1e-3 * self.largest())
     }
 
     /// Returns numbers in rows, each of a node's or a triangle's number and its values.
     pub fn rows<const N: usize>(
         unit: &str,
         rows: impl IntoIterator<Item = (usize, [f64; N])>,
-        error: Error,
     ) -> Self {
         let row = |(label, values): (usize, [f64; N])| Row {
             label: label as f64,
             values: values.map(Number).to_vec(),
         };
-        Numbers::new(unit, Values::Rows(rows.into_iter().map(row).collect()), error)
+        Numbers::new(unit, Values::Rows(rows.into_iter().map(row).collect()))
     }
 
     /// Returns each number with its place: the row's label or the place in the list, from 1, and the

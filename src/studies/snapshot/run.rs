@@ -1,20 +1,19 @@
-//! A run recorded: its discrete facts, and its numbers, each array with the bound on its rounding errors.
+//! A run recorded: its discrete facts, and its numbers, each array with what rounding does to it.
 
 use indexmap::IndexMap;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::numbers::{Error as Rounded, Numbers};
-use super::rounding::{Errors, ROUNDED, Scale, errors};
-use super::{Entry, Options, Quantity, entry};
+use super::difference::first_iteration;
+use super::first_difference::first;
+use super::numbers::Numbers;
+use super::{Difference, Entry, Options, Quantity, compare, entry};
 use base::error::InputError;
 use engine::contact::{Sense, Status};
 use engine::error::{Error, Result};
-use engine::estimates::arithmetic::{Rounding, bounded, rounding};
-use engine::{
-    Decision, Detail, Elimination, Request, Solution, Step, StepBounds, Stiffness, solve,
-    support_constraints,
-};
+use engine::estimates::perturbed_requests;
+use engine::{Detail, Elimination, Request, Solution, Step, Stiffness, solve, support_constraints};
 use paper::door;
 use paper::mirror::Km;
 use problem::element::State;
@@ -36,11 +35,22 @@ pub struct Run {
     pub only: Option<Vec<Quantity>>,
     /// What is the same or not.
     pub facts: IndexMap<Entry, Value>,
-    /// What is the same within bounds.
+    /// What is the same but for rounding.
     pub numbers: IndexMap<Entry, Numbers>,
-    /// The decisions on who is in contact that rounding may have taken.
+    /// The decisions on who is in contact that rounding takes: those that another last digit of the inputs changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub decided_by_rounding: Vec<Decision>,
+}
+
+/// A decision on who is in contact that rounding takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decision {
+    /// The iteration, from 1.
+    pub iteration: usize,
+    /// The number of the contact node.
+    pub node: u64,
+    /// What is another one.
+    pub condition: String,
 }
 
 impl Run {
@@ -87,16 +97,42 @@ impl Run {
         self.numbers.retain(|entry, _| keeps(*entry));
     }
 
+    /// Notes what rounding does to the run, by `others` whose inputs differ in the last digit: the most that they change
+    /// of each array while they find the same, and the first decision on who is in contact that is another one.
+    fn measure(&mut self, others: &[Run]) {
+        let others: Vec<(&Run, Vec<Difference>)> =
+            others.iter().map(|other| (other, compare(self, other).0)).collect();
+        let decided = others.iter().filter_map(|(other, differences)| {
+            let status = first(self, other, differences)?.status?;
+            let (iteration, node) = (status.iteration, status.node);
+            let condition = [Some(status.words), status.line]
+                .into_iter()
+                .flatten()
+                .collect::<Vec<_>>()
+                .join("; ");
+            Some(Decision { iteration, node, condition })
+        });
+        self.decided_by_rounding = decided.collect();
+        for (entry, numbers) in &mut self.numbers {
+            let finds_the_same = |differences: &[Difference]| match entry.iteration {
+                Some(k) => first_iteration(differences).is_none_or(|first| k < first),
+                None => !differences.iter().any(Difference::is_of_contact),
+            };
+            let same = others.iter().filter(|(_, differences)| finds_the_same(differences));
+            numbers.measure(same.filter_map(|(other, _)| other.numbers.get(entry)));
+        }
+    }
+
     /// Checks what the types of its parts do not tell.
     ///
     /// # Errors
-    /// A bound is negative.
+    /// What rounding does is negative.
     pub(super) fn check(&self) -> Result<(), InputError> {
         for (name, numbers) in self.numbers.iter() {
             for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
                 if let Some(value) = value.filter(|value| *value < 0.0) {
-                    let what = format!("the {field} on a rounding error is {value}");
-                    let fix = "give a number from 0; null where no bound is known";
+                    let what = format!("what rounding does, the {field}, is {value}");
+                    let fix = "give a number from 0; null where it was not measured";
                     return Err(InputError::new(format!("numbers.{name}.{field}"), what, fix));
                 }
             }
@@ -105,12 +141,12 @@ impl Run {
     }
 }
 
-/// Whether the bounds on rounding errors are computed, which takes another run.
+/// Whether it is measured what rounding does, which takes three more runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bounds {
-    /// They are.
-    Computed,
-    /// They are not.
+pub enum Rounding {
+    /// It is.
+    Measured,
+    /// It is not.
     LeftOut,
 }
 
@@ -119,25 +155,34 @@ pub enum Bounds {
 ///
 /// # Errors
 /// The input is at fault.
-pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
+pub fn record(request: &Request, rounding: Rounding) -> Result<Run> {
+    let mut run = run_of(request)?;
+    match rounding {
+        Rounding::LeftOut => (),
+        // Exact numbers are rounded where they are written alone.
+        Rounding::Measured if request.arithmetic.scalar.is_exact() => run.measure(&[run.clone()]),
+        Rounding::Measured => {
+            // A run that fails shows nothing of the numbers of this one.
+            let others = perturbed_requests(request);
+            let others = others.par_iter().filter_map(|request| run_of(request).ok());
+            run.measure(&others.collect::<Vec<Run>>());
+        }
+    }
+    Ok(run)
+}
+
+fn run_of(request: &Request) -> Result<Run> {
     let model = request.model()?;
     let mut steps: Vec<Step> = Vec::new();
     let solved = solve(request, &mut |step| steps.push(step.clone()));
     let mut run = Run::new(Options::from_request(request));
     let stiffness = Stiffness::new(&model, |x| x);
     worksheet(&mut run, request, &model);
-    let rounding = match (&solved, bounds) {
-        (Ok(solution), Bounds::Computed) => rounding(solution),
-        (Err(_), _) | (_, Bounds::LeftOut) => None,
-    };
     // A solution may leave out steps that were taken back.
     let steps = solved.as_ref().map_or(&steps, |solution| &solution.steps);
-    let displacement = steps.iter().map(|step| step.max_displacement).fold(0.0, f64::max);
-    let scale = Scale::new(&model, displacement);
-    let of = Recorded { request, model: &model, stiffness: &stiffness, scale };
-    for (k, step) in steps.iter().enumerate() {
-        let bounds = rounding.as_ref().and_then(|rounding| rounding.steps[k]);
-        of.iteration(&mut run, step, bounds);
+    let of = Recorded { request, model: &model, stiffness: &stiffness };
+    for step in steps {
+        of.iteration(&mut run, step);
     }
     run.fact_is(Quantity::Iterations, steps.len());
     let (status, failure) = match &solved {
@@ -147,9 +192,7 @@ pub fn record(request: &Request, bounds: Bounds) -> Result<Run> {
     run.fact_is(Quantity::ExitStatus, status.number());
     run.fact_is(Quantity::Failure, failure);
     if let Some(solution) = Error::found(solved)? {
-        end(&mut run, &solution, &stiffness, rounding.as_ref(), bounds);
-        run.decided_by_rounding =
-            rounding.and_then(|rounding| rounding.decisions).unwrap_or_default();
+        end(&mut run, &solution, &stiffness);
     }
     run.facts.sort_by_cached_key(|entry, _| entry.place());
     run.numbers.sort_by_cached_key(|entry, _| entry.place());
@@ -188,13 +231,9 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     });
     let restrained = restrained.map(|dof| format!("{}{}", dof.node(), dof.axis()));
     run.fact_is(Quantity::Restrained, restrained.chain(oblique).collect::<Vec<_>>());
-    let given = Rounded { bound: Some(0.0), floor: 0.0 };
-    let tolerance = Numbers::list(&units.length, [model.contact.tolerance], given);
+    let tolerance = Numbers::list(&units.length, [model.contact.tolerance]);
     run.numbers_are(Quantity::Tolerance, tolerance);
-    // An edge's load is computed with a square root and some products.
-    let bound = ROUNDED * model.load.iter().map(|f| f.abs()).sum::<f64>();
-    let error = Rounded { bound: Some(bound), floor: bound };
-    run.numbers_are(Quantity::Load, Numbers::list(&units.force, model.total_load(), error));
+    run.numbers_are(Quantity::Load, Numbers::list(&units.force, model.total_load()));
 }
 
 /// The contact pairs of an iteration: the arrays of `c_cnt`, or the constraints that were imposed.
@@ -244,43 +283,35 @@ struct Recorded<'a> {
     request: &'a Request,
     model: &'a Model,
     stiffness: &'a Stiffness,
-    scale: Scale,
 }
 
 impl Recorded<'_> {
-    /// Records an iteration, whose numbers are known within `bounds`.
-    fn iteration(&self, run: &mut Run, step: &Step, bounds: Option<StepBounds>) {
+    /// Records an iteration.
+    fn iteration(&self, run: &mut Run, step: &Step) {
         let length = &self.request.scene.units.length;
         let of = |quantity| Entry { iteration: Some(step.k), quantity };
-        let moved = self.scale.displacement_error();
-        let distance = self.scale.distance(moved);
-        let weight = distance / self.scale.edge + ROUNDED;
-        let yt = Rounded { bound: bounds.map(|bounds| bounds.yt), floor: distance };
-        let weights = Rounded { bound: bounds.map(|bounds| bounds.weights), floor: weight };
-        let u = Rounded { bound: bounds.map(|bounds| bounds.u), floor: moved };
         let pairs = Pairs::new(step, self.model);
         run.fact_is(of(Quantity::Ct), pairs.ct);
-        run.numbers_are(of(Quantity::Yt), Numbers::list(length, pairs.yt, yt));
+        run.numbers_are(of(Quantity::Yt), Numbers::list(length, pairs.yt));
         let dy: Vec<u8> = step.statuses().into_iter().map(u8::from).collect();
         run.fact_is(of(Quantity::Dy), dy);
         run.fact_is(of(Quantity::InContact), step.contact_set(self.model));
         run.fact_is(of(Quantity::Mates), pairs.mates);
-        run.numbers_are(of(Quantity::Weights), Numbers::list("", pairs.weights, weights));
+        run.numbers_are(of(Quantity::Weights), Numbers::list("", pairs.weights));
         let matrix = match &step.cycle {
             // The matrix of a state that came before is the same.
             Some(cycle) => {
                 let iteration = Some(cycle.members[0]);
                 run.numbers.get(&Entry { iteration, quantity: Quantity::Mjs }).cloned()
             }
-            None => self.matrix(step, weights),
+            None => self.matrix(step),
         };
         run.numbers.extend(matrix.map(|matrix| (of(Quantity::Mjs), matrix)));
-        run.numbers_are(of(Quantity::U), Numbers::list(length, [step.max_displacement], u));
+        run.numbers_are(of(Quantity::U), Numbers::list(length, [step.max_displacement]));
         run.fact_is(of(Quantity::Cycle), step.cycle.as_ref().map(|cycle| &cycle.members));
         if let Some(own) = step.unilateral() {
             // Where a node closes divides a step, so that this is a number like others.
-            let load = Rounded { bound: None, floor: ROUNDED };
-            run.numbers_are(of(Quantity::Load), Numbers::list("", [own.load], load));
+            run.numbers_are(of(Quantity::Load), Numbers::list("", [own.load]));
             run.fact_is(
                 of(Quantity::Statuses),
                 own.statuses.iter().map(recorded).collect::<Vec<_>>(),
@@ -289,8 +320,8 @@ impl Recorded<'_> {
     }
 
     /// Returns the sum of the diagonal and the sum of the sizes of all entries of the matrix that the
-    /// iteration solved, to which `weights` went.
-    fn matrix(&self, step: &Step, weights: Rounded) -> Option<Numbers> {
+    /// iteration solved.
+    fn matrix(&self, step: &Step) -> Option<Numbers> {
         let Recorded { request, model, stiffness, .. } = self;
         let entries: Vec<(usize, usize, f64)> = match (&step.detail, request.variant) {
             (Detail::Published(own), Variant::Printed) => {
@@ -317,59 +348,28 @@ impl Recorded<'_> {
         let diagonal = on_diagonal.fold(0.0, |sum, (_, _, value)| sum + value);
         let twice = |i, j| if i == j { 1.0 } else { 2.0 };
         let all = entries.iter().fold(0.0, |sum, (i, j, value)| sum + twice(i, j) * value.abs());
-        let count = entries.len() as f64;
         let units = &request.scene.units;
         let unit = match (&units.force[..], &units.length[..]) {
             ("", _) | (_, "") => String::new(),
             (force, length) => format!("{force}/{length}"),
         };
-        // An entry is multiplied by at most two weights.
-        let within = |weights: f64| (count * f64::EPSILON + ROUNDED + 2.0 * weights) * all;
-        let error = Rounded { bound: weights.bound.map(within), floor: within(weights.floor) };
-        Some(Numbers::list(&unit, [diagonal, all], error))
+        Some(Numbers::list(&unit, [diagonal, all]))
     }
 }
 
 /// Records the end of a run: displacements, stresses, reactions and the contact surface.
-fn end(
-    run: &mut Run,
-    solution: &Solution,
-    stiffness: &Stiffness,
-    rounding: Option<&Rounding>,
-    bounds: Bounds,
-) {
+fn end(run: &mut Run, solution: &Solution, stiffness: &Stiffness) {
     let (model, units) = (&*solution.model, &solution.request.scene.units);
-    let bound = rounding.and_then(|rounding| rounding.displacement);
-    let scale = Scale::new(model, solution.u.amax());
-    let moved = scale.displacement_error();
-    let errors = match bounds {
-        Bounds::LeftOut => None,
-        Bounds::Computed => {
-            let stiffness = bounded(model);
-            let of = |moved: f64| errors(solution, &stiffness, &scale, moved);
-            Some((bound.map(of), of(moved)))
-        }
-    };
-    let error = |of: fn(&Errors) -> f64| match &errors {
-        None => Rounded::default(),
-        Some((bound, floor)) => Rounded { bound: bound.as_ref().map(of), floor: of(floor) },
-    };
     let u = (1..).zip(solution.displacements());
-    run.numbers_are(
-        Quantity::U,
-        Numbers::rows(&units.length, u, error(|errors| errors.displacement)),
-    );
+    run.numbers_are(Quantity::U, Numbers::rows(&units.length, u));
     let stresses = solution.elements.iter().map(|state| <[f64; 3]>::from(state.sigma));
     let stresses = (1..).zip(stresses);
-    run.numbers_are(
-        Quantity::Stress,
-        Numbers::rows(&units.stress, stresses, error(|errors| errors.stress)),
-    );
+    run.numbers_are(Quantity::Stress, Numbers::rows(&units.stress, stresses));
     let von_mises = largest(solution, |state| state.von_mises_stress);
-    let von_mises = Numbers::list(&units.stress, von_mises, error(|errors| errors.von_mises));
+    let von_mises = Numbers::list(&units.stress, von_mises);
     run.numbers_are(Quantity::VonMisesStress, von_mises);
     let strains = largest(solution, |state| state.von_mises_strain);
-    let strains = Numbers::list("", strains, error(|errors| errors.strain));
+    let strains = Numbers::list("", strains);
     run.numbers_are(Quantity::VonMisesStrain, strains);
     let held = model.held_directions();
     let restrained = model.node_ids().filter(|node| held[node.index()] > 0);
@@ -380,18 +380,12 @@ fn end(
         let is_oblique = axes.iter().filter(|held| **held).count() < held[node.index()];
         (node.number(), [0, 1].map(|d| if axes[d] || is_oblique { of_node[d] } else { 0.0 }))
     });
-    run.numbers_are(
-        Quantity::Reactions,
-        Numbers::rows(&units.force, reactions, error(|errors| errors.force)),
-    );
+    run.numbers_are(Quantity::Reactions, Numbers::rows(&units.force, reactions));
     let nodes = || solution.contact.iter();
     let gaps = nodes().map(|c| (c.node.number(), [c.gap]));
-    run.numbers_are(Quantity::Gap, Numbers::rows(&units.length, gaps, error(|errors| errors.gap)));
+    run.numbers_are(Quantity::Gap, Numbers::rows(&units.length, gaps));
     let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
-    run.numbers_are(
-        Quantity::Pressure,
-        Numbers::rows(&units.stress, known, error(|errors| errors.pressure)),
-    );
+    run.numbers_are(Quantity::Pressure, Numbers::rows(&units.stress, known));
 }
 
 /// Returns the largest value of each body, by triangle.

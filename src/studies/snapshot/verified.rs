@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::changes::{Change, changes};
+use super::difference::first_iteration;
 use super::difference::{Difference, Sides, compare, side_by_side};
 use super::first_difference::{First, first};
-use super::{Bounds, Entry, Input, Numbers, Quantity, Run, Snapshot, record};
+use super::{Entry, Input, Numbers, Quantity, Rounding, Run, Snapshot, record};
 use base::choices;
 use engine::Request;
 use engine::error::Result;
@@ -149,7 +150,7 @@ pub fn verify(
 /// The snapshot or the scene is at fault.
 pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     again(snapshot, &given_or_own(snapshot, scene)?, |request, old| {
-        let mut run = record_again(request, old, Bounds::Computed)?;
+        let mut run = record_again(request, old, Rounding::Measured)?;
         for (entry, numbers) in &mut run.numbers {
             numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
         }
@@ -177,21 +178,21 @@ fn again(
 }
 
 /// Records of a request what was recorded of an earlier run.
-fn record_again(request: &Request, old: &Run, bounds: Bounds) -> Result<Run> {
-    let mut run = record(request, bounds)?;
+fn record_again(request: &Request, old: &Run, rounding: Rounding) -> Result<Run> {
+    let mut run = record(request, rounding)?;
     run.keep_only(old.only.clone());
     Ok(run)
 }
 
-/// Records a run to be compared with an earlier one: equal bits need no bounds, which take another run.
+/// Records a run to be compared with an earlier one: of equal bits it need not be known what rounding does.
 fn run_to_compare(request: &Request, old: &Run) -> Result<Run> {
-    let run = record_again(request, old, Bounds::LeftOut)?;
+    let run = record_again(request, old, Rounding::LeftOut)?;
     let has_bits = |(name, was): (&Entry, &Numbers)| {
         run.numbers.get(name).is_some_and(|is| is.values == was.values)
     };
     match compare(old, &run).0.is_empty() && old.numbers.iter().all(has_bits) {
         true => Ok(run),
-        false => record_again(request, old, Bounds::Computed),
+        false => record_again(request, old, Rounding::Measured),
     }
 }
 
@@ -210,7 +211,7 @@ fn decided_by_rounding(request: &Request, verified: &VerifiedRun) -> Result<Opti
         return Ok(None);
     }
     for request in perturbed_requests(request) {
-        let changed = record(&request, Bounds::LeftOut)?;
+        let changed = record(&request, Rounding::LeftOut)?;
         if first_iteration(&compare(run, &changed).0).is_some_and(|other| other <= first) {
             return Ok(Some(first));
         }
@@ -220,9 +221,4 @@ fn decided_by_rounding(request: &Request, verified: &VerifiedRun) -> Result<Opti
 
 fn is_of_path(entry: Entry, first: usize) -> bool {
     entry == Quantity::Iterations.into() || entry.iteration.is_some_and(|k| k >= first)
-}
-
-/// Returns the first iteration of which something differs; None where nothing does.
-fn first_iteration(differences: &[Difference]) -> Option<usize> {
-    differences.iter().filter_map(|d| d.entry.iteration).min()
 }

@@ -32,7 +32,7 @@ pub fn first(run: &VerifiedRun) -> String {
     if let Some(Status { iteration, node, words, line, rounding }) = &first.status {
         text += &format!("first status: iteration {iteration}, node {node}: {words}\n");
         text.extend(line.iter().map(|line| format!("  {line}\n")));
-        let decided = |what| format!("  rounding may have decided {what}\n");
+        let decided = |what| format!("  rounding decides {what}\n");
         text.extend(rounding.iter().map(decided));
     }
     text
@@ -62,18 +62,13 @@ fn difference(difference: &Difference) -> String {
             let [is, was] = [is, was].map(|unit| if unit.is_empty() { "none" } else { unit });
             format!("unit of {entry}: {is}, was {was}")
         }
-        Kind::Bound { was, most } => {
-            format!(
-                "bound of {entry}: {was:.3e} lets everything pass; no run has one above {most:.3e}"
-            )
-        }
         Kind::Fact { was, is } => format!("{entry}: {}", fact(was, is)),
         Kind::Shape { was, is, at } => {
             let at = at.map_or(String::new(), |at| format!(", first at row {at}"));
             format!("{entry}: {is} numbers, were {was}{at}")
         }
         Kind::Numbers(w) => {
-            let limit = if w.bounded { "limit" } else { "no bound is known, limit" };
+            let limit = if w.bounded { "limit" } else { "rounding not measured, limit" };
             let by = Number((w.is.0 - w.was.0).abs());
             format!(
                 "{entry}: {} of {} numbers differ, most at {} component {}: {:e}, was {:e}; by \

@@ -63,17 +63,15 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         .column("energy", |row| row.error.map(|e| error(e.energy, "energy")))
         .column("von Mises", |row| row.error.map(|e| error(e.von_mises, "von_mises")))
         .column("change", |row| row.change.map(displacement));
-    // Where rounding in f64 may decide who is in contact, the row is of the same run in double-doubles.
+    // Where rounding in f64 decides who is in contact, the row is of the same run in double-doubles.
     let certainty = |row: &Row| match row.certainty {
         None | Some(Certainty::Certain | Certainty::Unchecked) => "",
-        Some(Certainty::InDoubleDouble) => "in f64, not in f64x2, of which the row is",
-        Some(Certainty::Unknown) => "unknown",
+        Some(Certainty::InDoubleDouble) => "the last digit of the inputs; the row is of f64x2",
+        Some(Certainty::Decided) => "the last digit of the inputs",
     };
     let table = match section.rows.iter().all(|row| certainty(row).is_empty()) {
         true => table,
-        false => {
-            table.column("rounding decides who is in contact", |row| certainty(row).to_string())
-        }
+        false => table.column("decides who is in contact", |row| certainty(row).to_string()),
     };
     if section.rows.iter().all(|row| row.failure.is_none()) {
         return table;
@@ -131,14 +129,15 @@ pub fn reached(reached: &AccurateSolution, accuracy: f64) -> Report {
         let rounding = match &attempt.rounding {
             Rounding::NotRun(why) => format!("not run: {why}"),
             Rounding::Failed(why) => format!("failed, so up one precision: {why}"),
-            Rounding::Bound(0.0) => "no rounding: taken".into(),
-            Rounding::Bound(bound) if *bound <= accuracy => format!("within {bound:.0e}: taken"),
-            Rounding::Bound(bound) if bound.is_finite() => {
-                format!("within {bound:.0e}, so up one precision")
+            Rounding::Measured(0.0) => "no rounding: taken".into(),
+            Rounding::Measured(error) if *error <= accuracy => {
+                format!("measured {error:.0e}: taken")
             }
-            Rounding::Bound(_) => {
-                "no bound, as where rounding may have decided who is in contact: up one precision"
-                    .into()
+            Rounding::Measured(error) if error.is_finite() => {
+                format!("measured {error:.0e}, so up one precision")
+            }
+            Rounding::Measured(_) => {
+                "rounding unknown, as it decides who is in contact: up one precision".into()
             }
         };
         let (scalar, solver) = (attempt.arithmetic.scalar, attempt.arithmetic.solver(printed));

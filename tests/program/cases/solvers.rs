@@ -156,9 +156,9 @@ const CASES: &[Case] = &[
     },
     Case {
         input: "",
-        command: "plane-contact solve strand --variant unilateral --load-steps 99999 --scalar f64-bounded",
+        command: "plane-contact solve strand --variant unilateral --load-steps 99999 --scalar f64x2",
         status: 2,
-        contains: &["unilateral does not run in f64-bounded"],
+        contains: &["unilateral does not run in f64x2"],
         lacks: &["panicked"],
     },
     Case {

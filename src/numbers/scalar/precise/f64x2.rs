@@ -36,24 +36,6 @@ impl F64x2 {
         }
     }
 
-    /// Adds x · y to a sum in two parts, of which the second gathers what rounding takes from the first.
-    pub(super) fn gather([sum, rest]: [f64; 2], x: Self, y: Self) -> [f64; 2] {
-        let [product, beside] = F64x2::parts_of_product(x, y);
-        let [sum, lost] = two_sum(sum, product);
-        [sum, rest + (lost + beside)]
-    }
-
-    /// Returns a sum in two such parts together with another one, in two parts.
-    pub(super) fn gathered([sum, rest]: [f64; 2], [other, of_other]: [f64; 2]) -> [f64; 2] {
-        let [sum, lost] = two_sum(sum, other);
-        [sum, rest + (lost + of_other)]
-    }
-
-    /// Returns the sum of two parts.
-    pub(super) fn of_parts([sum, rest]: [f64; 2]) -> Self {
-        F64x2::settled(two_sum(sum, rest), sum)
-    }
-
     /// Returns the two numbers whose sum it is, the larger first.
     pub fn halves(self) -> [f64; 2] {
         [self.hi, self.lo]

@@ -1,13 +1,11 @@
-//! Scalars that the machine does not have: of more digits, with a bound on their error, exact.
+//! Scalars that the machine does not have: of more digits, exact.
 
-mod bounded;
 mod exact;
 mod f64x2;
 mod field;
 mod operators;
 pub mod rational;
 
-pub use bounded::{Bounded, BoundedDouble, Rounded, SumOfProducts, Unsure, WithBound, compared};
 pub use exact::{Exact, scope};
 pub use f64x2::F64x2;
 pub use field::Field;

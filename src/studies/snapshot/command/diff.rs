@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::snapshot::verified_file::{self as report, VerifiedFile};
-use crate::snapshot::{Bounds, Options, Snapshot, difference};
+use crate::snapshot::{Options, Rounding, Snapshot, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
@@ -98,5 +98,5 @@ fn side(args: &Args, side: usize, file: &SceneFile) -> Result<Snapshot> {
         ..Options::default()
     };
     let request = options.request(&scene)?;
-    Snapshot::record(&scene, &[request], Bounds::Computed)
+    Snapshot::record(&scene, &[request], Rounding::Measured)
 }
