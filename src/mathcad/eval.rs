@@ -10,7 +10,7 @@ use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::Sheet;
 use super::sheet::{Defined, Numbers};
-use super::state::{Outcome, Run, Variable};
+use super::state::{Ended, Run, Variable};
 use super::syntax::{
     Comparison, Expr, Kind, Operation, Range, Reference, Slot, Span, Spread, Statement, Step,
 };
@@ -63,7 +63,7 @@ impl Turns {
 
 impl Run<'_, '_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
-    pub fn run(mut self, arguments: &[Value]) -> Fallible<Outcome> {
+    pub fn run(mut self, arguments: &[Value]) -> Fallible<Ended> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {
             return Err(self.fail_line(Cause::Arguments { expected, found }));
@@ -83,7 +83,7 @@ impl Run<'_, '_, '_> {
         let names = self.listing.names.all().zip(self.cells);
         let locals = names.filter(|(_, cell)| cell.local);
         let locals = locals.filter_map(|(name, cell)| Some((name.into(), cell.value?))).collect();
-        Ok(Outcome { value, locals, trace_output: self.trace })
+        Ok(Ended { value, locals, trace_output: self.trace })
     }
 
     /// Executes the program, its first statements once where they read no argument.

@@ -32,7 +32,7 @@ pub type Begun = RefCell<HashMap<String, (Vec<(Slot, Value)>, Option<Value>)>>;
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct Ended {
     /// The program's value: that of the last statement evaluated.
     pub value: Value,
     /// The names that the program wrote to, with their last values.

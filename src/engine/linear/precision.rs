@@ -31,7 +31,7 @@ pub struct Solved<T> {
 }
 
 /// What came of A x = b.
-pub type Outcome<T> = Result<Solved<T>, Singular>;
+pub type SolvedOrSingular<T> = Result<Solved<T>, Singular>;
 
 /// A scalar in whose precision linear equations are solved.
 pub trait Precision: Scalar {
@@ -40,13 +40,13 @@ pub trait Precision: Scalar {
     ///
     /// # Errors
     /// A is singular.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self>;
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self>;
 
     /// Solves `a` x = `b` by `sparse-cholesky`, A positive definite.
     ///
     /// # Errors
     /// A is singular.
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self>;
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self>;
 
     /// Does `work`, and frees every number that it made but its result.
     ///
@@ -58,7 +58,7 @@ pub trait Precision: Scalar {
 }
 
 impl Precision for f64 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         match by {
             Solver::DenseLu => Ok(solved(&DenseLu::new(a.dense())?, b)),
             Solver::SparseLu => Ok(solved(&SparseLu::new(a)?, b)),
@@ -66,7 +66,7 @@ impl Precision for f64 {
         }
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let x = SparseCholesky::new(a.clone())?.solve(b);
         Ok(Solved { residual: a.residual(&x, b), x })
     }
@@ -76,7 +76,7 @@ impl Precision for f64 {
 macro_rules! by_own_elimination {
     ($($scalar:ty),+) => {$(
         impl Precision for $scalar {
-            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
                 let symmetric = lower(a);
                 match by {
                     Solver::DenseLu => {
@@ -89,7 +89,7 @@ macro_rules! by_own_elimination {
                 }
             }
 
-            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
                 let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
                 Ok(Solved { residual: a.residual(&x, b), x })
             }
@@ -102,7 +102,7 @@ by_own_elimination!(f32, F64x2);
 impl Precision for Bounded {
     /// Solves as in `f64`, digit for digit; every entry of x carries the bound on the largest error
     /// of an entry.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         let (values, f) = (a.map(Scalar::to_f64), b.map(Scalar::to_f64));
         match by {
             Solver::DenseLu => {
@@ -117,7 +117,7 @@ impl Precision for Bounded {
         }
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
         let f = b.map(Scalar::to_f64);
         let x = factors.solve(&f);
@@ -129,13 +129,13 @@ impl Precision for Bounded {
 impl Precision for BoundedDouble {
     /// Solves as in double-double, digit for digit; every entry of x carries the bound on the
     /// largest error of an entry.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         let factors = SparseLu::new(&a.map(Scalar::to_f64))?;
         let solved = F64x2::solve(&a.map(WithBound::value), &b.map(WithBound::value), by)?;
         Ok(with_bound(&factors, a.entries(), b, solved))
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let factors = SparseCholesky::new(a.map(|x| x.to_f64()))?;
         let solved = F64x2::solve_symmetric(&a.map(|x| x.value()), &b.map(WithBound::value))?;
         Ok(with_bound(&factors, whole(a), b, solved))
@@ -143,7 +143,7 @@ impl Precision for BoundedDouble {
 }
 
 impl Precision for Exact {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         match by {
             Solver::DenseLu => {
                 let b = b.iter().map(|x| value(*x)).collect();
@@ -154,7 +154,7 @@ impl Precision for Exact {
         }
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
         Ok(exact(Ldlt::new(&a.map(|x| value(*x)))?.solve(&b)))
     }
