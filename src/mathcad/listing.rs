@@ -52,22 +52,19 @@ fn without_remark(line: &str) -> &str {
 /// Hands over the names that statements read or, as is said of each, call; the variable of a series is its own.
 fn uses(block: &[Statement], used: &mut dyn FnMut(Slot, bool)) {
     fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, bool)) {
-        use Kind::*;
         let depth = own.len();
         match &expr.kind {
-            Read(reference) if own.contains(&reference.name) => {}
-            Read(reference) => used(reference.name, false),
-            Call(name, _) => used(*name, true),
-            Series { function, name, .. } => {
+            Kind::Name(name) if own.contains(name) => {}
+            Kind::Name(name) => used(*name, false),
+            Kind::Call(name) => used(*name, true),
+            Kind::Series { function, name } => {
                 used(*function, true);
                 own.push(*name);
             }
-            Entry { .. } | Array { .. } => {}
-            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
-            | Column(..) | Power(..) | Arithmetic(..) | Compare(..) | Chain(..) | All(_)
-            | Any(_) | If(_) | Program(_) => {}
+            Kind::Number(_) | Kind::Text(_) | Kind::Group | Kind::Array { .. } => {}
+            Kind::Apply(_) | Kind::Chain(_) | Kind::If | Kind::Program(_) => {}
         }
-        expr.parts().into_iter().for_each(|part| expression(part, own, used));
+        expr.children().into_iter().for_each(|part| expression(part, own, used));
         own.truncate(depth);
     }
     for statement in block {
@@ -95,7 +92,7 @@ fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
     if let Kind::Program(block) = &expr.kind {
         survey(block, written);
     } else {
-        expr.parts().into_iter().for_each(|part| within(part, written));
+        expr.parts.iter().for_each(|part| within(part, written));
     }
 }
 

@@ -13,7 +13,7 @@ use super::matrices;
 use super::observe::{Named, Recorder};
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::syntax::{Reference, Slot, Span};
+use super::syntax::{Slot, Span};
 use super::unsupported;
 use super::value::{Array, Grid, Nested, Value};
 
@@ -154,27 +154,23 @@ impl<'r> Run<'r, '_, '_> {
     }
 
     /// Returns the value of a name or, with `subscripts`, of its entry.
-    pub fn read(
-        &mut self,
-        reference: &Reference,
-        subscripts: Option<Subscripts>,
-    ) -> Fallible<Value> {
-        let value = match (&self.cells[reference.name].value, subscripts) {
+    pub fn read(&mut self, slot: Slot, subscripts: Option<Subscripts>) -> Fallible<Value> {
+        let value = match (&self.cells[slot].value, subscripts) {
             (Some(value), None) => value.clone(),
             (Some(value), Some(subscripts)) => {
-                let name = || self.listing.names.name(reference.name).into();
+                let name = || self.listing.names.name(slot).into();
                 matrices::entry(value, subscripts, self.settings.origin, &name)?
             }
             // A local name without a value is 0.
-            (None, None) if self.listing.assigned[reference.name] => Value::default(),
-            (None, Some(_)) if self.listing.assigned[reference.name] => {
+            (None, None) if self.listing.assigned[slot] => Value::default(),
+            (None, Some(_)) if self.listing.assigned[slot] => {
                 return Err(kind("an array", &Value::default()).into());
             }
-            (None, _) => return Err(self.undefined(reference.name, false).into()),
+            (None, _) => return Err(self.undefined(slot, false).into()),
         };
         let line = &self.listing.lines[self.line];
         if let Some(recorder) = &mut self.recorder {
-            let named = named(self.listing, reference.name, subscripts, &value);
+            let named = named(self.listing, slot, subscripts, &value);
             recorder.on(line).reads.push(named);
         }
         Ok(value)

@@ -262,10 +262,8 @@ impl Translator<'_> {
         for Statement { step, .. } in block {
             match step {
                 Step::For { name, .. } => drop(found.insert(*name)),
-                Step::Assign { target, value, .. }
-                    if target.row.is_none() && self.is_scalar(value) =>
-                {
-                    found.insert(target.name);
+                Step::Assign { target, value } if self.is_scalar(value) => {
+                    found.extend(target.name());
                 }
                 _ => {}
             }
@@ -274,26 +272,30 @@ impl Translator<'_> {
     }
 
     fn is_scalar(&self, expr: &Expr) -> bool {
+        use Operator::*;
+        let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(_) | Kind::Compare(..) | Kind::All(_) | Kind::Magnitude(_) => true,
-            Kind::Read(reference) => {
-                let name = self.listing.names.name(reference.name);
-                match reference.row {
-                    Some(_) => !self.globals.nested.contains(name),
-                    None => {
-                        self.scalars.contains(&reference.name)
-                            || self.globals.scalars.contains(name)
-                    }
-                }
+            Kind::Number(_) | Kind::Apply(Compare(_) | All | Magnitude) => true,
+            Kind::Name(name) => {
+                let is_global = self.globals.scalars.contains(self.listing.names.name(*name));
+                is_global || self.scalars.contains(name)
             }
-            Kind::Group(x) | Kind::Negative(x) => self.is_scalar(x),
-            Kind::Arithmetic(_, x, y) => self.is_scalar(x) && self.is_scalar(y),
-            Kind::Call(name, _) => {
+            Kind::Apply(Entry) => !self.is_nested(&parts[0]),
+            Kind::Group | Kind::Apply(Negative | Calculate(_)) => {
+                parts.iter().all(|part| self.is_scalar(part))
+            }
+            Kind::Call(name) => {
                 matches!(self.listing.names.name(*name), "rows" | "min" | "max")
             }
             // Operations on arrays serve numbers too.
             _ => false,
         }
+    }
+
+    /// Returns whether it is the name of an array of arrays.
+    fn is_nested(&self, expr: &Expr) -> bool {
+        let name = expr.name().map(|name| self.listing.names.name(name));
+        name.is_some_and(|name| self.globals.nested.contains(name))
     }
 
     fn block(&self, block: &[Statement], level: usize, text: &mut String) {
@@ -314,27 +316,23 @@ impl Translator<'_> {
         }
         let inner = level + usize::from(guard.is_some());
         match step {
-            Step::For { name, range: Range::Span { from, second: None, to }, body, .. } => {
-                let (from, to) = (self.expr(from), self.expr(to));
-                put(inner, &format!("for {} = upto({from}, {to})", self.name(*name)));
+            Step::For { name, range: Range { values, to: Some(to) }, body } => {
+                let (values, to) = (self.list(values), self.expr(to));
+                put(inner, &format!("for {} = upto({values}, {to})", self.name(*name)));
                 self.block(body, inner + 1, text);
             }
             Step::If { condition, body } => {
                 put(inner, &format!("if {}", self.expr(condition)));
                 self.block(body, inner + 1, text);
             }
-            Step::Assign { target, value, .. } => {
-                let name = self.name(target.name);
-                let place = match (&target.row, &target.col) {
-                    (Some(row), Some(col)) => {
-                        format!("{name}({}, {})", self.expr(row), self.expr(col))
-                    }
-                    (Some(row), None) => format!("{name}({}, 1)", self.expr(row)),
-                    (None, _) => name,
+            Step::Assign { target, value } => {
+                let place = match target.parts.as_slice() {
+                    [name, row] => format!("{}({}, 1)", self.expr(name), self.expr(row)),
+                    _ => self.expr(target),
                 };
                 put(inner, &format!("{place} = {};", self.expr(value)));
             }
-            Step::Evaluate { value, .. } => put(inner, &format!("value = {};", self.expr(value))),
+            Step::Evaluate { value } => put(inner, &format!("value = {};", self.expr(value))),
             Step::Return { value, .. } => {
                 put(inner, &format!("value = {};", self.expr(value)));
                 put(inner, "return");
@@ -351,70 +349,62 @@ impl Translator<'_> {
     }
 
     fn expr(&self, expr: &Expr) -> String {
+        let parts = expr.parts.as_slice();
         match &expr.kind {
             Kind::Number(x) => number(*x),
-            Kind::Read(reference) => {
-                let name = self.name(reference.name);
-                let subscripts = self.list(reference.subscripts());
-                let nested = self.globals.nested.contains(self.listing.names.name(reference.name));
-                match (reference.row.is_some(), nested) {
-                    (false, _) => name,
-                    (true, true) => format!("{name}{{{subscripts}}}"),
-                    (true, false) => format!("{name}({subscripts})"),
-                }
-            }
-            Kind::Group(x) => format!("({})", self.expr(x)),
-            Kind::Array { entries, cols } => {
-                let rows: Vec<_> = entries.chunks(*cols).map(|row| self.list(row)).collect();
+            Kind::Name(name) => self.name(*name),
+            Kind::Group => format!("({})", self.expr(&parts[0])),
+            Kind::Array { cols } => {
+                let rows: Vec<_> = parts.chunks(*cols).map(|row| self.list(row)).collect();
                 format!("[{}]", rows.join("; "))
             }
-            Kind::Magnitude(x) if self.is_scalar(x) => format!("abs({})", self.expr(x)),
-            Kind::Magnitude(x) => format!("norm({})", self.expr(x)),
-            Kind::Column(x, column) => format!("{}(:, {})", self.expr(x), self.expr(column)),
-            Kind::Power(x, exponent) => format!("{} ^ {}", self.expr(x), self.expr(exponent)),
-            Kind::Negative(x) => format!("-{}", self.expr(x)),
-            Kind::Transpose(x) => format!("{}.'", self.expr(x)),
-            Kind::Arithmetic(Operation::Divide, x, y) => {
-                format!("over({}, {})", self.expr(x), self.expr(y))
-            }
-            Kind::Arithmetic(Operation::Multiply, x, y)
-                if !self.is_scalar(x) && !self.is_scalar(y) =>
-            {
-                format!("ordered({}, {})", self.expr(x), self.expr(y))
-            }
-            Kind::Arithmetic(operation, x, y) => {
-                let sign = Operator::Calculate(*operation).spelling().typed;
-                format!("{} {sign} {}", self.expr(x), self.expr(y))
-            }
-            Kind::Compare(comparison, x, y) => {
-                let sign = match comparison {
-                    Comparison::Equal => "==",
-                    Comparison::Unequal => "~=",
-                    Comparison::Less
-                    | Comparison::LessOrEqual
-                    | Comparison::Greater
-                    | Comparison::GreaterOrEqual => Operator::Compare(*comparison).spelling().typed,
-                };
-                format!("{} {sign} {}", self.expr(x), self.expr(y))
-            }
-            Kind::All(operands) => {
-                let mut operands: Vec<&Expr> = operands.iter().collect();
-                if self.conjunction == Conjunction::Guarded {
-                    operands.sort_by_key(|x| self.can_fail(x));
-                }
-                match self.conjunction {
-                    Conjunction::Eager => format!("all([{}])", self.list(operands)),
-                    Conjunction::Guarded | Conjunction::LeftToRight => {
-                        let operands = operands.into_iter().map(|x| self.expr(x));
-                        operands.collect::<Vec<_>>().join(" && ")
-                    }
-                }
-            }
-            Kind::Call(name, arguments) => {
-                format!("{}({})", self.name(*name), self.list(arguments))
-            }
+            Kind::Apply(operator) => self.applied(*operator, parts),
+            Kind::Call(name) => format!("{}({})", self.name(*name), self.list(parts)),
             other => unreachable!("the listings have no {other:?}"),
         }
+    }
+
+    fn applied(&self, operator: Operator, operands: &[Expr]) -> String {
+        let x = self.expr(&operands[0]);
+        let y = || self.expr(&operands[1]);
+        let is_scalar = |k: usize| self.is_scalar(&operands[k]);
+        let sign = match operator {
+            Operator::Magnitude if is_scalar(0) => return format!("abs({x})"),
+            Operator::Magnitude => return format!("norm({x})"),
+            Operator::Negative => return format!("-{x}"),
+            Operator::Transpose => return format!("{x}.'"),
+            Operator::Column => return format!("{x}(:, {})", y()),
+            Operator::Entry => {
+                let subscripts = self.list(&operands[1..]);
+                return match self.is_nested(&operands[0]) {
+                    true => format!("{x}{{{subscripts}}}"),
+                    false => format!("{x}({subscripts})"),
+                };
+            }
+            Operator::All => return self.all(operands),
+            Operator::Calculate(Operation::Divide) => return format!("over({x}, {})", y()),
+            Operator::Calculate(Operation::Multiply) if !is_scalar(0) && !is_scalar(1) => {
+                return format!("ordered({x}, {})", y());
+            }
+            Operator::Compare(Comparison::Equal) => "==",
+            Operator::Compare(Comparison::Unequal) => "~=",
+            Operator::Compare(_) | Operator::Calculate(_) | Operator::Power => {
+                operator.spelling().typed
+            }
+            Operator::Any | Operator::Not => unreachable!("the listings have no {operator:?}"),
+        };
+        format!("{x} {sign} {}", y())
+    }
+
+    /// Writes a conjunction; where a false operand decides though another fails, those that cannot fail come first.
+    fn all(&self, operands: &[Expr]) -> String {
+        let mut operands: Vec<&Expr> = operands.iter().collect();
+        match self.conjunction {
+            Conjunction::Eager => return format!("all([{}])", self.list(operands)),
+            Conjunction::Guarded => operands.sort_by_key(|x| self.can_fail(x)),
+            Conjunction::LeftToRight => {}
+        }
+        operands.into_iter().map(|x| self.expr(x)).collect::<Vec<_>>().join(" && ")
     }
 
     fn list<'a>(&self, exprs: impl IntoIterator<Item = &'a Expr>) -> String {
@@ -423,16 +413,8 @@ impl Translator<'_> {
 
     /// Returns whether an expression has subscripts or divides.
     fn can_fail(&self, expr: &Expr) -> bool {
-        use Kind::*;
-        let own = match &expr.kind {
-            Read(reference) => reference.row.is_some(),
-            Arithmetic(operation, ..) => *operation == Operation::Divide,
-            Entry { .. } | Column(..) => true,
-            Array { .. } | Series { .. } => false,
-            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
-            | Power(..) | Compare(..) | Chain(..) | All(_) | Any(_) | Call(..) | If(_)
-            | Program(_) => false,
-        };
-        own || expr.parts().into_iter().any(|part| self.can_fail(part))
+        use Operator::*;
+        let own = matches!(expr.kind, Kind::Apply(Entry | Column | Calculate(Operation::Divide)));
+        own || expr.children().into_iter().any(|part| self.can_fail(part))
     }
 }
