@@ -360,8 +360,7 @@ impl Run<'_, '_, '_> {
     fn value_of(&mut self, expr: &Expr) -> Fallible<Value> {
         let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => Ok(Value::Number(*x)),
-            Kind::Text(text) => Ok(Value::Text(text.clone())),
+            Kind::Literal(value) => Ok(value.clone()),
             Kind::Name(name) => self.read(*name, None),
             Kind::Group => self.eval(&parts[0]),
             Kind::Array { cols } => self.array(parts, *cols),
@@ -647,11 +646,9 @@ impl Run<'_, '_, '_> {
         use Operator::*;
         match &expr.kind {
             Kind::Group => return self.vectorized(&expr.parts[0]),
-            Kind::Number(_)
-            | Kind::Text(_)
-            | Kind::Name(_)
-            | Kind::Array { .. }
-            | Kind::Apply(Entry | Column) => return self.eval(expr),
+            Kind::Literal(_) | Kind::Name(_) | Kind::Array { .. } | Kind::Apply(Entry | Column) => {
+                return self.eval(expr);
+            }
             Kind::Call(name) if self.functions[*name].is_none() => {
                 return Err(self.undefined(*name, true).into());
             }
@@ -668,7 +665,7 @@ impl Run<'_, '_, '_> {
         }
         let operands = self.held(&expr.parts, Self::vectorized)?;
         let mut arrays = operands.iter().filter(|operand| operand.number().is_none());
-        let Some(first) = arrays.next() else { return self.of_numbers(expr, &operands) };
+        let Some(first) = arrays.next() else { return self.at(expr, &operands, (0, 0)) };
         if let Some(other) = arrays.find(|other| other.size() != first.size()) {
             return Err(Cause::sizes("→", first.size(), other.size()).into());
         }
@@ -676,31 +673,20 @@ impl Run<'_, '_, '_> {
         self.afford(rows * cols)?;
         let mut entries = Vec::with_capacity(rows * cols);
         for (i, j) in (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j))) {
-            let at = operands.iter().map(|x| x.entry(i, j).unwrap_or_else(|| x.clone()));
-            let at: Vec<Value> = at.collect();
-            entries.push(self.of_numbers(expr, &at)?);
+            entries.push(self.at(expr, &operands, (i, j))?);
         }
         Ok(Value::grid(Grid::from_rows(cols.max(1), entries)))
     }
 
-    /// Returns what an operation or function that [`Self::vectorized`] takes makes of numbers.
-    fn of_numbers(&mut self, expr: &Expr, operands: &[Value]) -> Fallible<Value> {
+    /// Evaluates an operation or function that [`Self::vectorized`] takes, of an entry of each operand.
+    fn at(&mut self, expr: &Expr, operands: &[Value], (i, j): (usize, usize)) -> Fallible<Value> {
         self.spend(FUNCTION)?;
-        let numbers: Option<Vec<f64>> = operands.iter().map(Value::number).collect();
-        let result = match (&expr.kind, numbers.as_deref()) {
-            (Kind::Call(name), _) => return self.call(*name, operands),
-            (Kind::Apply(Operator::Magnitude), Some([x])) => Ok(x.abs()),
-            (Kind::Apply(Operator::Negative), Some([x])) => Ok(-x),
-            (Kind::Apply(Operator::Power), Some([x, y])) => power(*x, *y),
-            (Kind::Apply(Operator::Calculate(operation)), Some([x, y])) => {
-                calculate(*operation, *x, *y, self.settings)
-            }
-            (Kind::Apply(Operator::Compare(comparison)), Some([x, y])) => {
-                return Ok(truth_value(compare(*comparison, *x, *y, self.settings)));
-            }
-            (_, _) => Err(kind("a number or an array of numbers", &operands[0])),
-        };
-        Ok(Value::Number(result?))
+        let parts = expr.parts.iter().zip(operands).map(|(part, operand)| {
+            let entry = operand.entry(i, j).unwrap_or_else(|| operand.clone());
+            Expr { kind: Kind::Literal(entry), parts: vec![], span: part.span.clone() }
+        });
+        let parts = parts.collect();
+        self.eval(&Expr { kind: expr.kind.clone(), parts, span: expr.span.clone() })
     }
 
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of

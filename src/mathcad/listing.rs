@@ -61,7 +61,7 @@ fn uses(block: &[Statement], used: &mut dyn FnMut(Slot, bool)) {
                 used(*function, true);
                 own.push(*name);
             }
-            Kind::Number(_) | Kind::Text(_) | Kind::Group | Kind::Array { .. } => {}
+            Kind::Literal(_) | Kind::Group | Kind::Array { .. } => {}
             Kind::Apply(_) | Kind::Chain(_) | Kind::If | Kind::Program(_) => {}
         }
         expr.children().into_iter().for_each(|part| expression(part, own, used));

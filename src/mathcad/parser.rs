@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 
 use super::lexer::{ARROW, Complaint, Spanned, Token};
 use super::syntax::{Expr, Kind, Level, OPERATORS, Operator, Range, Slot, Span, Statement, Step};
+use super::value::Value;
 
 type Parsed<T> = Result<T, Complaint>;
 
@@ -367,8 +368,8 @@ impl<'t> Parser<'t> {
         self.expect(Token::Words("an operand"));
         self.next += 1;
         let (kind, parts) = match token {
-            Some(Token::Number(x)) => (Kind::Number(*x), vec![]),
-            Some(Token::Text(text)) => (Kind::Text(text.clone()), vec![]),
+            Some(Token::Number(x)) => (Kind::Literal(Value::Number(*x)), vec![]),
+            Some(Token::Text(text)) => (Kind::Literal(Value::Text(text.clone())), vec![]),
             Some(Token::Name(name)) => (Kind::Name(*name), vec![]),
             Some(Token::Function(function)) => self.call(*function)?,
             Some(Token::Sign("if")) => {

@@ -4,7 +4,8 @@
 //! each name's value at that place.
 
 use std::cmp::Ordering;
-use std::rc::Rc;
+
+use super::value::Value;
 
 /// The number of a name, counted from 0 in the order of first appearance.
 pub type Slot = usize;
@@ -73,10 +74,8 @@ pub struct Expr {
 /// The kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum Kind {
-    /// A number.
-    Number(f64),
-    /// A string, `"x"`.
-    Text(Rc<str>),
+    /// A number, or a string, `"x"`. Under `→` an entry of an operand, which may be an array.
+    Literal(Value),
     /// A name.
     Name(Slot),
     /// An expression in round brackets, `(x)`.
@@ -367,8 +366,7 @@ impl Expr {
             Kind::Apply(_) if self.is_entry() => Level::Atom,
             Kind::Apply(operator) => operator.spelling().level,
             Kind::Chain(_) => Level::Comparison,
-            Kind::Number(_)
-            | Kind::Text(_)
+            Kind::Literal(_)
             | Kind::Name(_)
             | Kind::Group
             | Kind::Array { .. }

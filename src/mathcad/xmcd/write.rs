@@ -5,7 +5,7 @@ use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
 use crate::syntax::{Expr, Kind, Level, Operation, Operator, Statement, Step};
-use crate::value::Array;
+use crate::value::{Array, Value};
 use base::xml::Element;
 
 /// Writes the definition of a listing's function, or of a name where it has no parameters.
@@ -59,6 +59,19 @@ fn by_columns<T>(entries: &[T], cols: usize, write: impl Fn(&T) -> Element) -> E
         .set("rows", rows.to_string())
         .set("cols", cols.to_string())
         .with_all(places.map(|k| write(&entries[k])))
+}
+
+/// Writes a value: a number, a string or an array.
+pub fn literal(value: &Value) -> Element {
+    match value {
+        Value::Number(x) => real(*x),
+        Value::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
+        Value::Array(array) => matrix(array),
+        Value::Nested(nested) => {
+            let entries: Vec<Value> = nested.grid().entries().cloned().collect();
+            by_columns(&entries, nested.grid().cols(), literal)
+        }
+    }
 }
 
 /// Makes the element of a real number.
@@ -163,8 +176,7 @@ impl Writer<'_> {
     fn expr(&self, expr: &Expr) -> Element {
         let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => real(*x),
-            Kind::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
+            Kind::Literal(value) => literal(value),
             Kind::Name(name) => id(self.names.name(*name)),
             Kind::Group => parens(self.expr(&parts[0])),
             Kind::Array { cols } => by_columns(parts, *cols, |x| self.expr(x)),
@@ -212,7 +224,7 @@ impl Writer<'_> {
                 return self.folded(operands[1..].iter().map(|_| operator), operands);
             }
             Operator::Negative => match x.kind {
-                Kind::Number(x) => return real(-x),
+                Kind::Literal(Value::Number(x)) => return real(-x),
                 _ => vec![self.expr(x)],
             },
             Operator::Not

@@ -227,10 +227,7 @@ fn beside(page: &mut Page, name: &str, ours: &Array, theirs: &str) {
 }
 
 fn define(page: &mut Page, name: &str, value: &Value) {
-    match value {
-        Value::Array(array) => page.define(name, write::matrix(array), array.rows()),
-        value => page.define(name, write::real(value.number().unwrap_or_default()), 1),
-    };
+    page.define(name, write::literal(value), value.size().0);
 }
 
 fn expression(text: &str) -> base::xml::Element {

@@ -275,7 +275,8 @@ impl Translator<'_> {
         use Operator::*;
         let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(_) | Kind::Apply(Compare(_) | All | Magnitude) => true,
+            Kind::Apply(Compare(_) | All | Magnitude) => true,
+            Kind::Literal(value) => value.number().is_some(),
             Kind::Name(name) => {
                 let is_global = self.globals.scalars.contains(self.listing.names.name(*name));
                 is_global || self.scalars.contains(name)
@@ -351,7 +352,7 @@ impl Translator<'_> {
     fn expr(&self, expr: &Expr) -> String {
         let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => number(*x),
+            Kind::Literal(value) => literal(value),
             Kind::Name(name) => self.name(*name),
             Kind::Group => format!("({})", self.expr(&parts[0])),
             Kind::Array { cols } => {
