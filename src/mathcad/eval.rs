@@ -5,7 +5,7 @@
 
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function, Meaning, elementary, exactly};
+use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
 use super::sheet::Sheet;
@@ -755,20 +755,19 @@ impl Run<'_, '_, '_> {
             }
             Some(Function::Builtin(builtin)) => *builtin,
         };
+        if !builtin.arguments.contains(&arguments.len()) {
+            let (expected, found) = (*builtin.arguments.end(), arguments.len());
+            return Err(Cause::Arguments { expected, found }.into());
+        }
         let (numbers, steps) = (builtin.cost)(arguments);
         self.room(numbers)?;
         self.spend(steps)?;
-        let name = builtin.name;
         Ok(match builtin.meaning {
-            Meaning::Elementary(function, pole) => elementary(arguments, function, pole, name)?,
-            Meaning::Numbers(function) => Value::Number(function(arguments, name)?),
-            Meaning::One(function) => exactly(arguments).and_then(|[x]| function(x))?,
-            Meaning::Two(function) => exactly(arguments).and_then(|[x, y]| function(x, y))?,
-            Meaning::Values(function) => function(arguments)?,
-            Meaning::Subscripts(function) => function(arguments, self.settings.origin)?,
-            Meaning::Vectorize => {
-                return Err(Cause::Arguments { expected: 1, found: arguments.len() }.into());
+            Meaning::Elementary(function, pole) => {
+                elementary(&arguments[0], function, pole, builtin.name)?
             }
+            Meaning::Values(function) => function(arguments, self.settings.origin)?,
+            Meaning::Vectorize => unreachable!("its argument is no value but an expression"),
             Meaning::Trace => {
                 let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
                 let value = Value::Text(line.as_str().into());
