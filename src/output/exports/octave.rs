@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{CorrectedExport, Export};
+use super::{CorrectedExport, Export, ITERATED, MOVED, listing};
 use ::mathcad::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Statement, Step,
 };
@@ -16,8 +16,7 @@ use ::mathcad::{Array, Conjunction, Listing, Value};
 use base::files::PER_CENT;
 use base::plain::on_a_line;
 use paper::corrected::Program;
-use paper::listings::{Which, tables};
-use problem::element::Plane;
+use paper::listings::{Which, elasticity, tables};
 
 const HELPERS: &str = "
 function c = over(a, b)
@@ -68,23 +67,7 @@ function beside(name, x, ours)
   show(['ours_' name], ours);
   show(['difference_' name], max(abs(x(:) - ours(:))));
 end
-";
 
-const STRAIN: &str = "
-function d = D(e, nu)
-  f = over(e, (1 + nu) * (1 - 2 * nu));
-  d = [f * (1 - nu), f * nu, 0; f * nu, f * (1 - nu), 0; 0, 0, f * ((1 - 2 * nu) / 2)];
-end
-";
-
-const STRESS: &str = "
-function d = D(e, nu)
-  f = over(e, 1 - nu * nu);
-  d = [f, f * nu, 0; f * nu, f, 0; 0, 0, f * ((1 - nu) / 2)];
-end
-";
-
-const SOLVER: &str = "
 function x = lsolve(a, b)
   x = a \\ b;
 end
@@ -92,7 +75,8 @@ end
 
 /// Writes the program of an export.
 pub fn program(export: &Export) -> String {
-    let globals = Globals::new(tables(export.sheet));
+    let force = export.run.as_ref().map(|run| ("F", column(&run.force)));
+    let globals = Globals(tables(export.sheet).into_iter().chain(force).collect());
     let readings = match export.reading.to_string() {
         given if given.is_empty() => "all by default".into(),
         given => given,
@@ -105,8 +89,12 @@ pub fn program(export: &Export) -> String {
         let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
         text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
     }
-    text += elasticity(export.sheet.plane);
-    text += &format!("{HELPERS}\n{}{}", globals.declaration(), globals.definitions);
+    let mut added = vec![elasticity(export.sheet.plane)];
+    if export.run.is_some() {
+        added.extend([MOVED, ITERATED]);
+    }
+    text += &own(&added, &globals);
+    text += &globals.definitions();
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
     match &export.run {
@@ -124,32 +112,24 @@ pub fn program(export: &Export) -> String {
     }
     text += "  show('MJS', Km(k_cnt));\n";
     if let Some(run) = &export.run {
-        text += &format!(
-            "  F = {};\n  x = node;\n  for k = 1:{}\n    U = Km(c_cnt(x)) \\ F;\n    x = node;\n\
-             \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n",
-            literal(&Value::from(Array::column(run.force.clone()))),
-            run.iterations
-        );
-        text += &beside("U", Value::from(Array::column(run.u.clone())));
+        text += &format!("  U = iterated({});\n", run.iterations);
+        text += &beside("U", column(&run.u));
     }
     text
 }
 
 /// Writes the program of the corrected algorithm.
 pub fn corrected(export: &CorrectedExport) -> String {
-    let force = Value::from(Array::column(export.force.clone()));
-    let more = [("F", force), ("both", export.bound.both().into())];
-    let globals = Globals::new(tables(export.sheet).into_iter().chain(more));
+    let more = [("F", column(&export.force)), ("both", export.bound.both().into())];
+    let globals = Globals(tables(export.sheet).into_iter().chain(more).collect());
     let mut text = head(export.title, "The corrected algorithm of plane-contact.");
     for program in Program::ALL {
         text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
     }
-    text += elasticity(export.sheet.plane);
-    text += SOLVER;
-    text += HELPERS;
-    text += &format!("\n{}{}", globals.declaration(), globals.definitions);
+    text += &own(&[elasticity(export.sheet.plane)], &globals);
+    text += &globals.definitions();
     text += &format!("  U = iterate({});\n  U = U(1:{});\n", export.steps, export.u.len());
-    text + &beside("U", Value::from(Array::column(export.u.clone())))
+    text + &beside("U", column(&export.u))
 }
 
 /// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
@@ -161,11 +141,14 @@ fn head(title: &str, about: &str) -> String {
     )
 }
 
-fn elasticity(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Strain => STRAIN,
-        Plane::Stress => STRESS,
-    }
+/// Translates listings that the paper does not print, and adds the functions that Octave has under other names.
+fn own(texts: &[&str], globals: &Globals) -> String {
+    let translated = |text: &&str| function(&listing(text), "", Conjunction::Guarded, globals);
+    texts.iter().map(translated).collect::<String>() + HELPERS
+}
+
+fn column(entries: &[f64]) -> Value {
+    Array::column(entries.to_vec()).into()
 }
 
 /// Writes the statement that prints a result by its name, and what this program has for it beside.
@@ -173,33 +156,28 @@ fn beside(name: &str, ours: Value) -> String {
     format!("  beside('{name}', {name}, {});\n", literal(&ours))
 }
 
-/// The names of the worksheet, what they stand for, and the statements that define them.
-#[derive(Default)]
-struct Globals {
-    names: BTreeSet<&'static str>,
-    scalars: BTreeSet<&'static str>,
-    nested: BTreeSet<&'static str>,
-    definitions: String,
-}
+/// The names of the worksheet, and what they stand for.
+struct Globals(Vec<(&'static str, Value)>);
 
 impl Globals {
-    fn new(tables: impl IntoIterator<Item = (&'static str, Value)>) -> Self {
-        let mut globals = Globals::default();
-        for (table, value) in tables {
-            match &value {
-                Value::Number(_) => drop(globals.scalars.insert(table)),
-                Value::Nested(_) => drop(globals.nested.insert(table)),
-                Value::Array(_) | Value::Text(_) => {}
-            }
-            globals.names.insert(table);
-            globals.definitions += &format!("  {} = {};\n", ascii(table), literal(&value));
-        }
-        globals
+    fn value(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(global, _)| *global == name).map(|(_, value)| value)
     }
 
-    fn declaration(&self) -> String {
-        let names: Vec<_> = self.names.iter().map(|name| ascii(name)).collect();
-        format!("  global {}\n", names.join(" "))
+    /// Declares those of some names that are the worksheet's.
+    fn declaration<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> String {
+        let own = names.into_iter().filter(|name| self.value(name).is_some());
+        let own: Vec<_> = own.map(ascii).collect();
+        if own.is_empty() { String::new() } else { format!("  global {}\n", own.join(" ")) }
+    }
+
+    /// Declares and defines all of them.
+    fn definitions(&self) -> String {
+        let mut text = "\n".to_string() + &self.declaration(self.0.iter().map(|(name, _)| *name));
+        for (name, value) in &self.0 {
+            text += &format!("  {} = {};\n", ascii(name), literal(value));
+        }
+        text
     }
 }
 
@@ -240,7 +218,7 @@ fn function(listing: &Listing, more: &str, conjunction: Conjunction, globals: &G
         listing.parameters.iter().map(|slot| ascii(listing.names.name(*slot))).collect();
     let mut text =
         format!("\nfunction [value{more}] = {}({})\n", listing.function(), parameters.join(", "));
-    text += &globals.declaration();
+    text += &globals.declaration(listing.free_names());
     translator.block(&listing.program, 1, &mut text);
     text + "end\n"
 }
@@ -278,10 +256,9 @@ impl Translator<'_> {
             Kind::Apply(Compare(_) | All | Magnitude) => true,
             Kind::Literal(value) => value.number().is_some(),
             Kind::Name(name) => {
-                let is_global = self.globals.scalars.contains(self.listing.names.name(*name));
-                is_global || self.scalars.contains(name)
+                self.scalars.contains(name) || matches!(self.global(expr), Some(Value::Number(_)))
             }
-            Kind::Apply(Entry) => !self.is_nested(&parts[0]),
+            Kind::Apply(Entry) => !matches!(self.global(&parts[0]), Some(Value::Nested(_))),
             Kind::Group | Kind::Apply(Negative | Calculate(_)) => {
                 parts.iter().all(|part| self.is_scalar(part))
             }
@@ -293,10 +270,9 @@ impl Translator<'_> {
         }
     }
 
-    /// Returns whether it is the name of an array of arrays.
-    fn is_nested(&self, expr: &Expr) -> bool {
-        let name = expr.name().map(|name| self.listing.names.name(name));
-        name.is_some_and(|name| self.globals.nested.contains(name))
+    /// Returns what a name of the worksheet stands for.
+    fn global(&self, expr: &Expr) -> Option<&Value> {
+        self.globals.value(self.listing.names.name(expr.name()?))
     }
 
     fn block(&self, block: &[Statement], level: usize, text: &mut String) {
@@ -377,9 +353,9 @@ impl Translator<'_> {
             Operator::Column => return format!("{x}(:, {})", y()),
             Operator::Entry => {
                 let subscripts = self.list(&operands[1..]);
-                return match self.is_nested(&operands[0]) {
-                    true => format!("{x}{{{subscripts}}}"),
-                    false => format!("{x}({subscripts})"),
+                return match self.global(&operands[0]) {
+                    Some(Value::Nested(_)) => format!("{x}{{{subscripts}}}"),
+                    _ => format!("{x}({subscripts})"),
                 };
             }
             Operator::All => return self.all(operands),
