@@ -8,7 +8,6 @@ use super::failure::{Cause, Fallible, Subscripts};
 use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
-use super::sheet::Sheet;
 use super::sheet::{Defined, Numbers};
 use super::state::{Ended, Run, Variable};
 use super::syntax::{
@@ -74,7 +73,7 @@ impl Run<'_, '_, '_> {
         let values = self.cells.iter().filter_map(|cell| cell.value.as_ref());
         self.stored += values.map(Value::count).sum::<usize>();
         self.room(0)?;
-        if let Flow::Break | Flow::Continue = self.program()? {
+        if let Flow::Break | Flow::Continue = self.block(&self.listing.program)? {
             return Err(self.fail_line(Cause::OutsideLoop));
         }
         let Some(value) = self.last.take() else {
@@ -84,39 +83,6 @@ impl Run<'_, '_, '_> {
         let locals = names.filter(|(_, cell)| cell.local);
         let locals = locals.filter_map(|(name, cell)| Some((name.into(), cell.value?))).collect();
         Ok(Ended { value, locals, trace_output: self.trace })
-    }
-
-    /// Executes the program, its first statements once where they read no argument.
-    fn program(&mut self) -> Fallible<Flow> {
-        let (first, rest) = self.listing.program.split_at(self.listing.unchanging);
-        let (Some(begun), u64::MAX, false) = (self.begun, self.limits.steps, first.is_empty())
-        else {
-            return self.block(&self.listing.program);
-        };
-        let lines = rest.first().map_or(self.listing.lines.len(), |statement| statement.line);
-        let mut key = format!("{:?}\n", self.settings);
-        self.listing.lines[..lines].iter().for_each(|line| key += &format!("{line}\n"));
-        let names = self.listing.names_of(first);
-        self.sheet.into_iter().for_each(|sheet| sheet.write_programs(&names, &mut key));
-        let known = begun.borrow().get(&key).cloned();
-        if let Some((values, last)) = known {
-            for (slot, value) in values {
-                self.store(slot, value)?;
-            }
-            self.last = last;
-        } else {
-            let flow = self.block(first)?;
-            if flow != Flow::Next {
-                return Ok(flow);
-            }
-            if self.trace.is_empty() {
-                let cells = self.cells.iter().enumerate().filter(|(_, cell)| cell.local);
-                let written = cells.filter_map(|(slot, cell)| Some((slot, cell.value.clone()?)));
-                let values = (written.collect(), self.last.clone());
-                begun.borrow_mut().insert(key, values);
-            }
-        }
-        self.block(rest)
     }
 
     /// Returns the value of a program within an expression, whose names are those of the program around
@@ -314,30 +280,31 @@ impl Run<'_, '_, '_> {
                 let names = target.parts.iter().filter_map(Expr::name);
                 names.zip(entries).try_for_each(|(name, entry)| self.store(name, entry))
             }
-            Kind::Apply(Operator::Column) => {
-                let (name, origin) = (
-                    target.parts[0].name().expect("it has a name"),
-                    f64::from(self.settings.origin),
-                );
-                let held = self.cells[name].value.as_ref();
-                let held = held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)));
-                let rows = held.unwrap_or(value).size().0;
-                let entries = self.spread(value, (rows, 1), span)?;
-                let col = Some(self.number(&target.parts[1])?);
-                entries.into_iter().enumerate().try_for_each(|(k, entry)| {
-                    let subscripts = Subscripts { row: origin + k as f64, col };
-                    self.write(name, subscripts, entry)
-                        .map_err(|why| self.placed(why, &target.span))
-                })
-            }
+            Kind::Apply(Operator::Column) => self.assign_column(target, value, span),
             // The parser lets nothing else be assigned to than these and an entry.
             _ => {
-                let (name, subscripts) =
-                    (target.parts[0].name().expect("it has a name"), self.subscripts(target)?);
-                self.write(name, subscripts, value.clone())
-                    .map_err(|why| self.placed(why, &target.span))
+                let subscripts = self.subscripts(target)?;
+                self.write_to(target, subscripts, value.clone())
             }
         }
+    }
+
+    fn assign_column(&mut self, target: &Expr, value: &Value, span: &Span) -> Fallible<()> {
+        let held = target.parts[0].name().and_then(|name| self.cells[name].value.as_ref());
+        let held = held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)));
+        let rows = held.unwrap_or(value).size().0;
+        let entries = self.spread(value, (rows, 1), span)?;
+        let col = Some(self.number(&target.parts[1])?);
+        let origin = f64::from(self.settings.origin);
+        entries.into_iter().enumerate().try_for_each(|(k, entry)| {
+            self.write_to(target, Subscripts { row: origin + k as f64, col }, entry)
+        })
+    }
+
+    fn write_to(&mut self, target: &Expr, subscripts: Subscripts, value: Value) -> Fallible<()> {
+        let name = target.parts[0].name().expect("an entry that is assigned to has a name");
+        let written = self.write(name, subscripts, value);
+        written.map_err(|failure| self.placed(failure, &target.span))
     }
 
     /// Returns the entries of a value that has so many rows and columns.
@@ -809,7 +776,6 @@ impl Run<'_, '_, '_> {
             recorder: None,
             line: 0,
             spent: self.spent,
-            begun: sheet.map(Sheet::begun),
             stored: self.stored,
             depth,
             last: None,

@@ -37,8 +37,6 @@ pub struct Listing {
     pub(super) assigned: Vec<bool>,
     /// How deep its blocks and expressions stand within each other.
     pub(super) depth: usize,
-    /// How many of its first statements neither read nor write a parameter.
-    pub(super) unchanging: usize,
 }
 
 /// The line between the two blocks of `try`.
@@ -71,20 +69,6 @@ fn uses(block: &[Statement], used: &mut dyn FnMut(Slot, bool)) {
         statement.on_line().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
         statement.step.blocks().into_iter().for_each(|block| uses(block, used));
     }
-}
-
-/// Returns how many of the first statements neither read nor write a parameter: loops and assignments, each
-/// without a condition, on which an `otherwise` below could depend.
-fn unchanging(program: &[Statement], parameters: &[Slot], names: usize) -> usize {
-    let is_unchanging = |statement: &&Statement| {
-        let mut used = vec![false; names];
-        uses(std::slice::from_ref(*statement), &mut |slot, _| used[slot] = true);
-        survey(std::slice::from_ref(*statement), &mut |slot| used[slot] = true);
-        matches!(statement.step, Step::For { .. } | Step::Assign { .. })
-            && statement.guard.is_none()
-            && parameters.iter().all(|slot| !used[*slot])
-    };
-    program.iter().take_while(is_unchanging).count()
 }
 
 /// Hands over the names that programs within an expression write to.
@@ -166,9 +150,8 @@ impl Listing {
         let names = reader.names;
         let mut assigned = vec![false; names.len()];
         let depth = survey(&program, &mut |slot| assigned[slot] = true);
-        let unchanging = unchanging(&program, &parameters, names.len());
         let name = name.into();
-        Ok(Listing { name, names, parameters, program, lines, assigned, depth, unchanging })
+        Ok(Listing { name, names, parameters, program, lines, assigned, depth })
     }
 
     /// Returns the listing's name, as its header has it.
@@ -188,15 +171,10 @@ impl Listing {
             let slot = self.names.find(name).expect("it is one of its names");
             self.assigned[slot] || self.parameters.contains(&slot)
         };
-        self.names_of(&self.program).into_iter().filter(|name| !is_own(name)).collect()
-    }
-
-    /// Returns the names that some of its statements read or call.
-    pub(super) fn names_of(&self, block: &[Statement]) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
-        uses(block, &mut |slot, _| used[slot] = true);
-        let used = used.iter().enumerate().filter(|(_, used)| **used);
-        used.map(|(slot, _)| self.names.name(slot)).collect()
+        uses(&self.program, &mut |slot, _| used[slot] = true);
+        let used = self.names.all().zip(used).filter(|(_, used)| *used);
+        used.map(|(name, _)| name).filter(|name| !is_own(name)).collect()
     }
 
     /// Returns whether the program calls a function of that name.

@@ -123,7 +123,6 @@ impl<'l> Runner<'l> {
             recorder,
             line: 0,
             spent,
-            begun: None,
             stored: 0,
             depth: listing.depth,
             last: None,

@@ -1,8 +1,8 @@
 //! The state of a run: the values of its names, its current line, and how much of the limits it has
 //! used.
 
-use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, HashMap};
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::arithmetic::kind;
@@ -22,13 +22,6 @@ pub struct Variable {
     pub value: Option<Value>,
     pub local: bool,
 }
-
-/// What programs called in a worksheet have after their first statements that read no argument: the names that
-/// these write to, with their values, and the value of the last statement; by what the statements say.
-///
-/// Kept where steps are not counted. The corrected algorithm assembles the stiffness of the bodies once for a mesh:
-/// `audit strand --prices` takes 18 s of CPU time in place of the 24 s of once a run.
-pub type Begun = RefCell<HashMap<String, (Vec<(Slot, Value)>, Option<Value>)>>;
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
@@ -54,8 +47,6 @@ pub struct Run<'r, 'l, 'f> {
     pub line: usize,
     /// The steps taken, those of the functions that were called too; `limits.steps` bounds them.
     pub spent: &'r Cell<u64>,
-    /// What programs that were called before begin with; nothing for a program that none called.
-    pub begun: Option<&'r Begun>,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
     /// How deep blocks and expressions stand within each other, the calls that led here included;
