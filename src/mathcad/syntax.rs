@@ -227,12 +227,6 @@ impl Statement {
         own.into_iter().chain(&self.guard).collect()
     }
 
-    /// Returns the expressions of the statement, and of those below it.
-    fn expressions(&self) -> Vec<&Expr> {
-        let below = self.step.blocks().into_iter().flatten().flat_map(Statement::expressions);
-        self.on_line().into_iter().chain(below).collect()
-    }
-
     /// Returns the condition that decides whether the statement is executed, if it has one.
     pub fn condition(&self) -> Option<&Expr> {
         if let Step::If { condition, .. } = &self.step {
@@ -241,10 +235,14 @@ impl Statement {
         self.guard.as_ref()
     }
 
-    /// Returns how deep statements stand below it, itself included.
-    fn levels(&self) -> usize {
-        let below = self.step.blocks().into_iter().flatten().map(Statement::levels);
-        1 + below.max().unwrap_or(0)
+    /// Returns how deep statements and expressions stand within each other, at most `limit`.
+    pub fn depth(&self, limit: usize) -> usize {
+        if limit == 0 {
+            return 0;
+        }
+        let own = self.on_line().into_iter().map(|expr| expr.depth(limit - 1));
+        let below = self.step.blocks().into_iter().flatten().map(|below| below.depth(limit - 1));
+        1 + own.chain(below).max().unwrap_or(0)
     }
 }
 
@@ -323,14 +321,6 @@ impl Comparison {
 }
 
 impl Expr {
-    /// Returns the expressions directly inside: its parts, and those of its statements.
-    pub fn children(&self) -> Vec<&Expr> {
-        match &self.kind {
-            Kind::Program(block) => block.iter().flat_map(Statement::expressions).collect(),
-            _ => self.parts.iter().collect(),
-        }
-    }
-
     /// Returns the names that an assignment to it writes to: of `x`, `x[i,j]` and `x⟨j⟩` one, of `(x   y)` those
     /// of its entries; nothing of what cannot be assigned to.
     pub fn targets(&self) -> Option<Vec<Slot>> {
@@ -377,14 +367,14 @@ impl Expr {
         }
     }
 
-    /// Returns how deep expressions stand within each other, at most `limit`.
+    /// Returns how deep expressions and statements stand within each other, at most `limit`.
     pub fn depth(&self, limit: usize) -> usize {
         if limit == 0 {
             return 0;
         }
         let program: &[Statement] = if let Kind::Program(block) = &self.kind { block } else { &[] };
-        let own = program.iter().map(Statement::levels).max().unwrap_or(0);
-        let inside = self.children().into_iter().map(|part| part.depth(limit - 1)).max();
-        1 + own + inside.unwrap_or(0)
+        let inside = self.parts.iter().map(|part| part.depth(limit - 1));
+        let inside = inside.chain(program.iter().map(|statement| statement.depth(limit - 1)));
+        1 + inside.max().unwrap_or(0)
     }
 }

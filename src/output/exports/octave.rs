@@ -392,6 +392,6 @@ impl Translator<'_> {
     fn can_fail(&self, expr: &Expr) -> bool {
         use Operator::*;
         let own = matches!(expr.kind, Kind::Apply(Entry | Column | Calculate(Operation::Divide)));
-        own || expr.children().into_iter().any(|part| self.can_fail(part))
+        own || expr.parts.iter().any(|part| self.can_fail(part))
     }
 }
