@@ -5,14 +5,13 @@
 
 use super::arithmetic::{calculate, compare, cost, kind, map, negative, operate, power, transpose};
 use super::failure::{Cause, Fallible, Subscripts};
-use super::function::{Builtin, FUNCTION, Function, Meaning, elementary, exactly};
+use super::function::{Builtin, FUNCTION, Function, Meaning, elementary};
 use super::matrices;
 use super::settings::Conjunction;
-use super::sheet::Sheet;
 use super::sheet::{Defined, Numbers};
-use super::state::{Outcome, Run, Variable};
+use super::state::{Ended, Run, Variable};
 use super::syntax::{
-    Comparison, Expr, Kind, Operation, Range, Reference, Slot, Span, Spread, Statement, Step,
+    Comparison, Expr, Kind, Operation, Operator, Range, Slot, Span, Statement, Step,
 };
 use super::value::{Array, Grid, Value};
 
@@ -63,7 +62,7 @@ impl Turns {
 
 impl Run<'_, '_, '_> {
     /// Runs the program to its end, and returns what it leaves behind.
-    pub fn run(mut self, arguments: &[Value]) -> Fallible<Outcome> {
+    pub fn run(mut self, arguments: &[Value]) -> Fallible<Ended> {
         let (expected, found) = (self.listing.parameters.len(), arguments.len());
         if expected != found {
             return Err(self.fail_line(Cause::Arguments { expected, found }));
@@ -74,7 +73,7 @@ impl Run<'_, '_, '_> {
         let values = self.cells.iter().filter_map(|cell| cell.value.as_ref());
         self.stored += values.map(Value::count).sum::<usize>();
         self.room(0)?;
-        if let Flow::Break | Flow::Continue = self.program()? {
+        if let Flow::Break | Flow::Continue = self.block(&self.listing.program)? {
             return Err(self.fail_line(Cause::OutsideLoop));
         }
         let Some(value) = self.last.take() else {
@@ -83,40 +82,7 @@ impl Run<'_, '_, '_> {
         let names = self.listing.names.all().zip(self.cells);
         let locals = names.filter(|(_, cell)| cell.local);
         let locals = locals.filter_map(|(name, cell)| Some((name.into(), cell.value?))).collect();
-        Ok(Outcome { value, locals, trace_output: self.trace })
-    }
-
-    /// Executes the program, its first statements once where they read no argument.
-    fn program(&mut self) -> Fallible<Flow> {
-        let (first, rest) = self.listing.program.split_at(self.listing.unchanging);
-        let (Some(begun), u64::MAX, false) = (self.begun, self.limits.steps, first.is_empty())
-        else {
-            return self.block(&self.listing.program);
-        };
-        let lines = rest.first().map_or(self.listing.lines.len(), |statement| statement.line);
-        let mut key = format!("{:?}\n", self.settings);
-        self.listing.lines[..lines].iter().for_each(|line| key += &format!("{line}\n"));
-        let names = self.listing.names_of(first);
-        self.sheet.into_iter().for_each(|sheet| sheet.write_programs(&names, &mut key));
-        let known = begun.borrow().get(&key).cloned();
-        if let Some((values, last)) = known {
-            for (slot, value) in values {
-                self.store(slot, value)?;
-            }
-            self.last = last;
-        } else {
-            let flow = self.block(first)?;
-            if flow != Flow::Next {
-                return Ok(flow);
-            }
-            if self.trace.is_empty() {
-                let cells = self.cells.iter().enumerate().filter(|(_, cell)| cell.local);
-                let written = cells.filter_map(|(slot, cell)| Some((slot, cell.value.clone()?)));
-                let values = (written.collect(), self.last.clone());
-                begun.borrow_mut().insert(key, values);
-            }
-        }
-        self.block(rest)
+        Ok(Ended { value, locals, trace_output: self.trace })
     }
 
     /// Returns the value of a program within an expression, whose names are those of the program around
@@ -173,22 +139,12 @@ impl Run<'_, '_, '_> {
             Step::Break => return Ok(Flow::Break),
             Step::Continue => return Ok(Flow::Continue),
             Step::Assign { target, value } => {
+                let span = &value.span;
                 let value = self.eval(value)?;
                 // Lets go of an array first: shared with the value of the last statement, it would be
                 // copied.
                 self.last = None;
-                match self.subscripts(target)? {
-                    None => self.store(target.name, value.clone())?,
-                    Some(subscripts) => self
-                        .write(target.name, subscripts, value.clone())
-                        .map_err(|failure| self.placed(failure, &target.span))?,
-                }
-                self.last = Some(value);
-            }
-            Step::Spread { to, value } => {
-                let span = value.span.clone();
-                let value = self.eval(value)?;
-                self.spread(to, &value, &span)?;
+                self.assign(target, &value, span)?;
                 self.last = Some(value);
             }
             Step::Evaluate { value } => self.last = Some(self.eval(value)?),
@@ -256,18 +212,16 @@ impl Run<'_, '_, '_> {
 
     /// Returns the values of a loop's variable.
     fn turns(&mut self, range: &Range) -> Fallible<Turns> {
-        match range {
-            Range::Over(values) => match self.range_variable(values) {
+        let Some(to) = &range.to else {
+            return match self.range_variable(&range.values) {
                 Some(numbers) => self.span(numbers),
-                None => self.values(values).map(Turns::Over),
-            },
-            Range::Span { from, second, to } => {
-                let from = self.number(from)?;
-                let second = second.as_ref().map(|second| self.number(second)).transpose()?;
-                let to = self.number(to)?;
-                self.span((from, second, to))
-            }
-        }
+                None => self.values(&range.values).map(Turns::Over),
+            };
+        };
+        let from = self.number(&range.values[0])?;
+        let second = range.values.get(1).map(|second| self.number(second)).transpose()?;
+        let to = self.number(to)?;
+        self.span((from, second, to))
     }
 
     /// Returns the numbers of a range.
@@ -293,11 +247,10 @@ impl Run<'_, '_, '_> {
 
     /// Returns the numbers of the worksheet's range variable, if a loop runs over one.
     fn range_variable(&self, values: &[Expr]) -> Option<Numbers> {
-        let [Expr { kind: Kind::Read(Reference { name, row: None, .. }), .. }] = values else {
-            return None;
-        };
-        let has_value = self.cells[*name].value.is_some();
-        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(*name))
+        let [value] = values else { return None };
+        let name = value.name()?;
+        let has_value = self.cells[name].value.is_some();
+        self.sheet.filter(|_| !has_value)?.range(self.listing.names.name(name))
     }
 
     /// Returns what a loop runs over: a value, or the entries of several as one column.
@@ -316,33 +269,54 @@ impl Run<'_, '_, '_> {
         Ok(Value::grid(Grid::column(entries)))
     }
 
-    /// Assigns the entries of a value to names that stand as they do, or to a column of an array.
-    fn spread(&mut self, to: &Spread, value: &Value, span: &Span) -> Fallible<()> {
-        self.last = None;
-        let rows = match to {
-            Spread::Names { names, cols } => names.len() / cols,
-            Spread::Column { name, .. } => {
-                let held = self.cells[*name].value.as_ref();
-                held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)))
-                    .map_or(value.size().0, |held| held.size().0)
+    /// Assigns a value to a name or to an entry; or its entries to names that stand as they do, or to a column
+    /// of an array. It is that of an expression at `span`.
+    fn assign(&mut self, target: &Expr, value: &Value, span: &Span) -> Fallible<()> {
+        match target.kind {
+            Kind::Name(name) => self.store(name, value.clone()),
+            Kind::Array { cols } => {
+                let rows = target.parts.len() / cols;
+                let entries = self.spread(value, (rows, cols), span)?;
+                let names = target.parts.iter().filter_map(Expr::name);
+                names.zip(entries).try_for_each(|(name, entry)| self.store(name, entry))
             }
-        };
-        let cols = if let Spread::Names { cols, .. } = to { *cols } else { 1 };
-        let entries = matrices::spread(value, rows, cols).map_err(|why| self.fail(span, why))?;
-        self.afford(value.count())?;
-        match to {
-            Spread::Names { names, .. } => {
-                names.iter().zip(entries).try_for_each(|(name, entry)| self.store(*name, entry))
-            }
-            Spread::Column { name, span, column } => {
-                let col = Some(self.number(column)?);
-                let origin = f64::from(self.settings.origin);
-                entries.into_iter().enumerate().try_for_each(|(k, entry)| {
-                    let subscripts = Subscripts { row: origin + k as f64, col };
-                    self.write(*name, subscripts, entry).map_err(|why| self.placed(why, span))
-                })
+            Kind::Apply(Operator::Column) => self.assign_column(target, value, span),
+            // The parser lets nothing else be assigned to than these and an entry.
+            _ => {
+                let subscripts = self.subscripts(target)?;
+                self.write_to(target, subscripts, value.clone())
             }
         }
+    }
+
+    fn assign_column(&mut self, target: &Expr, value: &Value, span: &Span) -> Fallible<()> {
+        let held = target.parts[0].name().and_then(|name| self.cells[name].value.as_ref());
+        let held = held.filter(|held| !matches!(held, Value::Number(_) | Value::Text(_)));
+        let rows = held.unwrap_or(value).size().0;
+        let entries = self.spread(value, (rows, 1), span)?;
+        let col = Some(self.number(&target.parts[1])?);
+        let origin = f64::from(self.settings.origin);
+        entries.into_iter().enumerate().try_for_each(|(k, entry)| {
+            self.write_to(target, Subscripts { row: origin + k as f64, col }, entry)
+        })
+    }
+
+    fn write_to(&mut self, target: &Expr, subscripts: Subscripts, value: Value) -> Fallible<()> {
+        let name = target.parts[0].name().expect("an entry that is assigned to has a name");
+        let written = self.write(name, subscripts, value);
+        written.map_err(|failure| self.placed(failure, &target.span))
+    }
+
+    /// Returns the entries of a value that has so many rows and columns.
+    fn spread(
+        &self,
+        value: &Value,
+        (rows, cols): (usize, usize),
+        span: &Span,
+    ) -> Fallible<Vec<Value>> {
+        let entries = matrices::spread(value, rows, cols).map_err(|why| self.fail(span, why))?;
+        self.afford(value.count())?;
+        Ok(entries)
     }
 
     fn eval(&mut self, expr: &Expr) -> Fallible<Value> {
@@ -351,88 +325,15 @@ impl Run<'_, '_, '_> {
     }
 
     fn value_of(&mut self, expr: &Expr) -> Fallible<Value> {
+        let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => Ok(Value::Number(*x)),
-            Kind::Text(text) => Ok(Value::Text(text.clone())),
-            Kind::Read(reference) => {
-                let subscripts = self.subscripts(reference)?;
-                self.read(reference, subscripts)
-            }
-            Kind::Group(x) => self.eval(x),
-            Kind::Entry { of, subscripts } => {
-                let value = self.eval(of)?;
-                let row = self.number(&subscripts[0])?;
-                let col = subscripts.get(1).map(|col| self.number(col)).transpose()?;
-                let name = || self.text(&of.span).into();
-                let origin = self.settings.origin;
-                Ok(matrices::entry(&value, Subscripts { row, col }, origin, &name)?)
-            }
-            Kind::Array { entries, cols } => self.array(entries, *cols),
-            Kind::Magnitude(x) => {
-                let x = self.eval(x)?;
-                self.spend(matrices::steps(&x))?;
-                Ok(matrices::magnitude(&x)?)
-            }
-            Kind::Not(x) => Ok(truth_value(!self.truth(x)?)),
-            Kind::Power(x, y) => {
-                let (x, y) = (self.eval(x)?, self.number(y)?);
-                self.spend(FUNCTION)?;
-                Ok(match x {
-                    Value::Number(x) => Value::Number(power(x, y)?),
-                    matrix if y == -1.0 => {
-                        self.afford(matrix.count())?;
-                        // The elimination, and twice as much for the unit columns.
-                        self.spend(3 * matrices::steps(&matrix))?;
-                        matrices::inverse(&matrix)?
-                    }
-                    Value::Array(column) if column.cols() == 1 => {
-                        self.afford(column.rows())?;
-                        self.spend(FUNCTION * column.rows() as u64)?;
-                        map(column, |x| power(x, y))?
-                    }
-                    matrix if (1.0..=LARGEST_POWER).contains(&y) && y.fract() == 0.0 => {
-                        self.repeated(matrix, y)?
-                    }
-                    other => {
-                        let expected =
-                            "a number, a column, or a matrix to a power of −1, 1, 2, ...";
-                        return Err(kind(expected, &other).into());
-                    }
-                })
-            }
-            Kind::Column(x, j) => {
-                let (x, j) = (self.eval(x)?, self.number(j)?);
-                self.afford(x.count())?;
-                Ok(matrices::column(&x, j, self.settings.origin)?)
-            }
-            Kind::Series { function, name, parts } => self.series(*function, *name, parts),
-            Kind::Negative(x) => {
-                let x = self.eval(x)?;
-                self.afford(x.count())?;
-                Ok(negative(x)?)
-            }
-            Kind::Transpose(x) => {
-                let x = self.eval(x)?;
-                self.afford(x.count())?;
-                Ok(transpose(x)?)
-            }
-            Kind::Arithmetic(operation, x, y) => {
-                let x = self.eval(x)?;
-                // The left operand counts as stored while the right one is evaluated.
-                self.stored += x.count();
-                let y = self.eval(y);
-                self.stored -= x.count();
-                self.operate(*operation, x, y?)
-            }
-            Kind::Compare(comparison, x, y) => {
-                let left = self.eval(x)?;
-                self.compared(*comparison, (x, &left), y).map(|(truth, _)| truth_value(truth))
-            }
-            Kind::Chain(x, rest) => self.chain(x, rest).map(truth_value),
-            Kind::All(operands) => self.decide(operands, false),
-            Kind::Any(operands) => self.decide(operands, true),
-            Kind::Program(block) => self.inner(block),
-            Kind::Call(name, arguments) => match (&self.functions[*name], arguments.as_slice()) {
+            Kind::Literal(value) => Ok(value.clone()),
+            Kind::Name(name) => self.read(*name, None),
+            Kind::Group => self.eval(&parts[0]),
+            Kind::Array { cols } => self.array(parts, *cols),
+            Kind::Apply(operator) => self.applied(*operator, expr),
+            Kind::Chain(comparisons) => self.compared(comparisons, parts).map(truth_value),
+            Kind::Call(name) => match (&self.functions[*name], parts) {
                 (None, _) => Err(self.undefined(*name, true).into()),
                 (Some(Function::Builtin(Builtin { meaning: Meaning::Vectorize, .. })), [x]) => {
                     self.vectorized(x)
@@ -443,11 +344,93 @@ impl Run<'_, '_, '_> {
                     self.call(*name, &arguments)
                 }
             },
-            Kind::If(parts) => {
-                let [condition, x, y] = &**parts;
-                if self.truth(condition)? { self.eval(x) } else { self.eval(y) }
+            Kind::If => {
+                let chosen = if self.truth(&parts[0])? { &parts[1] } else { &parts[2] };
+                self.eval(chosen)
+            }
+            Kind::Series { function, name } => self.series(*function, *name, parts),
+            Kind::Program(block) => self.inner(block),
+        }
+    }
+
+    /// Returns what an operator makes of its operands.
+    fn applied(&mut self, operator: Operator, expr: &Expr) -> Fallible<Value> {
+        let operands = expr.parts.as_slice();
+        match operator {
+            Operator::All => self.decide(operands, false),
+            Operator::Any => self.decide(operands, true),
+            Operator::Not => Ok(truth_value(!self.truth(&operands[0])?)),
+            Operator::Compare(comparison) => {
+                self.compared(&[comparison], operands).map(truth_value)
+            }
+            Operator::Calculate(operation) => {
+                let x = self.eval(&operands[0])?;
+                // The left operand counts as stored while the right one is evaluated.
+                self.stored += x.count();
+                let y = self.eval(&operands[1]);
+                self.stored -= x.count();
+                self.operate(operation, x, y?)
+            }
+            Operator::Negative => {
+                let x = self.eval(&operands[0])?;
+                self.afford(x.count())?;
+                Ok(negative(x)?)
+            }
+            Operator::Power => {
+                let (x, y) = (self.eval(&operands[0])?, self.number(&operands[1])?);
+                self.raised(x, y)
+            }
+            Operator::Transpose => {
+                let x = self.eval(&operands[0])?;
+                self.afford(x.count())?;
+                Ok(transpose(x)?)
+            }
+            Operator::Entry => {
+                if let Some(name) = operands[0].name() {
+                    let subscripts = self.subscripts(expr)?;
+                    return self.read(name, Some(subscripts));
+                }
+                let (value, subscripts) = (self.eval(&operands[0])?, self.subscripts(expr)?);
+                let name = || self.text(&operands[0].span).into();
+                Ok(matrices::entry(&value, subscripts, self.settings.origin, &name)?)
+            }
+            Operator::Column => {
+                let (x, j) = (self.eval(&operands[0])?, self.number(&operands[1])?);
+                self.afford(x.count())?;
+                Ok(matrices::column(&x, j, self.settings.origin)?)
+            }
+            Operator::Magnitude => {
+                let x = self.eval(&operands[0])?;
+                self.spend(matrices::steps(&x))?;
+                Ok(matrices::magnitude(&x)?)
             }
         }
+    }
+
+    /// Returns a value to a power.
+    fn raised(&mut self, x: Value, y: f64) -> Fallible<Value> {
+        self.spend(FUNCTION)?;
+        Ok(match x {
+            Value::Number(x) => Value::Number(power(x, y)?),
+            matrix if y == -1.0 => {
+                self.afford(matrix.count())?;
+                // The elimination, and twice as much for the unit columns.
+                self.spend(3 * matrices::steps(&matrix))?;
+                matrices::inverse(&matrix)?
+            }
+            Value::Array(column) if column.cols() == 1 => {
+                self.afford(column.rows())?;
+                self.spend(FUNCTION * column.rows() as u64)?;
+                map(column, |x| power(x, y))?
+            }
+            matrix if (1.0..=LARGEST_POWER).contains(&y) && y.fract() == 0.0 => {
+                self.repeated(matrix, y)?
+            }
+            other => {
+                let expected = "a number, a column, or a matrix to a power of −1, 1, 2, ...";
+                return Err(kind(expected, &other).into());
+            }
+        })
     }
 
     fn number(&mut self, expr: &Expr) -> Fallible<f64> {
@@ -457,41 +440,30 @@ impl Run<'_, '_, '_> {
         }
     }
 
-    /// Compares a value with that of an expression: a number with a number, a string with a string by
-    /// the codes of their characters. Returns the other value too.
-    fn compared(
-        &mut self,
-        comparison: Comparison,
-        (at, left): (&Expr, &Value),
-        right: &Expr,
-    ) -> Fallible<(bool, Value)> {
-        let expected = match left {
-            Value::Number(_) => "a number",
-            Value::Text(_) => "a string",
-            other => return Err(self.fail(&at.span, kind("a number", other))),
-        };
-        let other = self.eval(right)?;
-        let truth = match (left, &other) {
-            (Value::Number(x), Value::Number(y)) => compare(comparison, *x, *y, self.settings),
-            (Value::Text(x), Value::Text(y)) => {
-                self.spend(left.count() as u64)?;
-                comparison.is_true_of(x.cmp(y))
-            }
-            _ => return Err(self.fail(&right.span, kind(expected, &other))),
-        };
-        Ok((truth, other))
-    }
-
-    /// Returns whether all comparisons of a chain are true; after a false one the rest is evaluated
-    /// only if `∧` evaluates everything.
-    fn chain(&mut self, first: &Expr, rest: &[(Comparison, Expr)]) -> Fallible<bool> {
-        let (mut at, mut left, mut all) = (first, self.eval(first)?, true);
-        for (comparison, right) in rest {
+    /// Returns whether the comparisons of each operand with the next are all true; after a false one the rest is
+    /// evaluated only if `∧` evaluates everything. A number is compared with a number, a string with a string
+    /// by the codes of their characters.
+    fn compared(&mut self, comparisons: &[Comparison], operands: &[Expr]) -> Fallible<bool> {
+        let (mut left, mut all) = (self.eval(&operands[0])?, true);
+        for (comparison, pair) in comparisons.iter().zip(operands.windows(2)) {
             if !all && self.settings.conjunction != Conjunction::Eager {
                 break;
             }
-            let (truth, value) = self.compared(*comparison, (at, &left), right)?;
-            (at, left, all) = (right, value, all && truth);
+            let expected = match &left {
+                Value::Number(_) => "a number",
+                Value::Text(_) => "a string",
+                other => return Err(self.fail(&pair[0].span, kind("a number", other))),
+            };
+            let right = self.eval(&pair[1])?;
+            all &= match (&left, &right) {
+                (Value::Number(x), Value::Number(y)) => compare(*comparison, *x, *y, self.settings),
+                (Value::Text(x), Value::Text(y)) => {
+                    self.spend(left.count() as u64)?;
+                    comparison.is_true_of(x.cmp(y))
+                }
+                _ => return Err(self.fail(&pair[1].span, kind(expected, &right))),
+            };
+            left = right;
         }
         Ok(all)
     }
@@ -501,14 +473,11 @@ impl Run<'_, '_, '_> {
         Ok(self.number(expr)? != 0.0)
     }
 
-    /// Returns the subscripts of a name, or nothing where it has none.
-    fn subscripts(&mut self, reference: &Reference) -> Fallible<Option<Subscripts>> {
-        let Some(row) = &reference.row else {
-            return Ok(None);
-        };
-        let row = self.number(row)?;
-        let col = reference.col.as_ref().map(|col| self.number(col)).transpose()?;
-        Ok(Some(Subscripts { row, col }))
+    /// Returns the subscripts of an entry.
+    fn subscripts(&mut self, entry: &Expr) -> Fallible<Subscripts> {
+        let row = self.number(&entry.parts[1])?;
+        let col = entry.parts.get(2).map(|col| self.number(col)).transpose()?;
+        Ok(Subscripts { row, col })
     }
 
     /// Returns the values of expressions; each counts as stored while the next is evaluated.
@@ -641,38 +610,29 @@ impl Run<'_, '_, '_> {
     }
 
     fn entry_by_entry(&mut self, expr: &Expr) -> Fallible<Value> {
+        use Operator::*;
         match &expr.kind {
-            Kind::Group(x) => return self.vectorized(x),
-            Kind::Number(_)
-            | Kind::Text(_)
-            | Kind::Read(_)
-            | Kind::Entry { .. }
-            | Kind::Array { .. }
-            | Kind::Column(..) => return self.eval(expr),
-            Kind::Call(name, _) if self.functions[*name].is_none() => {
+            Kind::Group => return self.vectorized(&expr.parts[0]),
+            Kind::Literal(_) | Kind::Name(_) | Kind::Array { .. } | Kind::Apply(Entry | Column) => {
+                return self.eval(expr);
+            }
+            Kind::Call(name) if self.functions[*name].is_none() => {
                 return Err(self.undefined(*name, true).into());
             }
-            Kind::Magnitude(_)
-            | Kind::Negative(_)
-            | Kind::Power(..)
-            | Kind::Arithmetic(..)
-            | Kind::Compare(..)
-            | Kind::Call(..) => {}
-            Kind::Not(_)
-            | Kind::Transpose(_)
-            | Kind::Chain(..)
-            | Kind::All(_)
-            | Kind::Any(_)
-            | Kind::If(_)
+            Kind::Apply(Magnitude | Negative | Power | Calculate(_) | Compare(_))
+            | Kind::Call(_) => {}
+            Kind::Apply(Not | Transpose | All | Any)
+            | Kind::Chain(_)
+            | Kind::If
             | Kind::Series { .. }
             | Kind::Program(_) => {
                 let construct = format!("vectorize of `{}`", self.text(&expr.span));
                 return Err(Cause::Unsupported { construct }.into());
             }
         }
-        let operands = self.held(expr.parts(), Self::vectorized)?;
+        let operands = self.held(&expr.parts, Self::vectorized)?;
         let mut arrays = operands.iter().filter(|operand| operand.number().is_none());
-        let Some(first) = arrays.next() else { return self.applied(expr, &operands) };
+        let Some(first) = arrays.next() else { return self.at(expr, &operands, (0, 0)) };
         if let Some(other) = arrays.find(|other| other.size() != first.size()) {
             return Err(Cause::sizes("→", first.size(), other.size()).into());
         }
@@ -680,31 +640,20 @@ impl Run<'_, '_, '_> {
         self.afford(rows * cols)?;
         let mut entries = Vec::with_capacity(rows * cols);
         for (i, j) in (0..rows).flat_map(|i| (0..cols).map(move |j| (i, j))) {
-            let at = operands.iter().map(|x| x.entry(i, j).unwrap_or_else(|| x.clone()));
-            let at: Vec<Value> = at.collect();
-            entries.push(self.applied(expr, &at)?);
+            entries.push(self.at(expr, &operands, (i, j))?);
         }
         Ok(Value::grid(Grid::from_rows(cols.max(1), entries)))
     }
 
-    /// Returns what an operation or function that [`Self::vectorized`] takes makes of numbers.
-    fn applied(&mut self, expr: &Expr, operands: &[Value]) -> Fallible<Value> {
+    /// Evaluates an operation or function that [`Self::vectorized`] takes, of an entry of each operand.
+    fn at(&mut self, expr: &Expr, operands: &[Value], (i, j): (usize, usize)) -> Fallible<Value> {
         self.spend(FUNCTION)?;
-        let numbers: Option<Vec<f64>> = operands.iter().map(Value::number).collect();
-        let result = match (&expr.kind, numbers.as_deref()) {
-            (Kind::Call(name, _), _) => return self.call(*name, operands),
-            (Kind::Magnitude(_), Some([x])) => Ok(x.abs()),
-            (Kind::Negative(_), Some([x])) => Ok(-x),
-            (Kind::Power(..), Some([x, y])) => power(*x, *y),
-            (Kind::Arithmetic(operation, ..), Some([x, y])) => {
-                calculate(*operation, *x, *y, self.settings)
-            }
-            (Kind::Compare(comparison, ..), Some([x, y])) => {
-                return Ok(truth_value(compare(*comparison, *x, *y, self.settings)));
-            }
-            (_, _) => Err(kind("a number or an array of numbers", &operands[0])),
-        };
-        Ok(Value::Number(result?))
+        let parts = expr.parts.iter().zip(operands).map(|(part, operand)| {
+            let entry = operand.entry(i, j).unwrap_or_else(|| operand.clone());
+            Expr { kind: Kind::Literal(entry), parts: vec![], span: part.span.clone() }
+        });
+        let parts = parts.collect();
+        self.eval(&Expr { kind: expr.kind.clone(), parts, span: expr.span.clone() })
     }
 
     /// Returns what the operands of an `∧` or `∨` decide together, by the worksheet's method of
@@ -773,20 +722,19 @@ impl Run<'_, '_, '_> {
             }
             Some(Function::Builtin(builtin)) => *builtin,
         };
+        if !builtin.arguments.contains(&arguments.len()) {
+            let (expected, found) = (*builtin.arguments.end(), arguments.len());
+            return Err(Cause::Arguments { expected, found }.into());
+        }
         let (numbers, steps) = (builtin.cost)(arguments);
         self.room(numbers)?;
         self.spend(steps)?;
-        let name = builtin.name;
         Ok(match builtin.meaning {
-            Meaning::Elementary(function, pole) => elementary(arguments, function, pole, name)?,
-            Meaning::Numbers(function) => Value::Number(function(arguments, name)?),
-            Meaning::One(function) => exactly(arguments).and_then(|[x]| function(x))?,
-            Meaning::Two(function) => exactly(arguments).and_then(|[x, y]| function(x, y))?,
-            Meaning::Values(function) => function(arguments)?,
-            Meaning::Subscripts(function) => function(arguments, self.settings.origin)?,
-            Meaning::Vectorize => {
-                return Err(Cause::Arguments { expected: 1, found: arguments.len() }.into());
+            Meaning::Elementary(function, pole) => {
+                elementary(&arguments[0], function, pole, builtin.name)?
             }
+            Meaning::Values(function) => function(arguments, self.settings.origin)?,
+            Meaning::Vectorize => unreachable!("its argument is no value but an expression"),
             Meaning::Trace => {
                 let line = arguments.iter().map(Value::to_string).collect::<Vec<_>>().join(" ");
                 let value = Value::Text(line.as_str().into());
@@ -828,7 +776,6 @@ impl Run<'_, '_, '_> {
             recorder: None,
             line: 0,
             spent: self.spent,
-            begun: sheet.map(Sheet::begun),
             stored: self.stored,
             depth,
             last: None,

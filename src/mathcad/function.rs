@@ -1,6 +1,8 @@
 //! The functions that a listing may call: some of Mathcad's own, those of its worksheet, and those
 //! that the caller defines.
 
+use std::ops::RangeInclusive;
+
 use super::arithmetic::{finite, fold, kind, map, sum};
 use super::failure::Cause;
 use super::matrices;
@@ -22,6 +24,8 @@ pub type Outside<'l> = Box<dyn FnMut(&[Value]) -> Result<Value, String> + 'l>;
 /// One of Mathcad's own functions.
 pub struct Builtin {
     pub name: &'static str,
+    /// How many arguments it has.
+    pub arguments: RangeInclusive<usize>,
     /// Returns what a call costs: the numbers that it may store, and its steps.
     pub cost: fn(&[Value]) -> (usize, u64),
     pub meaning: Meaning,
@@ -32,15 +36,8 @@ pub enum Meaning {
     /// A number of a number, and of an array each number's; where there is none, by the magnitude. Its last bit need
     /// not be Mathcad's.
     Elementary(fn(f64) -> f64, Option<f64>),
-    /// A number of its arguments, which are numbers, and of its own name for messages.
-    Numbers(fn(&[Value], &'static str) -> Result<f64, Cause>),
-    /// A value of its one argument, or of two.
-    One(fn(&Value) -> Result<Value, Cause>),
-    Two(fn(&Value, &Value) -> Result<Value, Cause>),
-    /// A value of its arguments.
-    Values(fn(&[Value]) -> Result<Value, Cause>),
     /// A value of its arguments and `ORIGIN`.
-    Subscripts(fn(&[Value], i32) -> Result<Value, Cause>),
+    Values(fn(&[Value], i32) -> Result<Value, Cause>),
     /// `→(x)`: an expression of which each operation takes arrays entry by entry.
     Vectorize,
     /// `trace(x, y, ...)`: a line of output, which is also its value.
@@ -53,18 +50,21 @@ pub const FUNCTION: u64 = 8;
 /// All built-in functions, each of which is known by this table alone.
 static BUILTINS: [Builtin; 46] = {
     use Meaning::*;
+    const ANY: RangeInclusive<usize> = 0..=usize::MAX;
     const fn row(
         name: &'static str,
+        arguments: RangeInclusive<usize>,
         cost: fn(&[Value]) -> (usize, u64),
-        meaning: Meaning,
+        function: fn(&[Value], i32) -> Result<Value, Cause>,
     ) -> Builtin {
-        Builtin { name, cost, meaning }
+        Builtin { name, arguments, cost, meaning: Values(function) }
     }
     const fn elementary(name: &'static str, function: fn(f64) -> f64) -> Builtin {
         with_pole(name, function, None)
     }
     const fn with_pole(name: &'static str, function: fn(f64) -> f64, pole: Option<f64>) -> Builtin {
-        row(name, |x| (size(x), (1 + FUNCTION) * size(x) as u64), Elementary(function, pole))
+        let cost: fn(&[Value]) -> (usize, u64) = |x| (size(x), (1 + FUNCTION) * size(x) as u64);
+        Builtin { name, arguments: 1..=1, cost, meaning: Elementary(function, pole) }
     }
     [
         elementary("sin", x87::sin),
@@ -88,54 +88,52 @@ static BUILTINS: [Builtin; 46] = {
         elementary("ceil", f64::ceil),
         elementary("trunc", f64::trunc),
         // √(x), or √(n, x), the n-th root.
-        row("√", free, Numbers(root)),
+        row("√", 1..=2, free, |x, _| root(x)),
         // log(x) to the base of 10, or log(x, b).
-        row("log", free, Numbers(log)),
+        row("log", 1..=2, free, |x, _| log(x)),
         // mod(x, y), the remainder, with the sign of x.
-        row("mod", free, Numbers(remainder)),
+        row("mod", 2..=2, free, |x, _| remainder(x)),
         // So many products, at most.
-        row("factorial", |_| (0, 50), Numbers(factorial)),
+        row("factorial", 1..=1, |_| (0, 50), |n, _| factorial(n)),
         // identity(n), the n x n matrix.
-        row("identity", square, One(|n| whole(n).map(identity))),
+        row("identity", 1..=1, square, |n, _| whole(&n[0]).map(identity)),
         // The numbers of rows and of columns; 0 for what is no array.
-        row("rows", free, One(|v| Ok(extent(v).0.into()))),
-        row("cols", free, One(|v| Ok(extent(v).1.into()))),
-        row("length", free, One(|v| Ok(extent(v).0.into()))),
+        row("rows", 1..=1, free, |v, _| Ok(extent(&v[0]).0.into())),
+        row("cols", 1..=1, free, |v, _| Ok(extent(&v[0]).1.into())),
+        row("length", 1..=1, free, |v, _| Ok(extent(&v[0]).0.into())),
         // The subscript of the last entry of a column.
-        row("last", free, Subscripts(last)),
+        row("last", 1..=1, free, |v, origin| last(&v[0], origin)),
         // Of all the numbers of all arguments.
-        row("mean", read, Values(mean)),
-        row("min", read, Values(|xs| fold(xs, <f64 as Scalar>::min))),
-        row("max", read, Values(|xs| fold(xs, <f64 as Scalar>::max))),
+        row("mean", ANY, read, |x, _| mean(x)),
+        row("min", ANY, read, |x, _| fold(x, <f64 as Scalar>::min)),
+        row("max", ANY, read, |x, _| fold(x, <f64 as Scalar>::max)),
         // A column in ascending order.
-        row("sort", sorting, One(sort)),
+        row("sort", 1..=1, sorting, |v, _| sort(&v[0])),
         // round(x), or round(x, n) to n decimal places.
-        row("round", copied, Values(round)),
+        row("round", 1..=2, copied, |x, _| round(x)),
         // Arrays side by side, or one below the other.
-        row("augment", copied, Values(|arrays| matrices::join(arrays, false))),
-        row("stack", copied, Values(|arrays| matrices::join(arrays, true))),
+        row("augment", ANY, copied, |arrays, _| matrices::join(arrays, false)),
+        row("stack", ANY, copied, |arrays, _| matrices::join(arrays, true)),
         // submatrix(x, row, last row, column, last column).
-        row("submatrix", copied, Subscripts(submatrix)),
+        row("submatrix", 5..=5, copied, |x, origin| {
+            matrices::part(&x[0], numbers(&x[1..])?, origin)
+        }),
         // lsolve(m, v), the solution of m·x = v.
-        row("lsolve", eliminated, Two(matrices::lsolve)),
-        row("determinant", eliminated, One(matrices::determinant)),
+        row("lsolve", 2..=2, eliminated, |x, _| matrices::lsolve(&x[0], &x[1])),
+        row("determinant", 1..=1, eliminated, |m, _| matrices::determinant(&m[0])),
         // Of a column; over a range they are series.
-        row("∑", copied, One(total)),
-        row(
-            "∏",
-            copied,
-            Values(|_| {
-                let message = "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into();
-                Err(Cause::Function { name: "∏".into(), message })
-            }),
-        ),
+        row("∑", 1..=1, copied, |v, _| total(&v[0])),
+        row("∏", ANY, copied, |_, _| {
+            let message = "it multiplies over a range, as ∏(i ∈ 1 .. 3, v[i])".into();
+            Err(Cause::Function { name: "∏".into(), message })
+        }),
         // ×(a, b), of columns of three.
-        row("×", free, Two(matrices::cross)),
+        row("×", 2..=2, free, |x, _| matrices::cross(&x[0], &x[1])),
         // Of a matrix whose eigenvalues are real, in ascending order.
-        row("eigenvals", eigen, One(matrices::eigenvals)),
-        row("eigenvecs", vectors, One(matrices::eigenvecs)),
-        row("→", free, Vectorize),
-        row("trace", written, Trace),
+        row("eigenvals", 1..=1, eigen, |m, _| matrices::eigenvals(&m[0])),
+        row("eigenvecs", 1..=1, vectors, |m, _| matrices::eigenvecs(&m[0])),
+        Builtin { name: "→", arguments: 1..=1, cost: free, meaning: Vectorize },
+        Builtin { name: "trace", arguments: ANY, cost: written, meaning: Trace },
     ]
 };
 
@@ -165,7 +163,7 @@ fn copied(arguments: &[Value]) -> (usize, u64) {
 }
 
 fn square(arguments: &[Value]) -> (usize, u64) {
-    let n = exactly(arguments).and_then(|[n]| whole(n)).unwrap_or(0);
+    let n = whole(&arguments[0]).unwrap_or(0);
     (n.saturating_mul(n), n.saturating_mul(n) as u64)
 }
 
@@ -215,12 +213,6 @@ fn size(values: &[Value]) -> usize {
     values.iter().map(Value::count).sum()
 }
 
-/// Returns the arguments, which must be so many.
-pub fn exactly<const N: usize>(arguments: &[Value]) -> Result<&[Value; N], Cause> {
-    let found = arguments.len();
-    arguments.try_into().map_err(|_| Cause::Arguments { expected: N, found })
-}
-
 fn whole(value: &Value) -> Result<usize, Cause> {
     match value {
         Value::Number(n) if *n >= 0.0 && n.fract() == 0.0 => Ok(*n as usize),
@@ -228,10 +220,10 @@ fn whole(value: &Value) -> Result<usize, Cause> {
     }
 }
 
-/// Returns the arguments, which must be numbers.
+/// Returns so many arguments, which must be numbers.
 fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
     let mut numbers = [0.0; N];
-    for (number, argument) in numbers.iter_mut().zip(exactly::<N>(arguments)?) {
+    for (number, argument) in numbers.iter_mut().zip(arguments) {
         *number = argument.number().ok_or_else(|| kind("a number", argument))?;
     }
     Ok(numbers)
@@ -239,19 +231,18 @@ fn numbers<const N: usize>(arguments: &[Value]) -> Result<[f64; N], Cause> {
 
 /// Returns an elementary function's value of a number, or of each number of an array.
 pub fn elementary(
-    arguments: &[Value],
+    argument: &Value,
     function: fn(f64) -> f64,
     pole: Option<f64>,
     name: &'static str,
 ) -> Result<Value, Cause> {
-    each(arguments, |x| match pole == Some(x.abs()) {
+    each(argument, |x| match pole == Some(x.abs()) {
         true => Err(Cause::Domain { name: name.into(), argument: x }),
         false => real(function(x), name),
     })
 }
 
-fn each(arguments: &[Value], function: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
-    let [argument] = exactly(arguments)?;
+fn each(argument: &Value, function: impl Fn(f64) -> Result<f64, Cause>) -> Result<Value, Cause> {
     match argument {
         Value::Number(x) => function(*x).map(Value::Number),
         Value::Array(array) => map(array.clone(), function),
@@ -273,8 +264,7 @@ fn extent(value: &Value) -> (usize, usize) {
 }
 
 /// Returns the subscript of a column's last entry.
-fn last(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
-    let [value] = exactly(arguments)?;
+fn last(value: &Value, origin: i32) -> Result<Value, Cause> {
     match (value, value.size()) {
         (Value::Array(_) | Value::Nested(_), (rows, 1)) if rows > 0 => {
             Ok(Value::Number(f64::from(origin) + rows as f64 - 1.0))
@@ -307,18 +297,12 @@ fn sort(value: &Value) -> Result<Value, Cause> {
 
 /// Rounds a number, or each number of an array, halves away from 0, to so many decimal places.
 fn round(arguments: &[Value]) -> Result<Value, Cause> {
-    let (x, [places]) = match arguments {
-        [_] => (arguments, [0.0]),
-        _ => {
-            exactly::<2>(arguments)?;
-            (&arguments[..1], numbers(&arguments[1..])?)
-        }
-    };
+    let [places] = if arguments.len() == 1 { [0.0] } else { numbers(&arguments[1..])? };
     if places.fract() != 0.0 {
         return Err(kind("a whole number of places", &arguments[1]));
     }
     let scale = 10_f64.powf(places);
-    each(x, |x| match x * scale {
+    each(&arguments[0], |x| match x * scale {
         _ if scale == 0.0 => Ok(0.0),
         scaled if scaled.is_finite() => finite(scaled.round() / scale),
         // All its digits stand before that place.
@@ -326,9 +310,9 @@ fn round(arguments: &[Value]) -> Result<Value, Cause> {
     })
 }
 
-fn root(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+fn root(arguments: &[Value]) -> Result<Value, Cause> {
     if arguments.len() == 1 {
-        return numbers(arguments).and_then(|[x]| real(x.sqrt(), name));
+        return numbers(arguments).and_then(|[x]| real(x.sqrt(), "√").map(Value::Number));
     }
     let [n, x] = numbers(arguments)?;
     if n == 0.0 || x == 0.0 && n < 0.0 {
@@ -340,16 +324,16 @@ fn root(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
     };
     // The nearest whole number, where it is the root.
     let whole = root.round();
-    real(if whole.powf(n) == x { whole } else { root }, name)
+    real(if whole.powf(n) == x { whole } else { root }, "√").map(Value::Number)
 }
 
-fn log(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+fn log(arguments: &[Value]) -> Result<Value, Cause> {
     let ln = |x: f64| match x {
-        0.0 => Err(Cause::Domain { name: name.into(), argument: x }),
-        x => real(x.ln(), name),
+        0.0 => Err(Cause::Domain { name: "log".into(), argument: x }),
+        x => real(x.ln(), "log"),
     };
     if arguments.len() == 1 {
-        return numbers(arguments).and_then(|[x]| ln(x).map(|_| x.log10()));
+        return numbers(arguments).and_then(|[x]| ln(x).map(|_| x.log10().into()));
     }
     let [x, base] = numbers(arguments)?;
     let (numerator, denominator) = (ln(x)?, ln(base)?);
@@ -359,27 +343,23 @@ fn log(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
     let log = numerator / denominator;
     // The nearest whole number, where it is the logarithm.
     let whole = log.round();
-    Ok(if base.powf(whole) == x { whole } else { log })
+    Ok(if base.powf(whole) == x { whole } else { log }.into())
 }
 
-fn remainder(arguments: &[Value], _: &'static str) -> Result<f64, Cause> {
+fn remainder(arguments: &[Value]) -> Result<Value, Cause> {
     match numbers(arguments)? {
         [x, 0.0] => Err(Cause::Singularity { numerator: x, denominator: 0.0 }),
-        [x, y] => Ok(x % y),
+        [x, y] => Ok(Value::Number(x % y)),
     }
 }
 
-fn factorial(arguments: &[Value], name: &'static str) -> Result<f64, Cause> {
+fn factorial(arguments: &[Value]) -> Result<Value, Cause> {
     let [n] = numbers(arguments)?;
     if n < 0.0 || n.fract() != 0.0 {
-        return Err(Cause::Domain { name: name.into(), argument: n });
+        return Err(Cause::Domain { name: "factorial".into(), argument: n });
     }
-    finite((1..=n.min(200.0) as u32).fold(1.0, |product, k| product * f64::from(k)))
-}
-
-fn submatrix(arguments: &[Value], origin: i32) -> Result<Value, Cause> {
-    let [array, places @ ..] = exactly::<5>(arguments)?;
-    matrices::part(array, numbers(places)?, origin)
+    let product = (1..=n.min(200.0) as u32).fold(1.0, |product, k| product * f64::from(k));
+    finite(product).map(Value::Number)
 }
 
 fn total(value: &Value) -> Result<Value, Cause> {

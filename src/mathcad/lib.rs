@@ -75,5 +75,5 @@ pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;
 pub use square::SparseSquare;
-pub use state::Outcome;
+pub use state::Ended;
 pub use value::{Array, Value};

@@ -37,8 +37,6 @@ pub struct Listing {
     pub(super) assigned: Vec<bool>,
     /// How deep its blocks and expressions stand within each other.
     pub(super) depth: usize,
-    /// How many of its first statements neither read nor write a parameter.
-    pub(super) unchanging: usize,
 }
 
 /// The line between the two blocks of `try`.
@@ -49,68 +47,39 @@ fn without_remark(line: &str) -> &str {
     line.split('#').next().unwrap_or_default()
 }
 
-/// Hands over the names that statements read or, as is said of each, call; the variable of a series is its own.
-fn uses(block: &[Statement], used: &mut dyn FnMut(Slot, bool)) {
-    fn expression(expr: &Expr, own: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, bool)) {
-        use Kind::*;
-        let depth = own.len();
-        match &expr.kind {
-            Read(reference) if own.contains(&reference.name) => {}
-            Read(reference) => used(reference.name, false),
-            Call(name, _) => used(*name, true),
-            Series { function, name, .. } => {
-                used(*function, true);
-                own.push(*name);
-            }
-            Entry { .. } | Array { .. } => {}
-            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
-            | Column(..) | Power(..) | Arithmetic(..) | Compare(..) | Chain(..) | All(_)
-            | Any(_) | If(_) | Program(_) => {}
+/// What a program does with a name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Use {
+    Read,
+    Called,
+    Written,
+}
+
+/// Hands over the names that statements use; the variables of the series around them, `bound`, are the series' own.
+fn uses(block: &[Statement], bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, Use)) {
+    for statement in block {
+        statement.step.written().into_iter().for_each(|slot| used(slot, Use::Written));
+        statement.on_line().into_iter().for_each(|expr| uses_within(expr, bound, used));
+        statement.step.blocks().into_iter().for_each(|block| uses(block, bound, used));
+    }
+}
+
+fn uses_within(expr: &Expr, bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, Use)) {
+    let depth = bound.len();
+    match &expr.kind {
+        Kind::Name(name) if bound.contains(name) => {}
+        Kind::Name(name) => used(*name, Use::Read),
+        Kind::Call(name) => used(*name, Use::Called),
+        Kind::Series { function, name } => {
+            used(*function, Use::Called);
+            bound.push(*name);
         }
-        expr.parts().into_iter().for_each(|part| expression(part, own, used));
-        own.truncate(depth);
+        Kind::Program(block) => uses(block, bound, used),
+        Kind::Literal(_) | Kind::Group | Kind::Array { .. } => {}
+        Kind::Apply(_) | Kind::Chain(_) | Kind::If => {}
     }
-    for statement in block {
-        statement.on_line().into_iter().for_each(|expr| expression(expr, &mut vec![], used));
-        statement.step.blocks().into_iter().for_each(|block| uses(block, used));
-    }
-}
-
-/// Returns how many of the first statements neither read nor write a parameter: loops and assignments, each
-/// without a condition, on which an `otherwise` below could depend.
-fn unchanging(program: &[Statement], parameters: &[Slot], names: usize) -> usize {
-    let is_unchanging = |statement: &&Statement| {
-        let mut used = vec![false; names];
-        uses(std::slice::from_ref(*statement), &mut |slot, _| used[slot] = true);
-        survey(std::slice::from_ref(*statement), &mut |slot| used[slot] = true);
-        matches!(statement.step, Step::For { .. } | Step::Assign { .. })
-            && statement.guard.is_none()
-            && parameters.iter().all(|slot| !used[*slot])
-    };
-    program.iter().take_while(is_unchanging).count()
-}
-
-/// Hands over the names that programs within an expression write to.
-fn within(expr: &Expr, written: &mut dyn FnMut(Slot)) {
-    if let Kind::Program(block) = &expr.kind {
-        survey(block, written);
-    } else {
-        expr.parts().into_iter().for_each(|part| within(part, written));
-    }
-}
-
-/// Hands over the names that the statements write to; returns how deep they stand within each
-/// other.
-fn survey(block: &[Statement], written: &mut dyn FnMut(Slot)) -> usize {
-    let mut depth = 0;
-    for statement in block {
-        statement.step.written().into_iter().for_each(&mut *written);
-        statement.on_line().into_iter().for_each(|expr| within(expr, written));
-        let own = statement.on_line().into_iter().map(|expr| expr.depth(usize::MAX)).max();
-        let below = statement.step.blocks().into_iter().map(|block| survey(block, written)).max();
-        depth = depth.max(1 + own.max(below).unwrap_or(0));
-    }
-    depth
+    expr.parts.iter().for_each(|part| uses_within(part, bound, used));
+    bound.truncate(depth);
 }
 
 impl Listing {
@@ -168,10 +137,10 @@ impl Listing {
         }
         let names = reader.names;
         let mut assigned = vec![false; names.len()];
-        let depth = survey(&program, &mut |slot| assigned[slot] = true);
-        let unchanging = unchanging(&program, &parameters, names.len());
+        uses(&program, &mut vec![], &mut |slot, how| assigned[slot] |= how == Use::Written);
+        let depth = program.iter().map(|statement| statement.depth(usize::MAX)).max().unwrap_or(0);
         let name = name.into();
-        Ok(Listing { name, names, parameters, program, lines, assigned, depth, unchanging })
+        Ok(Listing { name, names, parameters, program, lines, assigned, depth })
     }
 
     /// Returns the listing's name, as its header has it.
@@ -191,21 +160,17 @@ impl Listing {
             let slot = self.names.find(name).expect("it is one of its names");
             self.assigned[slot] || self.parameters.contains(&slot)
         };
-        self.names_of(&self.program).into_iter().filter(|name| !is_own(name)).collect()
-    }
-
-    /// Returns the names that some of its statements read or call.
-    pub(super) fn names_of(&self, block: &[Statement]) -> Vec<&str> {
         let mut used = vec![false; self.names.len()];
-        uses(block, &mut |slot, _| used[slot] = true);
-        let used = used.iter().enumerate().filter(|(_, used)| **used);
-        used.map(|(slot, _)| self.names.name(slot)).collect()
+        uses(&self.program, &mut vec![], &mut |slot, how| used[slot] |= how != Use::Written);
+        let used = self.names.all().zip(used).filter(|(_, used)| *used);
+        used.map(|(name, _)| name).filter(|name| !is_own(name)).collect()
     }
 
     /// Returns whether the program calls a function of that name.
     pub(super) fn calls(&self, name: &str) -> bool {
         let (slot, mut is_called) = (self.names.find(name), false);
-        uses(&self.program, &mut |used, called| is_called |= called && Some(used) == slot);
+        let mut used = |used, how| is_called |= how == Use::Called && Some(used) == slot;
+        uses(&self.program, &mut vec![], &mut used);
         is_called
     }
 

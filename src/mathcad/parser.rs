@@ -9,9 +9,8 @@
 use std::collections::BTreeSet;
 
 use super::lexer::{ARROW, Complaint, Spanned, Token};
-use super::syntax::{
-    Expr, Kind, Level, OPERATORS, Operator, Range, Reference, Slot, Span, Spread, Statement, Step,
-};
+use super::syntax::{Expr, Kind, Level, OPERATORS, Operator, Range, Slot, Span, Statement, Step};
+use super::value::Value;
 
 type Parsed<T> = Result<T, Complaint>;
 
@@ -40,25 +39,6 @@ pub fn statement(tokens: &[Spanned], line: usize) -> Parsed<Statement> {
     Ok(statement)
 }
 
-/// Returns what an expression to the left of `←` takes several entries to.
-fn spread(left: &Expr) -> Option<Spread> {
-    let name = |x: &Expr| match &x.kind {
-        Kind::Read(Reference { name, row: None, .. }) => Some(*name),
-        _ => None,
-    };
-    match &left.kind {
-        Kind::Array { entries, cols } => {
-            let names = entries.iter().map(name).collect::<Option<Vec<_>>>()?;
-            Some(Spread::Names { names, cols: *cols })
-        }
-        Kind::Column(of, column) => {
-            let (span, column) = (left.span.clone(), column.clone());
-            Some(Spread::Column { name: name(of)?, span, column })
-        }
-        _ => None,
-    }
-}
-
 struct Parser<'t> {
     tokens: &'t [Spanned],
     /// The line's place in the listing, from 0.
@@ -85,8 +65,12 @@ impl<'t> Parser<'t> {
         start..self.tokens[self.next - 1].1.end
     }
 
-    fn expr(&self, kind: Kind, start: usize) -> Expr {
-        Expr { kind, span: self.span(start) }
+    fn expr(&self, kind: Kind, parts: Vec<Expr>, start: usize) -> Expr {
+        Expr { kind, parts, span: self.span(start) }
+    }
+
+    fn apply(&self, operator: Operator, operands: Vec<Expr>, start: usize) -> Expr {
+        self.expr(Kind::Apply(operator), operands, start)
     }
 
     fn expect(&mut self, token: Token) {
@@ -182,8 +166,7 @@ impl<'t> Parser<'t> {
     /// Reads an assignment, or a value alone.
     fn assignment(&mut self) -> Parsed<Step> {
         let value = self.expression()?;
-        let spread = spread(&value);
-        if !matches!(value.kind, Kind::Read(_)) && spread.is_none() {
+        if value.targets().is_none() {
             return Ok(Step::Evaluate { value });
         }
         self.expect(Token::Sign("←"));
@@ -191,12 +174,7 @@ impl<'t> Parser<'t> {
             return Ok(Step::Evaluate { value });
         }
         self.next += 1;
-        let assigned = self.expression()?;
-        Ok(match (value.kind, spread) {
-            (Kind::Read(target), _) => Step::Assign { target, value: assigned },
-            (_, Some(to)) => Step::Spread { to, value: assigned },
-            (_, None) => unreachable!("it is one of the two"),
-        })
+        Ok(Step::Assign { target: value, value: self.expression()? })
     }
 
     /// Reads a program within an expression, the bracket of which is taken.
@@ -240,16 +218,12 @@ impl<'t> Parser<'t> {
     /// Reads `from .. to`, `from, second .. to`, or values one after another.
     fn range(&mut self) -> Parsed<Range> {
         let start = self.start();
-        let mut values = self.list(Self::expression)?;
-        if !self.takes("..") {
-            return Ok(Range::Over(values));
-        }
-        let to = self.expression()?;
-        if values.len() > 2 {
+        let values = self.list(Self::expression)?;
+        let to = if self.takes("..") { Some(self.expression()?) } else { None };
+        if to.is_some() && values.len() > 2 {
             return Err((start, "found a range within a list".into()));
         }
-        let from = values.remove(0);
-        Ok(Range::Span { from, second: values.pop(), to })
+        Ok(Range { values, to })
     }
 
     /// Reads items, at least one, with commas between them.
@@ -273,25 +247,24 @@ impl<'t> Parser<'t> {
     }
 
     fn expression(&mut self) -> Parsed<Expr> {
-        self.joined("∨", Kind::Any, |parser| parser.joined("∧", Kind::All, Self::not))
+        self.joined(Operator::Any, |parser| parser.joined(Operator::All, Self::not))
     }
 
     /// Reads operands with a sign between them; one alone is itself.
     fn joined(
         &mut self,
-        sign: &'static str,
-        kind: fn(Vec<Expr>) -> Kind,
+        operator: Operator,
         operand: fn(&mut Self) -> Parsed<Expr>,
     ) -> Parsed<Expr> {
         let start = self.start();
         let mut operands = vec![operand(self)?];
-        while self.takes(sign) {
+        while self.takes(operator.spelling().sign) {
             operands.push(operand(self)?);
         }
         if operands.len() == 1 {
             Ok(operands.remove(0))
         } else {
-            Ok(self.expr(kind(operands), start))
+            Ok(self.apply(operator, operands, start))
         }
     }
 
@@ -300,25 +273,22 @@ impl<'t> Parser<'t> {
         while self.takes("¬") {}
         let signs = self.next - first;
         let value = self.comparison()?;
-        Ok((0..signs).fold(value, |value, _| self.expr(Kind::Not(value.into()), start)))
+        Ok((0..signs).fold(value, |value, _| self.apply(Operator::Not, vec![value], start)))
     }
 
     fn comparison(&mut self) -> Parsed<Expr> {
         let start = self.start();
-        let first = self.calculation(Level::Sum)?;
-        let mut rest = vec![];
+        let mut operands = vec![self.calculation(Level::Sum)?];
+        let mut comparisons = vec![];
         while let Some(Operator::Compare(comparison)) = self.operator(Level::Comparison) {
-            rest.push((comparison, self.calculation(Level::Sum)?));
+            comparisons.push(comparison);
+            operands.push(self.calculation(Level::Sum)?);
         }
-        let kind = match rest.len() {
-            0 => return Ok(first),
-            1 => {
-                let (comparison, second) = rest.remove(0);
-                Kind::Compare(comparison, first.into(), second.into())
-            }
-            _ => Kind::Chain(first.into(), rest),
-        };
-        Ok(self.expr(kind, start))
+        Ok(match *comparisons {
+            [] => operands.remove(0),
+            [one] => self.apply(Operator::Compare(one), operands, start),
+            _ => self.expr(Kind::Chain(comparisons), operands, start),
+        })
     }
 
     /// Reads a sum, or a product.
@@ -328,9 +298,9 @@ impl<'t> Parser<'t> {
         };
         let start = self.start();
         let mut value = tighter(self)?;
-        while let Some(Operator::Calculate(operation)) = self.operator(level) {
-            let kind = Kind::Arithmetic(operation, value.into(), tighter(self)?.into());
-            value = self.expr(kind, start);
+        while let Some(operator) = self.operator(level) {
+            let operands = vec![value, tighter(self)?];
+            value = self.apply(operator, operands, start);
         }
         Ok(value)
     }
@@ -354,7 +324,7 @@ impl<'t> Parser<'t> {
                 return Ok(base);
             }
             let exponent = parser.signed(Self::tight)?;
-            Ok(parser.expr(Kind::Power(base.into(), exponent.into()), start))
+            Ok(parser.apply(Operator::Power, vec![base, exponent], start))
         })
     }
 
@@ -366,7 +336,7 @@ impl<'t> Parser<'t> {
         }
         self.next += 1;
         let value = value(self)?;
-        Ok(self.expr(Kind::Negative(value.into()), start))
+        Ok(self.apply(Operator::Negative, vec![value], start))
     }
 
     /// Reads an atom and what stands behind it: transposes, subscripts and columns.
@@ -374,80 +344,72 @@ impl<'t> Parser<'t> {
         let start = self.start();
         let mut value = self.atom()?;
         loop {
-            let kind = if self.takes("ᵀ") {
-                Kind::Transpose(value.into())
+            value = if self.takes("ᵀ") {
+                self.apply(Operator::Transpose, vec![value], start)
             } else if self.takes("[") {
-                self.entry(value, start)?
+                let mut parts = vec![value, self.expression()?];
+                if self.takes(",") {
+                    parts.push(self.expression()?);
+                }
+                self.need("]")?;
+                self.apply(Operator::Entry, parts, start)
             } else if self.takes("⟨") {
-                let column = self.expression()?;
+                let parts = vec![value, self.expression()?];
                 self.need("⟩")?;
-                Kind::Column(value.into(), column.into())
+                self.apply(Operator::Column, parts, start)
             } else {
                 return Ok(value);
             };
-            value = self.expr(kind, start);
         }
-    }
-
-    /// Reads one subscript or two, and the bracket behind them.
-    fn entry(&mut self, value: Expr, start: usize) -> Parsed<Kind> {
-        let row = self.expression()?;
-        let col = if self.takes(",") { Some(self.expression()?) } else { None };
-        self.need("]")?;
-        if let Kind::Read(Reference { name, row: None, .. }) = value.kind {
-            let (row, col) = (Some(row.into()), col.map(Box::new));
-            return Ok(Kind::Read(Reference { name, row, col, span: self.span(start) }));
-        }
-        let subscripts = [row].into_iter().chain(col).collect();
-        Ok(Kind::Entry { of: value.into(), subscripts })
     }
 
     fn atom(&mut self) -> Parsed<Expr> {
         let (start, token) = (self.start(), self.token());
         self.expect(Token::Words("an operand"));
         self.next += 1;
-        let kind = match token {
-            Some(Token::Number(x)) => Kind::Number(*x),
-            Some(Token::Text(text)) => Kind::Text(text.clone()),
-            Some(Token::Name(name)) => {
-                let span = self.span(start);
-                Kind::Read(Reference { name: *name, row: None, col: None, span })
-            }
+        let (kind, parts) = match token {
+            Some(Token::Number(x)) => (Kind::Literal(Value::Number(*x)), vec![]),
+            Some(Token::Text(text)) => (Kind::Literal(Value::Text(text.clone())), vec![]),
+            Some(Token::Name(name)) => (Kind::Name(*name), vec![]),
             Some(Token::Function(function)) => self.call(*function)?,
-            Some(Token::Sign("if")) => match self.in_brackets(Self::expression)?.try_into() {
-                Ok(parts) => Kind::If(Box::new(parts)),
-                Err(_) => return Err((start, "found `if` without three arguments".into())),
-            },
+            Some(Token::Sign("if")) => {
+                let parts = self.in_brackets(Self::expression)?;
+                if parts.len() != 3 {
+                    return Err((start, "found `if` without three arguments".into()));
+                }
+                (Kind::If, parts)
+            }
             Some(Token::Sign("transpose")) => {
                 let start = self.start();
                 self.need("(")?;
-                match self.rows()? {
-                    Kind::Group(inside) => Kind::Transpose(inside),
-                    array => Kind::Transpose(self.expr(array, start).into()),
-                }
+                let inside = match self.rows()? {
+                    (Kind::Group, inside) => inside,
+                    (array, entries) => vec![self.expr(array, entries, start)],
+                };
+                (Kind::Apply(Operator::Transpose), inside)
             }
             Some(Token::Sign("(")) => self.rows()?,
-            Some(Token::Sign("{")) => Kind::Program(self.program()?),
+            Some(Token::Sign("{")) => (Kind::Program(self.program()?), vec![]),
             Some(Token::Sign("|")) => {
                 let inside = self.expression()?;
                 if !self.takes_token(Token::ClosingBar) {
                     return self.refuse();
                 }
-                Kind::Magnitude(inside.into())
+                (Kind::Apply(Operator::Magnitude), vec![inside])
             }
             _ => {
                 self.next -= 1;
                 return self.refuse();
             }
         };
-        Ok(self.expr(kind, start))
+        Ok(self.expr(kind, parts, start))
     }
 
     /// Reads the arguments of a function, or the range and the term of a series.
-    fn call(&mut self, function: Slot) -> Parsed<Kind> {
+    fn call(&mut self, function: Slot) -> Parsed<(Kind, Vec<Expr>)> {
         let is_series = matches!(self.tokens.get(self.next + 2), Some((Token::Sign("∈"), _)));
         if !is_series {
-            return Ok(Kind::Call(function, self.in_brackets(Self::expression)?));
+            return Ok((Kind::Call(function), self.in_brackets(Self::expression)?));
         }
         self.need("(")?;
         let name = self.name()?;
@@ -459,12 +421,12 @@ impl<'t> Parser<'t> {
         self.need(",")?;
         parts.push(self.expression()?);
         self.need(")")?;
-        Ok(Kind::Series { function, name, parts })
+        Ok((Kind::Series { function, name }, parts))
     }
 
     /// Reads what stands in round brackets, the first of which is taken: one expression is that
     /// expression, several are an array, and so is one with `;` behind it.
-    fn rows(&mut self) -> Parsed<Kind> {
+    fn rows(&mut self) -> Parsed<(Kind, Vec<Expr>)> {
         let start = self.tokens[self.next - 1].1.start;
         let mut entries = vec![self.expression()?];
         // How many entries there are up to the end of each row.
@@ -474,7 +436,7 @@ impl<'t> Parser<'t> {
                 self.need(";")?;
                 ends.push(entries.len());
                 if entries.len() == 1 && self.takes(")") {
-                    return Ok(Kind::Array { entries, cols: 1 });
+                    return Ok((Kind::Array { cols: 1 }, entries));
                 }
             }
             entries.push(self.expression()?);
@@ -484,9 +446,7 @@ impl<'t> Parser<'t> {
         if (1..).zip(&ends).any(|(row, end)| *end != row * cols) {
             return Err((start, "found rows of different lengths".into()));
         }
-        if entries.len() == 1 {
-            return Ok(Kind::Group(entries.remove(0).into()));
-        }
-        Ok(Kind::Array { entries, cols })
+        let kind = if entries.len() == 1 { Kind::Group } else { Kind::Array { cols } };
+        Ok((kind, entries))
     }
 }

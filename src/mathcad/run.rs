@@ -9,7 +9,7 @@ use super::listing::Listing;
 use super::observe::Recorder;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::state::{Outcome, Run, Variable};
+use super::state::{Ended, Run, Variable};
 use super::value::Value;
 
 /// Returns the value of an expression, or of the lines of a program, under the default settings.
@@ -97,7 +97,7 @@ impl<'l> Runner<'l> {
     ///
     /// # Errors
     /// The listing fails: says in which line and why.
-    pub fn call(&mut self, arguments: &[Value]) -> Fallible<Outcome> {
+    pub fn call(&mut self, arguments: &[Value]) -> Fallible<Ended> {
         self.call_recorded(arguments, None)
     }
 
@@ -109,7 +109,7 @@ impl<'l> Runner<'l> {
         &mut self,
         arguments: &[Value],
         recorder: Option<&mut Recorder<'_>>,
-    ) -> Fallible<Outcome> {
+    ) -> Fallible<Ended> {
         let Runner { listing, sheet, settings, limits, values, functions, spent } = self;
         spent.set(0);
         let cells = values.iter().map(|value| Variable { value: value.clone(), local: false });
@@ -123,7 +123,6 @@ impl<'l> Runner<'l> {
             recorder,
             line: 0,
             spent,
-            begun: None,
             stored: 0,
             depth: listing.depth,
             last: None,

@@ -105,8 +105,7 @@ pub struct Limits {
     /// The numbers that all arrays and trace lines of a run may store together, eight bytes each.
     pub entries: usize,
     /// The statements and expressions executed, plus the numbers that array operations work through,
-    /// and what functions take: about 15 ns each. With `u64::MAX` they are not counted: what reads no
-    /// argument of a program that is called many times is executed once.
+    /// and what functions take: about 15 ns each.
     pub steps: u64,
 }
 

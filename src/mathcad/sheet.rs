@@ -5,7 +5,6 @@ use std::f64::consts::{E, PI};
 use std::rc::Rc;
 
 use super::listing::Listing;
-use super::state::Begun;
 use super::value::Value;
 
 /// The names of a worksheet. Mathcad's own constants are there from the start: `π`, `e`, and the
@@ -15,8 +14,6 @@ pub struct Sheet {
     values: BTreeMap<String, Value>,
     programs: BTreeMap<String, Defined>,
     ranges: BTreeMap<String, Numbers>,
-    /// What its programs begin with. Worksheets share it that have the same values and ranges.
-    begun: Rc<Begun>,
 }
 
 /// A function of a worksheet.
@@ -35,7 +32,7 @@ impl Default for Sheet {
     fn default() -> Self {
         let constants = [("π", PI), ("e", E), ("deg", PI / 180.0), ("rad", 1.0)];
         let values = constants.map(|(name, x)| (name.into(), x.into())).into();
-        Sheet { values, programs: BTreeMap::new(), ranges: BTreeMap::new(), begun: Rc::default() }
+        Sheet { values, programs: BTreeMap::new(), ranges: BTreeMap::new() }
     }
 }
 
@@ -43,7 +40,6 @@ impl Sheet {
     /// Defines a name as a value. A function of that name stays: a call tells one from the other.
     pub fn define(&mut self, name: &str, value: impl Into<Value>) -> &mut Self {
         self.values.insert(name.into(), value.into());
-        self.begun = Rc::default();
         self
     }
 
@@ -62,7 +58,6 @@ impl Sheet {
             values: entries(&self.values, &names),
             programs: entries(&self.programs, &names),
             ranges: entries(&self.ranges, &names),
-            begun: Rc::default(),
         };
         let name = program.function().to_string();
         self.remove(&name);
@@ -73,7 +68,6 @@ impl Sheet {
     /// Defines a range variable.
     pub fn define_range(&mut self, name: &str, numbers: Numbers) -> &mut Self {
         self.ranges.insert(name.into(), numbers);
-        self.begun = Rc::default();
         self
     }
 
@@ -82,7 +76,6 @@ impl Sheet {
         self.values.remove(name);
         self.programs.remove(name);
         self.ranges.remove(name);
-        self.begun = Rc::default();
     }
 
     /// Returns the value of a name; None where it is not defined or is a range or a program.
@@ -102,21 +95,6 @@ impl Sheet {
 
     pub(super) fn defined(&self, name: &str) -> Option<&Defined> {
         self.programs.get(name)
-    }
-
-    pub(super) fn begun(&self) -> &Begun {
-        &self.begun
-    }
-
-    /// Writes the programs among some names, and those that they call.
-    pub(super) fn write_programs(&self, names: &[&str], text: &mut String) {
-        for program in names.iter().filter_map(|name| self.program(name)) {
-            let own = program.to_string();
-            if !text.contains(&own) {
-                text.push_str(&own);
-                self.write_programs(&program.names.all().collect::<Vec<_>>(), text);
-            }
-        }
     }
 
     /// Returns whether a name has a value, a function or a range.

@@ -1,8 +1,8 @@
 //! The state of a run: the values of its names, its current line, and how much of the limits it has
 //! used.
 
-use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, HashMap};
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::arithmetic::kind;
@@ -13,7 +13,7 @@ use super::matrices;
 use super::observe::{Named, Recorder};
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::syntax::{Reference, Slot, Span};
+use super::syntax::{Slot, Span};
 use super::unsupported;
 use super::value::{Array, Grid, Nested, Value};
 
@@ -23,16 +23,9 @@ pub struct Variable {
     pub local: bool,
 }
 
-/// What programs called in a worksheet have after their first statements that read no argument: the names that
-/// these write to, with their values, and the value of the last statement; by what the statements say.
-///
-/// Kept where steps are not counted. The corrected algorithm assembles the stiffness of the bodies once for a mesh:
-/// `audit strand --prices` takes 18 s of CPU time in place of the 24 s of once a run.
-pub type Begun = RefCell<HashMap<String, (Vec<(Slot, Value)>, Option<Value>)>>;
-
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct Ended {
     /// The program's value: that of the last statement evaluated.
     pub value: Value,
     /// The names that the program wrote to, with their last values.
@@ -54,8 +47,6 @@ pub struct Run<'r, 'l, 'f> {
     pub line: usize,
     /// The steps taken, those of the functions that were called too; `limits.steps` bounds them.
     pub spent: &'r Cell<u64>,
-    /// What programs that were called before begin with; nothing for a program that none called.
-    pub begun: Option<&'r Begun>,
     /// Numbers stored by all names and trace lines, which `limits.entries` bounds.
     pub stored: usize,
     /// How deep blocks and expressions stand within each other, the calls that led here included;
@@ -154,27 +145,23 @@ impl<'r> Run<'r, '_, '_> {
     }
 
     /// Returns the value of a name or, with `subscripts`, of its entry.
-    pub fn read(
-        &mut self,
-        reference: &Reference,
-        subscripts: Option<Subscripts>,
-    ) -> Fallible<Value> {
-        let value = match (&self.cells[reference.name].value, subscripts) {
+    pub fn read(&mut self, slot: Slot, subscripts: Option<Subscripts>) -> Fallible<Value> {
+        let value = match (&self.cells[slot].value, subscripts) {
             (Some(value), None) => value.clone(),
             (Some(value), Some(subscripts)) => {
-                let name = || self.listing.names.name(reference.name).into();
+                let name = || self.listing.names.name(slot).into();
                 matrices::entry(value, subscripts, self.settings.origin, &name)?
             }
             // A local name without a value is 0.
-            (None, None) if self.listing.assigned[reference.name] => Value::default(),
-            (None, Some(_)) if self.listing.assigned[reference.name] => {
+            (None, None) if self.listing.assigned[slot] => Value::default(),
+            (None, Some(_)) if self.listing.assigned[slot] => {
                 return Err(kind("an array", &Value::default()).into());
             }
-            (None, _) => return Err(self.undefined(reference.name, false).into()),
+            (None, _) => return Err(self.undefined(slot, false).into()),
         };
         let line = &self.listing.lines[self.line];
         if let Some(recorder) = &mut self.recorder {
-            let named = named(self.listing, reference.name, subscripts, &value);
+            let named = named(self.listing, slot, subscripts, &value);
             recorder.on(line).reads.push(named);
         }
         Ok(value)

@@ -4,7 +4,8 @@
 //! each name's value at that place.
 
 use std::cmp::Ordering;
-use std::rc::Rc;
+
+use super::value::Value;
 
 /// The number of a name, counted from 0 in the order of first appearance.
 pub type Slot = usize;
@@ -34,10 +35,8 @@ pub enum Step {
     Otherwise { body: Vec<Statement> },
     /// `try` and a block, then `on error` and a block, which runs if the first one fails.
     Try { body: Vec<Statement>, fallback: Vec<Statement> },
-    /// `target ← value`.
-    Assign { target: Reference, value: Expr },
-    /// `(a   b) ← value` or `A⟨j⟩ ← value`.
-    Spread { to: Spread, value: Expr },
+    /// `target ← value`; the target has [`Expr::targets`].
+    Assign { target: Expr, value: Expr },
     /// An expression alone.
     Evaluate { value: Expr },
     /// `return value`, which ends the program.
@@ -50,102 +49,51 @@ pub enum Step {
 
 /// What a loop runs over.
 #[derive(Clone, Debug)]
-#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
-pub enum Range {
-    /// `from .. to`, or `from, second .. to`.
-    Span { from: Expr, second: Option<Expr>, to: Expr },
-    /// The values one after another, of an array its entries, column by column: `v`, or `1, 5, 9`.
-    Over(Vec<Expr>),
-}
-
-/// What several entries of a value are assigned to.
-#[derive(Clone, Debug)]
-#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
-pub enum Spread {
-    /// `(a   b; c   d)`: the names row by row, and how many columns they stand in.
-    Names { names: Vec<Slot>, cols: usize },
-    /// `A⟨j⟩`: the name, where it stands, and the column.
-    Column { name: Slot, span: Span, column: Box<Expr> },
-}
-
-/// A name, or an entry of the array of that name.
-#[derive(Clone, Debug)]
-pub struct Reference {
-    /// The name.
-    pub name: Slot,
-    /// The first subscript, if there is one.
-    pub row: Option<Box<Expr>>,
-    /// The second subscript, if there is one.
-    pub col: Option<Box<Expr>>,
-    /// Where it stands in its line.
-    pub span: Span,
+pub struct Range {
+    /// `from` or `from, second` of a range; else the values one after another, of an array its entries,
+    /// column by column: `v`, or `1, 5, 9`.
+    pub values: Vec<Expr>,
+    /// The end of a range, `.. to`.
+    pub to: Option<Expr>,
 }
 
 /// A part of a line, in bytes of its text.
 pub type Span = std::ops::Range<usize>;
 
-/// An expression and its place in its line.
+/// An expression, what it is made of, and its place in its line.
 #[derive(Clone, Debug)]
 pub struct Expr {
     /// What it is.
     pub kind: Kind,
+    /// The expressions directly inside, in their order; those of a program stand in its statements.
+    pub parts: Vec<Expr>,
     /// Where it stands in its line.
     pub span: Span,
 }
 
-/// The kinds of expressions, and what each is made of.
+/// The kinds of expressions.
 #[derive(Clone, Debug)]
-#[expect(missing_docs, reason = "each form is written above it, in the words of its fields")]
 pub enum Kind {
-    Number(f64),
-    /// A string, `"x"`.
-    Text(Rc<str>),
-    Read(Reference),
-    /// An entry of a value that is more than a name, `(xᵀ)[i,j]`.
-    Entry {
-        of: Box<Expr>,
-        subscripts: Vec<Expr>,
-    },
+    /// A number, or a string, `"x"`. Under `→` an entry of an operand, which may be an array.
+    Literal(Value),
+    /// A name.
+    Name(Slot),
     /// An expression in round brackets, `(x)`.
-    Group(Box<Expr>),
+    Group,
     /// An array, `(x   y; z   w)`: its entries row by row, and how many columns it has.
-    Array {
-        entries: Vec<Expr>,
-        cols: usize,
-    },
-    /// The magnitude of a number, the length of a column, the determinant of a matrix, `|x|`.
-    Magnitude(Box<Expr>),
-    /// The opposite of a value, `−x`.
-    Negative(Box<Expr>),
-    /// Whether a number is 0, `¬x`.
-    Not(Box<Expr>),
-    /// The transpose of a value, `xᵀ`.
-    Transpose(Box<Expr>),
-    /// A column of an array, `x⟨j⟩`.
-    Column(Box<Expr>, Box<Expr>),
-    /// A power, `x^y`.
-    Power(Box<Expr>, Box<Expr>),
-    /// A sum `x + y`, or its kin.
-    Arithmetic(Operation, Box<Expr>, Box<Expr>),
-    /// A comparison `x < y`, or its kin.
-    Compare(Comparison, Box<Expr>, Box<Expr>),
+    #[expect(missing_docs, reason = "it is named above")]
+    Array { cols: usize },
+    /// An operator and its operands.
+    Apply(Operator),
     /// Comparisons of each operand with the next, `x < y ≤ z`, of three operands or more.
-    Chain(Box<Expr>, Vec<(Comparison, Expr)>),
-    /// A conjunction `x ∧ y ∧ z` of two operands or more.
-    All(Vec<Expr>),
-    /// A disjunction `x ∨ y ∨ z` of two operands or more.
-    Any(Vec<Expr>),
+    Chain(Vec<Comparison>),
     /// A call of a function, `name(x, y)`.
-    Call(Slot, Vec<Expr>),
+    Call(Slot),
     /// Mathcad's function `if(condition, x, y)`, which evaluates one of the two.
-    If(Box<[Expr; 3]>),
-    /// A sum or product over a range, `∑(i ∈ from .. to, term)` or `∑(i ∈ range, term)`: the function,
-    /// the variable, and the expressions in their order.
-    Series {
-        function: Slot,
-        name: Slot,
-        parts: Vec<Expr>,
-    },
+    If,
+    /// A sum or product over a range, `∑(i ∈ from .. to, term)` or `∑(i ∈ range, term)`.
+    #[expect(missing_docs, reason = "the function, and the variable")]
+    Series { function: Slot, name: Slot },
     /// A program within an expression, `{x ← 1; if c {x ← 2}; x}`.
     Program(Vec<Statement>),
 }
@@ -172,15 +120,30 @@ pub enum Comparison {
     GreaterOrEqual,
 }
 
-/// What stands between two operands, or, as `¬`, before one.
+/// What makes one value of one or more, its operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the name says it")]
 pub enum Operator {
+    /// A disjunction `x ∨ y ∨ z` of two operands or more.
     Any,
+    /// A conjunction `x ∧ y ∧ z` of two operands or more.
     All,
+    /// Whether a number is 0, `¬x`.
     Not,
     Compare(Comparison),
     Calculate(Operation),
+    /// The opposite of a value, `−x`.
+    Negative,
+    /// A power, `x^y`.
+    Power,
+    /// The transpose of a value, `xᵀ`.
+    Transpose,
+    /// A value, and one subscript or two: its entry, `x[i,j]`.
+    Entry,
+    /// A column of an array, `x⟨j⟩`.
+    Column,
+    /// The magnitude of a number, the length of a column, the determinant of a matrix, `|x|`.
+    Magnitude,
 }
 
 /// How tightly an expression binds, from the loosest to the tightest.
@@ -207,7 +170,7 @@ pub struct Spelling {
     pub operator: Operator,
     /// How tightly it binds.
     pub level: Level,
-    /// As printed.
+    /// As printed; the first one of brackets.
     pub sign: &'static str,
     /// As typed in ASCII.
     pub typed: &'static str,
@@ -216,7 +179,7 @@ pub struct Spelling {
 }
 
 /// All operators, each of which is known by this table alone.
-pub const OPERATORS: [Spelling; 13] = {
+pub const OPERATORS: [Spelling; 19] = {
     use Comparison::*;
     use Operation::*;
     use Operator::*;
@@ -241,31 +204,27 @@ pub const OPERATORS: [Spelling; 13] = {
         row(Calculate(Subtract), Level::Sum, ["−", "-", "ml:minus"]),
         row(Calculate(Multiply), Level::Product, ["·", "*", "ml:mult"]),
         row(Calculate(Divide), Level::Product, ["/", "/", "ml:div"]),
+        row(Negative, Level::Negative, ["−", "-", "ml:neg"]),
+        row(Power, Level::Power, ["^", "^", "ml:pow"]),
+        row(Transpose, Level::Behind, ["ᵀ", "ᵀ", "ml:transpose"]),
+        row(Entry, Level::Behind, ["[", "[", "ml:indexer"]),
+        row(Column, Level::Behind, ["⟨", "⟨", "ml:matcol"]),
+        row(Magnitude, Level::Atom, ["|", "|", "ml:absval"]),
     ]
 };
 
 impl Statement {
-    /// Returns the expressions on the statement's own line, in the order of the text.
+    /// Returns the expressions on the statement's own line, in the order of the text, and of what is assigned
+    /// to the subscripts.
     pub fn on_line(&self) -> Vec<&Expr> {
         let own: Vec<&Expr> = match &self.step {
-            Step::For { range: Range::Span { from, second, to }, .. } => {
-                [from].into_iter().chain(second).chain([to]).collect()
-            }
-            Step::For { range: Range::Over(values), .. } => values.iter().collect(),
+            Step::For { range, .. } => range.values.iter().chain(&range.to).collect(),
             Step::While { condition, .. } | Step::If { condition, .. } => vec![condition],
-            Step::Assign { target, value } => target.subscripts().chain([value]).collect(),
-            Step::Spread { to: Spread::Column { column, .. }, value } => vec![column, value],
-            Step::Spread { to: Spread::Names { .. }, value } => vec![value],
+            Step::Assign { target, value } => target.subscripts().iter().chain([value]).collect(),
             Step::Evaluate { value } | Step::Return { value } => vec![value],
             Step::Otherwise { .. } | Step::Try { .. } | Step::Break | Step::Continue => vec![],
         };
         own.into_iter().chain(&self.guard).collect()
-    }
-
-    /// Returns the expressions of the statement, and of those below it.
-    fn expressions(&self) -> Vec<&Expr> {
-        let below = self.step.blocks().into_iter().flatten().flat_map(Statement::expressions);
-        self.on_line().into_iter().chain(below).collect()
     }
 
     /// Returns the condition that decides whether the statement is executed, if it has one.
@@ -276,10 +235,14 @@ impl Statement {
         self.guard.as_ref()
     }
 
-    /// Returns how deep statements stand below it, itself included.
-    fn levels(&self) -> usize {
-        let below = self.step.blocks().into_iter().flatten().map(Statement::levels);
-        1 + below.max().unwrap_or(0)
+    /// Returns how deep statements and expressions stand within each other, at most `limit`.
+    pub fn depth(&self, limit: usize) -> usize {
+        if limit == 0 {
+            return 0;
+        }
+        let own = self.on_line().into_iter().map(|expr| expr.depth(limit - 1));
+        let below = self.step.blocks().into_iter().flatten().map(|below| below.depth(limit - 1));
+        1 + own.chain(below).max().unwrap_or(0)
     }
 }
 
@@ -293,7 +256,6 @@ macro_rules! blocks {
             | Step::Otherwise { body } => vec![body],
             Step::Try { body, fallback } => vec![body, fallback],
             Step::Assign { .. }
-            | Step::Spread { .. }
             | Step::Evaluate { .. }
             | Step::Return { .. }
             | Step::Break
@@ -316,11 +278,8 @@ impl Step {
     /// Returns the names that the statement itself writes to.
     pub fn written(&self) -> Vec<Slot> {
         match self {
-            Step::For { name, .. } | Step::Spread { to: Spread::Column { name, .. }, .. } => {
-                vec![*name]
-            }
-            Step::Assign { target, .. } => vec![target.name],
-            Step::Spread { to: Spread::Names { names, .. }, .. } => names.clone(),
+            Step::For { name, .. } => vec![*name],
+            Step::Assign { target, .. } => target.targets().unwrap_or_default(),
             Step::While { .. }
             | Step::If { .. }
             | Step::Otherwise { .. }
@@ -330,13 +289,6 @@ impl Step {
             | Step::Break
             | Step::Continue => vec![],
         }
-    }
-}
-
-impl Reference {
-    /// Returns the subscripts: none, one or two.
-    pub fn subscripts(&self) -> impl Iterator<Item = &Expr> {
-        [&self.row, &self.col].into_iter().flatten().map(Box::as_ref)
     }
 }
 
@@ -369,39 +321,60 @@ impl Comparison {
 }
 
 impl Expr {
-    /// Returns the expressions directly inside.
-    pub fn parts(&self) -> Vec<&Expr> {
-        match &self.kind {
-            Kind::Number(_) | Kind::Text(_) => vec![],
-            Kind::Read(r) => r.subscripts().collect(),
-            Kind::Entry { of, subscripts } => [&**of].into_iter().chain(subscripts).collect(),
-            Kind::Group(x)
-            | Kind::Magnitude(x)
-            | Kind::Negative(x)
-            | Kind::Not(x)
-            | Kind::Transpose(x) => vec![x],
-            Kind::Arithmetic(_, x, y)
-            | Kind::Compare(_, x, y)
-            | Kind::Power(x, y)
-            | Kind::Column(x, y) => vec![x, y],
-            Kind::Array { entries: xs, .. } | Kind::All(xs) | Kind::Any(xs) | Kind::Call(_, xs) => {
-                xs.iter().collect()
-            }
-            Kind::Chain(x, rest) => [&**x].into_iter().chain(rest.iter().map(|(_, y)| y)).collect(),
-            Kind::Series { parts, .. } => parts.iter().collect(),
-            Kind::If(parts) => parts.iter().collect(),
-            Kind::Program(block) => block.iter().flat_map(Statement::expressions).collect(),
+    /// Returns the names that an assignment to it writes to: of `x`, `x[i,j]` and `x⟨j⟩` one, of `(x   y)` those
+    /// of its entries; nothing of what cannot be assigned to.
+    pub fn targets(&self) -> Option<Vec<Slot>> {
+        match self.kind {
+            Kind::Name(slot) => Some(vec![slot]),
+            Kind::Array { .. } => self.parts.iter().map(Expr::name).collect(),
+            Kind::Apply(Operator::Entry | Operator::Column) => Some(vec![self.parts[0].name()?]),
+            _ => None,
         }
     }
 
-    /// Returns how deep expressions stand within each other, at most `limit`.
+    /// Returns the name, if it is one alone.
+    pub fn name(&self) -> Option<Slot> {
+        if let Kind::Name(slot) = self.kind { Some(slot) } else { None }
+    }
+
+    /// Returns the subscripts of an entry, and the one of a column.
+    pub fn subscripts(&self) -> &[Expr] {
+        match self.kind {
+            Kind::Apply(Operator::Entry | Operator::Column) => &self.parts[1..],
+            _ => &[],
+        }
+    }
+
+    /// Returns whether it is a name with subscripts.
+    pub fn is_entry(&self) -> bool {
+        matches!(self.kind, Kind::Apply(Operator::Entry)) && self.parts[0].name().is_some()
+    }
+
+    /// Returns how tightly it binds.
+    pub fn level(&self) -> Level {
+        match &self.kind {
+            Kind::Apply(_) if self.is_entry() => Level::Atom,
+            Kind::Apply(operator) => operator.spelling().level,
+            Kind::Chain(_) => Level::Comparison,
+            Kind::Literal(_)
+            | Kind::Name(_)
+            | Kind::Group
+            | Kind::Array { .. }
+            | Kind::Call(_)
+            | Kind::If
+            | Kind::Series { .. }
+            | Kind::Program(_) => Level::Atom,
+        }
+    }
+
+    /// Returns how deep expressions and statements stand within each other, at most `limit`.
     pub fn depth(&self, limit: usize) -> usize {
         if limit == 0 {
             return 0;
         }
         let program: &[Statement] = if let Kind::Program(block) = &self.kind { block } else { &[] };
-        let own = program.iter().map(Statement::levels).max().unwrap_or(0);
-        let inside = self.parts().into_iter().map(|part| part.depth(limit - 1)).max();
-        1 + own + inside.unwrap_or(0)
+        let inside = self.parts.iter().map(|part| part.depth(limit - 1));
+        let inside = inside.chain(program.iter().map(|statement| statement.depth(limit - 1)));
+        1 + inside.max().unwrap_or(0)
     }
 }

@@ -10,7 +10,7 @@ use super::listing::Listing;
 use super::matrices;
 use super::settings::{Limits, Settings};
 use super::sheet::Sheet;
-use super::unsupported::{self, is_function};
+use super::unsupported::{construct, is_function};
 use super::value::{Array, Value};
 use super::words;
 use super::xmcd::document::{Content, Region, Saved, Worksheet};
@@ -31,7 +31,7 @@ pub struct ExecutedRegion {
     /// The region in the text notation.
     pub text: String,
     /// How it compares with what Mathcad saved.
-    pub verdict: Verdict,
+    pub agreement: Agreement,
     /// The regions whose saved results went into this one in place of what the interpreter does not
     /// have.
     pub inputs: BTreeSet<String>,
@@ -42,7 +42,7 @@ pub struct ExecutedRegion {
 /// How a region compares with what Mathcad saved.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "what is said of each names its fields")]
-pub enum Verdict {
+pub enum Agreement {
     /// It saved nothing: a definition, or a file that Mathcad did not calculate.
     NothingSaved,
     /// Every number has the saved bits; a string is the same.
@@ -59,10 +59,10 @@ pub enum Verdict {
     Unsupported(String),
 }
 
-impl Verdict {
+impl Agreement {
     /// Returns whether what Mathcad saved agrees with what is computed here.
     pub fn agrees(&self) -> bool {
-        matches!(self, Verdict::Same | Verdict::Digits(_) | Verdict::SameFailure { .. })
+        matches!(self, Agreement::Same | Agreement::Digits(_) | Agreement::SameFailure { .. })
     }
 }
 
@@ -120,27 +120,22 @@ struct Execution<'a> {
     inputs: BTreeMap<String, BTreeSet<String>>,
 }
 
-/// What a region came to.
-enum Outcome {
-    Defined,
-    Value(Value),
-    Failed(Cause),
-    Unsupported(String),
-}
+/// What a region came to: a value, none of a function or a range variable, or why it has none.
+type Computed = Result<Option<Value>, Cause>;
 
 impl Execution<'_> {
     fn region(&mut self, region: &Region) -> ExecutedRegion {
         let mut inputs = BTreeSet::new();
-        let (text, mut outcome) = match &region.content {
-            Content::Silent => (String::new(), Outcome::Defined),
+        let (text, mut computed) = match &region.content {
+            Content::Silent => (String::new(), Ok(None)),
             Content::Unsupported { names, construct } => {
                 names.iter().for_each(|name| self.lose(name, construct));
                 let text = names.iter().map(|name| format!("{name} := ...")).collect::<Vec<_>>();
-                (text.join(", "), Outcome::Unsupported(construct.clone()))
+                (text.join(", "), Err(unsupported(construct.clone())))
             }
             Content::Table { name, value } => {
                 self.keep(name, value.clone(), BTreeSet::new());
-                (format!("{name} := {}", value.kind()), Outcome::Value(value.clone()))
+                (format!("{name} := {}", value.kind()), Ok(Some(value.clone())))
             }
             Content::Function { name, text } => {
                 (text.clone(), self.function(name, text, &mut inputs))
@@ -159,42 +154,41 @@ impl Execution<'_> {
             Content::Names { names, cols, lines, .. } => {
                 let rows: Vec<_> = names.chunks(*cols).map(|row| row.join("   ")).collect();
                 let text = format!("({}) := {}", rows.join("; "), lines.join("; "));
-                let outcome = self.run(&indented(lines), &mut inputs);
-                (text, self.define_all(names, *cols, outcome, &inputs))
+                let value = self.run(&indented(lines), &mut inputs);
+                (text, self.define_all(names, *cols, value, &inputs))
             }
             Content::Evaluation(expression) => {
-                let outcome = self.evaluation(expression, &mut inputs);
-                (format!("{expression} ="), outcome)
+                let value = self.evaluation(expression, &mut inputs);
+                (format!("{expression} ="), value.map(Some))
             }
         };
         // What Mathcad shows and saves of an entry's definition is the entry.
         if let Content::Definition { entry: Some(target), .. } = &region.content
-            && let (Some(_), Outcome::Value(_)) = (&region.saved, &outcome)
+            && let (Some(_), Ok(_)) = (&region.saved, &computed)
         {
-            outcome = self.evaluation(target, &mut inputs);
+            computed = self.evaluation(target, &mut inputs).map(Some);
         }
-        let mut verdict = verdict(&outcome, region.saved.as_ref());
-        if let (Verdict::Differs { .. }, true) = (&verdict, self.eigen.get())
-            && let (Outcome::Value(ours), Some(Saved::Value(saved))) = (&outcome, &region.saved)
+        let mut agreement = agreement(&computed, region.saved.as_ref());
+        if let (Agreement::Differs { .. }, true) = (&agreement, self.eigen.get())
+            && let (Ok(Some(ours)), Some(Saved::Value(saved))) = (&computed, &region.saved)
             && agree_unordered(saved, ours)
         {
             let construct =
                 "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
-            verdict = Verdict::Unsupported(construct.into());
+            agreement = Agreement::Unsupported(construct.into());
         }
-        if let (false, Some(Saved::Value(value))) = (verdict == Verdict::Same, &region.saved) {
+        if let (false, Some(Saved::Value(value))) = (agreement == Agreement::Same, &region.saved) {
             self.take_saved(region, value);
         }
-        let value = if let Outcome::Value(value) = outcome { Some(value) } else { None };
         let (id, tag) = (region.id.clone(), region.tag.clone());
-        ExecutedRegion { id, tag, text, verdict, inputs, value }
+        ExecutedRegion { id, tag, text, agreement, inputs, value: computed.ok().flatten() }
     }
 
     /// Lets the saved value of a name go on as input, so that what follows is judged for itself.
     fn take_saved(&mut self, region: &Region, value: &Value) {
         if let Content::Names { names, cols, .. } = &region.content {
             let inputs = BTreeSet::from([region.id.clone()]);
-            self.define_all(names, *cols, Outcome::Value(value.clone()), &inputs);
+            let _ = self.define_all(names, *cols, Ok(value.clone()), &inputs);
             return;
         }
         let name = match &region.content {
@@ -215,21 +209,22 @@ impl Execution<'_> {
         &mut self,
         names: &[String],
         cols: usize,
-        outcome: Outcome,
+        value: Result<Value, Cause>,
         inputs: &BTreeSet<String>,
-    ) -> Outcome {
-        let value = match outcome {
-            Outcome::Value(value) => value,
-            outcome => return names.iter().fold(outcome, |o, name| self.lose_outcome(name, o)),
-        };
-        match matrices::spread(&value, names.len() / cols, cols) {
-            Ok(entries) => {
+    ) -> Computed {
+        let entries = value
+            .and_then(|value| Ok((matrices::spread(&value, names.len() / cols, cols)?, value)));
+        match entries {
+            Ok((entries, value)) => {
                 for (name, entry) in names.iter().zip(entries) {
                     self.keep(name, entry, inputs.clone());
                 }
-                Outcome::Value(value)
+                Ok(Some(value))
             }
-            Err(cause) => self.define_all(names, cols, Outcome::Failed(cause), inputs),
+            Err(cause) => {
+                names.iter().for_each(|name| self.lose_by(name, &cause));
+                Err(cause)
+            }
         }
     }
 
@@ -251,74 +246,72 @@ impl Execution<'_> {
         self.inputs.remove(name);
     }
 
-    fn parse(&self, text: &str) -> Result<Listing, Outcome> {
+    fn parse(&self, text: &str) -> Result<Listing, Cause> {
         self.eigen.set(self.eigen.get() || text.contains("eigenv"));
         let listing = Listing::parse_within("region", text, self.limits);
-        listing
-            .map_err(|error| Outcome::Unsupported(format!("its size or form: {}", error.message)))
+        listing.map_err(|error| unsupported(format!("its size or form: {}", error.message)))
     }
 
     /// Defines a function, whose names are those above it.
-    fn function(&mut self, name: &str, text: &str, inputs: &mut BTreeSet<String>) -> Outcome {
-        let program = match self.parse(text) {
-            Ok(program) => program,
-            Err(outcome) => {
-                self.lose(name, "a function that cannot be read");
-                return outcome;
-            }
-        };
-        if let Some(construct) = self.trace_names(&program, inputs) {
-            return self.lose_outcome(name, Outcome::Unsupported(construct));
-        }
-        let unknown =
-            |of: &&str| *of != name && !self.sheet.has(of) && Function::builtin(of).is_none();
-        if let Some(of) = program.free_names().into_iter().find(unknown) {
-            // A unit is no function.
-            let construct = unsupported::construct(of);
-            let outcome = match construct.filter(|_| is_function(of) || !program.calls(of)) {
-                Some(construct) => Outcome::Unsupported(construct),
-                None => Outcome::Failed(Cause::Undefined { name: of.into() }),
-            };
-            return self.lose_outcome(name, outcome);
+    fn function(&mut self, name: &str, text: &str, inputs: &mut BTreeSet<String>) -> Computed {
+        let program = self.parse(text).inspect_err(|_| {
+            self.lose(name, "a function that cannot be read");
+        })?;
+        if let Err(cause) = self.known_names(name, &program, inputs) {
+            self.lose_by(name, &cause);
+            return Err(cause);
         }
         self.unsupported.remove(name);
         self.sheet.define_below(Rc::new(program));
         self.inputs.insert(name.into(), inputs.clone());
-        Outcome::Defined
+        Ok(None)
+    }
+
+    /// Checks that every name which a function takes from the worksheet stands for something there.
+    fn known_names(
+        &self,
+        name: &str,
+        program: &Listing,
+        inputs: &mut BTreeSet<String>,
+    ) -> Result<(), Cause> {
+        self.trace_names(program, inputs)?;
+        let unknown =
+            |of: &&str| *of != name && !self.sheet.has(of) && Function::builtin(of).is_none();
+        let Some(of) = program.free_names().into_iter().find(unknown) else { return Ok(()) };
+        // A unit is no function.
+        let construct = construct(of).filter(|_| is_function(of) || !program.calls(of));
+        Err(construct.map_or_else(|| Cause::Undefined { name: of.into() }, unsupported))
     }
 
     /// Keeps a range variable: its numbers, as a loop spells them.
-    fn range(&mut self, name: &str, range: &str, inputs: &mut BTreeSet<String>) -> Outcome {
+    fn range(&mut self, name: &str, range: &str, inputs: &mut BTreeSet<String>) -> Computed {
         let (start, end) = range.split_once(" .. ").unwrap_or((range, range));
         let numbers = match start.split_once(", ") {
             Some((first, second)) => format!("({first}; {second}; {end})"),
             None => format!("({start}; {end})"),
         };
-        match self.run(&[format!("  {numbers}")], inputs) {
-            Outcome::Value(Value::Array(numbers)) => {
-                let numbers = match *numbers.entries().copied().collect::<Vec<_>>() {
-                    [from, second, to] => (from, Some(second), to),
-                    ref ends => (ends[0], None, ends[1]),
-                };
-                self.forget(name);
-                self.sheet.define_range(name, numbers);
-                self.inputs.insert(name.into(), inputs.clone());
-                Outcome::Defined
-            }
-            Outcome::Value(other) => self
-                .lose_outcome(name, Outcome::Unsupported(format!("a range of {}", other.kind()))),
-            outcome => self.lose_outcome(name, outcome),
-        }
+        let numbers = match self.run(&[format!("  {numbers}")], inputs) {
+            Ok(Value::Array(numbers)) => Ok(numbers),
+            Ok(other) => Err(unsupported(format!("a range of {}", other.kind()))),
+            Err(cause) => Err(cause),
+        };
+        let numbers = numbers.inspect_err(|cause| self.lose_by(name, cause))?;
+        let numbers = match *numbers.entries().copied().collect::<Vec<_>>() {
+            [from, second, to] => (from, Some(second), to),
+            ref ends => (ends[0], None, ends[1]),
+        };
+        self.forget(name);
+        self.sheet.define_range(name, numbers);
+        self.inputs.insert(name.into(), inputs.clone());
+        Ok(None)
     }
 
-    /// Takes a name's value away for want of another.
-    fn lose_outcome(&mut self, name: &str, outcome: Outcome) -> Outcome {
-        match &outcome {
-            Outcome::Unsupported(construct) => self.lose(name, construct),
-            Outcome::Failed(cause) => self.lose(name, &format!("an error: {cause}")),
-            Outcome::Value(_) | Outcome::Defined => {}
+    /// Takes a name's value away, for which there is no other.
+    fn lose_by(&mut self, name: &str, cause: &Cause) {
+        match cause {
+            Cause::Unsupported { construct } => self.lose(name, construct),
+            cause => self.lose(name, &format!("an error: {cause}")),
         }
-        outcome
     }
 
     fn definition(
@@ -327,16 +320,12 @@ impl Execution<'_> {
         entry: Option<&str>,
         lines: &[String],
         inputs: &mut BTreeSet<String>,
-    ) -> Outcome {
-        // The entries that are not assigned stay unknown.
-        if entry.is_some()
-            && let Some(construct) = self.rests_on(name)
-        {
-            return Outcome::Unsupported(construct);
-        }
-        let outcome = match entry {
+    ) -> Computed {
+        let value = match entry {
             None => self.run(&indented(lines), inputs),
             Some(target) => {
+                // The entries that are not assigned stay unknown.
+                self.check_known(name)?;
                 let value = lines.first().map(String::as_str).unwrap_or_default();
                 let line = format!("{target} ← {value}");
                 let (mut program, level) = self.loops(&line);
@@ -345,23 +334,27 @@ impl Execution<'_> {
                 self.run(&program, inputs)
             }
         };
-        if let Outcome::Value(value) = &outcome {
-            self.keep(name, value.clone(), inputs.clone());
+        match &value {
+            Ok(value) => self.keep(name, value.clone(), inputs.clone()),
+            Err(cause) => self.lose_by(name, cause),
         }
-        let outcome = self.lose_outcome(name, outcome);
-        match (name, &outcome) {
-            (ORIGIN, Outcome::Value(Value::Number(x))) if *x == f64::from(*x as i32) => {
+        match (name, &value) {
+            (ORIGIN, Ok(Value::Number(x))) if *x == f64::from(*x as i32) => {
                 self.settings.origin = *x as i32;
-                outcome
             }
-            (ORIGIN, _) => Outcome::Unsupported("an ORIGIN that is no whole number".into()),
-            _ => outcome,
+            (ORIGIN, _) => return Err(unsupported("an ORIGIN that is no whole number".into())),
+            _ => {}
         }
+        value.map(Some)
     }
 
     /// Evaluates an expression: over range variables, for each of their numbers, those of the last named
     /// changing first.
-    fn evaluation(&mut self, expression: &str, inputs: &mut BTreeSet<String>) -> Outcome {
+    fn evaluation(
+        &mut self,
+        expression: &str,
+        inputs: &mut BTreeSet<String>,
+    ) -> Result<Value, Cause> {
         let (mut program, level) = self.loops(expression);
         if level == 1 {
             return self.run(&[format!("  {expression}")], inputs);
@@ -393,82 +386,79 @@ impl Execution<'_> {
     }
 
     /// Runs the lines of a program without parameters.
-    fn run(&self, lines: &[String], inputs: &mut BTreeSet<String>) -> Outcome {
-        let program = match self.parse(&format!("_() :=\n{}", lines.join("\n"))) {
-            Ok(program) => program,
-            Err(outcome) => return outcome,
-        };
-        if let Some(construct) = self.trace_names(&program, inputs) {
-            return Outcome::Unsupported(construct);
-        }
+    fn run(&self, lines: &[String], inputs: &mut BTreeSet<String>) -> Result<Value, Cause> {
+        let program = self.parse(&format!("_() :=\n{}", lines.join("\n")))?;
+        self.trace_names(&program, inputs)?;
         let limits = Limits { steps: self.steps.get() / 2, ..self.limits.clone() };
         let mut runner = program.runner_in(&self.sheet, &self.settings, &limits);
-        let outcome = runner.call(&[]);
+        let ended = runner.call(&[]);
         self.steps.set(self.steps.get().saturating_sub(runner.steps()));
-        match outcome.map_err(|failure| failure.cause) {
-            Ok(outcome) => Outcome::Value(outcome.value),
-            Err(Cause::Unsupported { construct }) => Outcome::Unsupported(construct),
-            Err(Cause::Complex { .. }) => Outcome::Unsupported("complex numbers".into()),
-            Err(Cause::Limit { limit, of }) => {
-                Outcome::Unsupported(format!("more than {limit} {of}, the limit of this region"))
+        ended.map(|ended| ended.value).map_err(|failure| match failure.cause {
+            Cause::Complex { .. } => unsupported("complex numbers".into()),
+            Cause::Limit { limit, of } => {
+                unsupported(format!("more than {limit} {of}, the limit of this region"))
             }
-            Err(cause) => Outcome::Failed(cause),
-        }
+            cause => cause,
+        })
     }
 
-    /// Returns why what reads a name is unsupported, if the name is.
-    fn rests_on(&self, name: &str) -> Option<String> {
-        let construct = self.unsupported.get(name)?;
+    /// Checks that a name does not rest on what is unsupported.
+    fn check_known(&self, name: &str) -> Result<(), Cause> {
+        let Some(construct) = self.unsupported.get(name) else { return Ok(()) };
         let follows = construct.contains("(it rests on ");
-        Some(if follows { construct.clone() } else { format!("{construct} (it rests on {name})") })
+        let rests = || format!("{construct} (it rests on {name})");
+        Err(unsupported(if follows { construct.clone() } else { rests() }))
     }
 
-    /// Collects the saved results that a program rests on. Returns why it is unsupported, if a name
-    /// that it reads is.
-    fn trace_names(&self, program: &Listing, inputs: &mut BTreeSet<String>) -> Option<String> {
+    /// Collects the saved results that a program rests on, and checks that no name which it reads rests on
+    /// what is unsupported.
+    fn trace_names(&self, program: &Listing, inputs: &mut BTreeSet<String>) -> Result<(), Cause> {
         let names = program.free_names();
         for name in &names {
             inputs.extend(self.inputs.get(*name).into_iter().flatten().cloned());
         }
-        names.into_iter().find_map(|name| self.rests_on(name))
+        names.into_iter().try_for_each(|name| self.check_known(name))
     }
+}
+
+fn unsupported(construct: String) -> Cause {
+    Cause::Unsupported { construct }
 }
 
 fn indented(lines: &[String]) -> Vec<String> {
     lines.iter().map(|line| format!("  {line}")).collect()
 }
 
-fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
-    match (outcome, saved) {
-        (Outcome::Unsupported(construct), Some(Saved::Error(words))) => {
-            Verdict::Unsupported(format!("{construct}; Mathcad saved an error: «{words}»"))
+fn agreement(computed: &Computed, saved: Option<&Saved>) -> Agreement {
+    match (computed, saved) {
+        (Err(Cause::Unsupported { construct }), Some(Saved::Error(words))) => {
+            Agreement::Unsupported(format!("{construct}; Mathcad saved an error: «{words}»"))
         }
-        (Outcome::Unsupported(construct), _) => Verdict::Unsupported(construct.clone()),
-        (Outcome::Defined, _) => Verdict::NothingSaved,
-        (_, Some(Saved::Unsupported(construct))) => Verdict::Unsupported(construct.clone()),
-        (Outcome::Failed(cause), Some(Saved::Error(words))) => {
+        (Err(Cause::Unsupported { construct }), _) => Agreement::Unsupported(construct.clone()),
+        (Ok(None), _) | (Ok(_), None) => Agreement::NothingSaved,
+        (_, Some(Saved::Unsupported(construct))) => Agreement::Unsupported(construct.clone()),
+        (Err(cause), Some(Saved::Error(words))) => {
             let (saved, ours) = (words.clone(), cause.to_string());
             match words::is_of(words, cause) {
-                Some(true) => Verdict::SameFailure { saved, ours },
-                Some(false) => Verdict::Differs { saved: format!("«{saved}»"), ours },
-                None => Verdict::Unsupported(format!("Mathcad's error «{saved}»; here: {ours}")),
+                Some(true) => Agreement::SameFailure { saved, ours },
+                Some(false) => Agreement::Differs { saved: format!("«{saved}»"), ours },
+                None => Agreement::Unsupported(format!("Mathcad's error «{saved}»; here: {ours}")),
             }
         }
         // Mathcad may know it from elsewhere.
-        (Outcome::Failed(Cause::Undefined { name }), _) => {
-            Verdict::Unsupported(format!("`{name}`, which nothing above defines"))
+        (Err(Cause::Undefined { name }), _) => {
+            Agreement::Unsupported(format!("`{name}`, which nothing above defines"))
         }
-        (Outcome::Failed(Cause::Arguments { expected, found }), _) if found < expected => {
-            Verdict::Unsupported("a call with fewer arguments, which is a function".into())
+        (Err(Cause::Arguments { expected, found }), _) if found < expected => {
+            Agreement::Unsupported("a call with fewer arguments, which is a function".into())
         }
-        (Outcome::Failed(cause), None) => Verdict::Fails(cause.to_string()),
-        (Outcome::Failed(cause), Some(saved)) => {
-            Verdict::Differs { saved: spelled(saved), ours: cause.to_string() }
+        (Err(cause), None) => Agreement::Fails(cause.to_string()),
+        (Err(cause), Some(saved)) => {
+            Agreement::Differs { saved: spelled(saved), ours: cause.to_string() }
         }
-        (Outcome::Value(_), None) => Verdict::NothingSaved,
-        (Outcome::Value(ours), Some(Saved::Value(saved))) => match digits(saved, ours) {
-            Some(u32::MAX) => Verdict::Same,
-            Some(digits) if digits >= LEAST_DIGITS => Verdict::Digits(digits),
+        (Ok(Some(ours)), Some(Saved::Value(saved))) => match digits(saved, ours) {
+            Some(u32::MAX) => Agreement::Same,
+            Some(digits) if digits >= LEAST_DIGITS => Agreement::Digits(digits),
             _ => {
                 let [saved, ours] = match (saved.to_string(), ours.to_string()) {
                     // Numbers look like arrays of one entry, and like strings.
@@ -478,11 +468,11 @@ fn verdict(outcome: &Outcome, saved: Option<&Saved>) -> Verdict {
                     }),
                     (a, b) => [a, b],
                 };
-                Verdict::Differs { saved, ours }
+                Agreement::Differs { saved, ours }
             }
         },
-        (Outcome::Value(ours), Some(saved @ Saved::Error(_))) => {
-            Verdict::Differs { saved: spelled(saved), ours: ours.to_string() }
+        (Ok(Some(ours)), Some(saved @ Saved::Error(_))) => {
+            Agreement::Differs { saved: spelled(saved), ours: ours.to_string() }
         }
     }
 }

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::json;
 use mathcad::json::Written;
-use mathcad::{Failure, Outcome};
+use mathcad::{Ended, Failure};
 
 /// What a program computed.
 #[derive(Serialize)]
@@ -17,7 +17,7 @@ struct Evaluation<'a> {
 }
 
 /// Returns what a program computed.
-pub fn json(outcome: &Outcome) -> String {
+pub fn json(outcome: &Ended) -> String {
     json::streamed(&Evaluation { value: Written(&outcome.value), trace: &outcome.trace_output })
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::json;
 use super::model::{Report, Table};
 use mathcad::json::Written;
-use mathcad::worksheet::{ExecutedRegion, Verdict};
+use mathcad::worksheet::{Agreement, ExecutedRegion};
 
 /// Reports each region with what came of it, and how many regions came out how.
 pub fn report(regions: &[ExecutedRegion]) -> Report {
@@ -32,18 +32,18 @@ fn words(region: &&ExecutedRegion) -> String {
         [] => String::new(),
         ids => format!(" (with the saved results of {} as input)", ids.join(", ")),
     };
-    let verdict = match &region.verdict {
-        Verdict::NothingSaved => "nothing saved to compare with".into(),
-        Verdict::Same => "same to the last bit".into(),
-        Verdict::Digits(digits) => format!("same to {digits} digits"),
-        Verdict::SameFailure { saved, ours } => format!("both fail: «{saved}»; here: {ours}"),
-        Verdict::Fails(why) => format!("nothing saved to compare with; it fails here: {why}"),
-        Verdict::Differs { saved, ours } => {
+    let agreement = match &region.agreement {
+        Agreement::NothingSaved => "nothing saved to compare with".into(),
+        Agreement::Same => "same to the last bit".into(),
+        Agreement::Digits(digits) => format!("same to {digits} digits"),
+        Agreement::SameFailure { saved, ours } => format!("both fail: «{saved}»; here: {ours}"),
+        Agreement::Fails(why) => format!("nothing saved to compare with; it fails here: {why}"),
+        Agreement::Differs { saved, ours } => {
             format!("differs: saved {}; here {}", short(saved), short(ours))
         }
-        Verdict::Unsupported(construct) => return format!("unsupported: {construct}"),
+        Agreement::Unsupported(construct) => return format!("unsupported: {construct}"),
     };
-    verdict + &from
+    agreement + &from
 }
 
 fn short(value: &str) -> String {
@@ -53,13 +53,14 @@ fn short(value: &str) -> String {
 
 /// How many regions came out how.
 fn summary(regions: &[ExecutedRegion]) -> String {
-    let count = |is: &dyn Fn(&Verdict) -> bool| regions.iter().filter(|r| is(&r.verdict)).count();
-    let same = count(&|v| *v == Verdict::Same);
-    let digits = count(&|v| matches!(v, Verdict::Digits(_)));
-    let failures = count(&|v| matches!(v, Verdict::SameFailure { .. }));
-    let differ = count(&|v| matches!(v, Verdict::Differs { .. }));
-    let fail = count(&|v| matches!(v, Verdict::Fails(_)));
-    let unsupported = count(&|v| matches!(v, Verdict::Unsupported(_)));
+    let count =
+        |is: &dyn Fn(&Agreement) -> bool| regions.iter().filter(|r| is(&r.agreement)).count();
+    let same = count(&|v| *v == Agreement::Same);
+    let digits = count(&|v| matches!(v, Agreement::Digits(_)));
+    let failures = count(&|v| matches!(v, Agreement::SameFailure { .. }));
+    let differ = count(&|v| matches!(v, Agreement::Differs { .. }));
+    let fail = count(&|v| matches!(v, Agreement::Fails(_)));
+    let unsupported = count(&|v| matches!(v, Agreement::Unsupported(_)));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
          both, {differ} differ, {fail} regions fail here alone, {unsupported} are unsupported"
@@ -96,26 +97,26 @@ pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
         region: &region.id,
         tag: &region.tag,
         text: &region.text,
-        verdict: verdict(&region.verdict),
+        verdict: verdict(&region.agreement),
         inputs: &region.inputs,
         value: region.value.as_ref().map(Written),
     });
     json::streamed(&Executed { file, regions: regions.collect() })
 }
 
-fn verdict(verdict: &Verdict) -> Value {
+fn verdict(verdict: &Agreement) -> Value {
     match verdict {
-        Verdict::NothingSaved => json!({ "verdict": "nothing saved" }),
-        Verdict::Same => json!({ "verdict": "same" }),
-        Verdict::Digits(digits) => json!({ "verdict": "digits", "digits": digits }),
-        Verdict::SameFailure { saved, ours } => {
+        Agreement::NothingSaved => json!({ "verdict": "nothing saved" }),
+        Agreement::Same => json!({ "verdict": "same" }),
+        Agreement::Digits(digits) => json!({ "verdict": "digits", "digits": digits }),
+        Agreement::SameFailure { saved, ours } => {
             json!({ "verdict": "failure", "saved": saved, "ours": ours })
         }
-        Verdict::Differs { saved, ours } => {
+        Agreement::Differs { saved, ours } => {
             json!({ "verdict": "differs", "saved": saved, "ours": ours })
         }
-        Verdict::Fails(ours) => json!({ "verdict": "fails", "ours": ours }),
-        Verdict::Unsupported(construct) => {
+        Agreement::Fails(ours) => json!({ "verdict": "fails", "ours": ours }),
+        Agreement::Unsupported(construct) => {
             json!({ "verdict": "unsupported", "construct": construct })
         }
     }

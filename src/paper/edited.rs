@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use base::error::{InputError, Result};
 use mathcad::array::{Column, Table};
-use mathcad::{Listing, Outcome, Settings};
+use mathcad::{Ended, Listing, Settings};
 use numbers::scalar::Scalar;
 use problem::model::Model;
 use serde::Serialize;
@@ -122,7 +122,7 @@ impl Interpreter {
         which: Which,
         sheet: &Worksheet<f64>,
         argument: &Table<f64>,
-        result: fn(&Listing, Outcome) -> Traced<R>,
+        result: fn(&Listing, Ended) -> Traced<R>,
     ) -> Option<Result<(&Edited, R)>> {
         let (edited, listing) = self.listings.iter().find(|(edited, _)| edited.which == which)?;
         let (outcome, steps) =

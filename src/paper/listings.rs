@@ -7,7 +7,7 @@ use base::choices;
 use mathcad::array::{Column, Table};
 use mathcad::failure::Fallible;
 use mathcad::{
-    Array, Cause, Edit, Failure, Limits, Listing, Outcome, Recorder, Settings, Value, name_length,
+    Array, Cause, Edit, Ended, Failure, Limits, Listing, Recorder, Settings, Value, name_length,
 };
 use problem::element::{self, Plane};
 
@@ -108,7 +108,7 @@ pub(crate) fn execute(
     sheet: &Worksheet<f64>,
     argument: Value,
     recorder: Option<&mut Recorder<'_>>,
-) -> (Fallible<Outcome>, u64) {
+) -> (Fallible<Ended>, u64) {
     let limits = Limits { steps: steps(sheet), entries: 1 << 27, ..Limits::default() };
     let mut runner = listing.runner(settings, &limits);
     for (name, value) in tables(sheet) {
@@ -129,7 +129,7 @@ pub(crate) fn execute(
 }
 
 /// Returns the contact pairs that an execution of `c_cnt` ended with.
-pub(crate) fn pairs(listing: &Listing, outcome: Outcome) -> Traced<Pairs<f64>> {
+pub(crate) fn pairs(listing: &Listing, outcome: Ended) -> Traced<Pairs<f64>> {
     let column = |name: &'static str| -> Fallible<Column<f64>> {
         let local = outcome.locals.get(name).and_then(|value| Column::try_from(value).ok());
         local.ok_or_else(|| unexpected(listing, "a column", name))
@@ -152,7 +152,7 @@ pub(crate) fn pairs(listing: &Listing, outcome: Outcome) -> Traced<Pairs<f64>> {
 }
 
 /// Returns the matrix that an execution of `Km` ended with.
-pub(crate) fn matrix(listing: &Listing, outcome: Outcome) -> Traced<Rc<Array>> {
+pub(crate) fn matrix(listing: &Listing, outcome: Ended) -> Traced<Rc<Array>> {
     let Value::Array(matrix) = outcome.value else {
         return Err(unexpected(listing, "an array", "value of the program"));
     };

@@ -30,7 +30,7 @@ pub struct Solved<T> {
 }
 
 /// What came of A x = b.
-pub type Outcome<T> = Result<Solved<T>, Singular>;
+pub type SolvedOrSingular<T> = Result<Solved<T>, Singular>;
 
 /// A scalar in whose precision linear equations are solved.
 pub trait Precision: Scalar {
@@ -39,13 +39,13 @@ pub trait Precision: Scalar {
     ///
     /// # Errors
     /// A is singular.
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self>;
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self>;
 
     /// Solves `a` x = `b` by `sparse-cholesky`, A positive definite.
     ///
     /// # Errors
     /// A is singular.
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self>;
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self>;
 
     /// Does `work`, and frees every number that it made but its result.
     ///
@@ -57,7 +57,7 @@ pub trait Precision: Scalar {
 }
 
 impl Precision for f64 {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         match by {
             Solver::DenseLu => Ok(solved(&DenseLu::new(a.dense())?, b)),
             Solver::SparseLu => Ok(solved(&SparseLu::new(a)?, b)),
@@ -65,7 +65,7 @@ impl Precision for f64 {
         }
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let x = SparseCholesky::new(a.clone())?.solve(b);
         Ok(Solved { residual: a.residual(&x, b), x })
     }
@@ -75,7 +75,7 @@ impl Precision for f64 {
 macro_rules! by_own_elimination {
     ($($scalar:ty),+) => {$(
         impl Precision for $scalar {
-            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+            fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
                 let symmetric = lower(a);
                 match by {
                     Solver::DenseLu => {
@@ -88,7 +88,7 @@ macro_rules! by_own_elimination {
                 }
             }
 
-            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+            fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
                 let x = DVector::from_vec(Ldlt::new(a)?.solve(b.as_slice()));
                 Ok(Solved { residual: a.residual(&x, b), x })
             }
@@ -99,7 +99,7 @@ macro_rules! by_own_elimination {
 by_own_elimination!(f32, F64x2);
 
 impl Precision for Exact {
-    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> Outcome<Self> {
+    fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         match by {
             Solver::DenseLu => {
                 let b = b.iter().map(|x| value(*x)).collect();
@@ -110,7 +110,7 @@ impl Precision for Exact {
         }
     }
 
-    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> Outcome<Self> {
+    fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
         let b: Vec<RBig> = b.iter().map(|x| value(*x)).collect();
         Ok(exact(Ldlt::new(&a.map(|x| value(*x)))?.solve(&b)))
     }

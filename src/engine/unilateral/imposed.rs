@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::forces::{ContactForce, add, contact_forces};
-use super::problem::{Configuration, Outcome, StateSearch, StateSolution};
+use super::problem::{Configuration, StateAttempt, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
@@ -24,22 +24,22 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         constraints: &[Constraint],
-    ) -> Result<Outcome, NoEquilibrium> {
+    ) -> Result<StateAttempt, NoEquilibrium> {
         if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
             && let Some(solved) = self.solved(statuses, &bodies)?
         {
-            return Ok(Outcome::Solved(solved));
+            return Ok(StateAttempt::Solved(solved));
         }
         match HeldBodies::whole(self.problem, self.setting, constraints) {
             Ok(bodies) => {
                 let solved = self.solved(statuses, &bodies)?;
-                Ok(Outcome::Solved(solved.expect("the whole equations have a solution")))
+                Ok(StateAttempt::Solved(solved.expect("the whole equations have a solution")))
             }
             Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
                 let load = t.load(&self.problem.model.free_part(&self.setting.load));
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
-                Ok(Outcome::Free { dof: t.dof(singular.column), motion })
+                Ok(StateAttempt::Free { dof: t.dof(singular.column), motion })
             }
         }
     }
@@ -51,8 +51,8 @@ impl StateSearch<'_> {
         constraints: &[Constraint],
     ) -> Option<StateSolution> {
         match self.solve(statuses, constraints) {
-            Ok(Outcome::Solved(solution)) => Some(solution),
-            Ok(Outcome::Free { .. }) | Err(NoEquilibrium { .. }) => None,
+            Ok(StateAttempt::Solved(solution)) => Some(solution),
+            Ok(StateAttempt::Free { .. }) | Err(NoEquilibrium { .. }) => None,
         }
     }
 

@@ -171,7 +171,7 @@ pub(super) struct Equilibrium {
 }
 
 /// The result of an attempt to solve.
-pub(super) enum Outcome {
+pub(super) enum StateAttempt {
     Solved(StateSolution),
     /// A degree of freedom without restraint, and the motion under the load on soft springs.
     Free {

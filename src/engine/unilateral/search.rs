@@ -8,7 +8,7 @@ use nalgebra::DVector;
 
 use super::forces::{ContactForce, tangent};
 use super::problem::{
-    CONE, Configuration, Equilibrium, Iteration, Outcome, Problem, Setting, StateSearch,
+    CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateAttempt, StateSearch,
     StateSolution, Watch, cause_first,
 };
 use super::status::{History, nearest_open, next_closed};
@@ -155,7 +155,7 @@ impl Problem<'_> {
         }
         let search = self.search(&found.config, setting);
         let Iteration { statuses, constraints, cycle, .. } = found.last.clone();
-        if let Outcome::Solved(solution) = search.solve(&statuses, &constraints)? {
+        if let StateAttempt::Solved(solution) = search.solve(&statuses, &constraints)? {
             let last = search.completed_iteration((statuses, constraints), cycle, solution);
             if search.wanted(&last, false) == last.statuses {
                 return Ok(Equilibrium { last, ..found });
@@ -372,8 +372,8 @@ impl StateSearch<'_> {
         let (constraints, solution) = loop {
             let constraints = self.constraints(&statuses);
             match self.solve(&statuses, &constraints)? {
-                Outcome::Solved(solution) => break (constraints, solution),
-                Outcome::Free { dof, motion } => {
+                StateAttempt::Solved(solution) => break (constraints, solution),
+                StateAttempt::Free { dof, motion } => {
                     if !self.restrain_more(&mut statuses, motion) {
                         return Err(self
                             .problem

@@ -1,7 +1,5 @@
 //! Hostile listings end in errors: no hang, no overflowing stack, no exhausted memory.
 
-use std::rc::Rc;
-
 use super::{failure, one_of, program};
 use fastrand::Rng;
 use mathcad::{Array, Cause, Limits, Listing, Settings, Sheet, Value};
@@ -194,75 +192,6 @@ fn calls_within_calls_count_their_levels() {
     assert_eq!(run(6), Ok(5.0.into()));
     assert_eq!(run(5), Err(Cause::Limit { limit: 5, of: "levels of calls" }));
     assert_eq!(run(4), Err(Cause::Limit { limit: 4, of: "levels of calls" }));
-}
-
-/// Where steps are not counted, a program's first statements are executed once where they read no argument: its
-/// values, and what it fails with, stay the same.
-#[test]
-fn first_statements_that_read_no_argument() {
-    let bodies = [
-        "a[2] ← 7\n  for i ∈ 1 .. 3\n    a[i] ← a[i] + i·w\n  a[1] ← a[1] + x\n  a",
-        "w ← w + 1\n  w·x",
-        "for i ∈ 1 .. 3\n    return i if i = 2\n  x",
-        "a ← 1 / (w − 2)\n  x",
-        "a[1] ← w\n  b ← a\n  b[2] ← x\n  a[1] ← x\n  b",
-        "a ← w",
-        "a ← 3 if w = 1\n  otherwise\n    a ← x\n  a + x",
-        "a ← x + 1\n  b ← 2\n  a·b",
-    ];
-    for (body, w) in bodies.iter().flat_map(|body| [(body, 1.0), (body, 2.0)]) {
-        let mut sheet = Sheet::default();
-        let called = Listing::parse("f", &format!("f(x) :=\n  {body}")).unwrap();
-        sheet.define("w", w).define_program(Rc::new(called));
-        let text = "g() :=\n  for k ∈ 1 .. 3\n    a[k] ← f(k)\n  a";
-        let listing = Listing::parse("g", text).unwrap();
-        let [counted, uncounted] = [1 << 20, u64::MAX].map(|steps| {
-            let limits = Limits { steps, ..Limits::default() };
-            let outcome = listing.runner_in(&sheet, &Settings::default(), &limits).call(&[]);
-            outcome.map(|outcome| outcome.value).map_err(|failure| failure.to_string())
-        });
-        assert_eq!(counted, uncounted, "{body}, w = {w}");
-    }
-}
-
-/// Worksheets that were one share what first statements come to until a value changes, or what the statements say or
-/// call.
-#[test]
-fn first_statements_are_shared_where_they_mean_the_same() {
-    let program = |text: &str| Rc::new(Listing::parse("p", text).unwrap());
-    let mut first = Sheet::default();
-    first.define("w", 1.0).define_program(program("h(y) :=\n  y + w"));
-    first.define_program(program("f(x) :=\n  a ← h(1)\n  a·x"));
-    let run = |sheet: &Sheet, origin| {
-        let main = Listing::parse("g", "g() :=\n  f(3)").unwrap();
-        let limits = Limits { steps: u64::MAX, ..Limits::default() };
-        let settings = Settings { origin, ..Settings::default() };
-        main.runner_in(sheet, &settings, &limits).call(&[]).unwrap().value
-    };
-    let changed = |change: &dyn Fn(&mut Sheet)| {
-        let mut sheet = first.clone();
-        change(&mut sheet);
-        run(&sheet, 1)
-    };
-    assert_eq!((run(&first, 1), run(&first, 1)), (6.0.into(), 6.0.into()));
-    let first_says = |text| {
-        changed(&|sheet| {
-            sheet.define_program(program(text));
-        })
-    };
-    assert_eq!(first_says("f(x) :=\n  a ← h(1)\n  a + x"), 5.0.into(), "the rest may differ");
-    assert_eq!(first_says("f(x) :=\n  a ← h(2)\n  a·x"), 9.0.into(), "the statements");
-    assert_eq!(first_says("h(y) :=\n  y − w"), 0.0.into(), "what they call");
-    let doubled = |sheet: &mut Sheet| {
-        sheet.define("w", 2.0);
-    };
-    assert_eq!(changed(&doubled), 9.0.into(), "a value");
-    let column = "f(x) :=\n  a ← last((7; 8))\n  a·x";
-    let by_origin = |origin| {
-        let mut sheet = first.clone();
-        run(sheet.define_program(program(column)), origin)
-    };
-    assert_eq!((by_origin(1), by_origin(0)), (6.0.into(), 3.0.into()), "ORIGIN");
 }
 
 /// Arrays within arrays, one deeper each turn.

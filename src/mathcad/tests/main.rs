@@ -16,7 +16,7 @@ mod xmcd;
 use fastrand::Rng;
 use mathcad::failure::Fallible;
 use mathcad::xmcd::page::Page;
-use mathcad::{Array, Cause, Limits, Listing, Outcome, Settings, Value};
+use mathcad::{Array, Cause, Ended, Limits, Listing, Settings, Value};
 
 /// One of few.
 fn one_of<T: Clone>(rng: &mut Rng, from: &[T]) -> T {
@@ -40,7 +40,7 @@ fn program(lines: &str) -> Listing {
 
 /// Returns the program's outcome under `settings`, with x = 5, the worksheet's v = (1 2 3)ᵀ, and
 /// m = (1 2; 3 4).
-fn outcome(lines: &str, settings: &Settings) -> Fallible<Outcome> {
+fn outcome(lines: &str, settings: &Settings) -> Fallible<Ended> {
     let listing = program(lines);
     let mut worksheet = listing.runner(settings, &Limits::default());
     worksheet.define("v", Array::column(vec![1.0, 2.0, 3.0]));

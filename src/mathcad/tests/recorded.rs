@@ -6,7 +6,7 @@ use fastrand::Rng;
 use mathcad::failure::Fallible;
 use mathcad::xmcd::document;
 use mathcad::xmcd::document::{Content, Region};
-use mathcad::{Array, Limits, Listing, Outcome, Settings, Sheet, Value, json};
+use mathcad::{Array, Ended, Limits, Listing, Settings, Sheet, Value, json};
 
 use super::{one_of, worksheet};
 
@@ -175,7 +175,7 @@ fn limits() -> Limits {
 }
 
 /// Executes a program.
-fn executed(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
+fn executed(listing: &Listing, settings: &Settings) -> Fallible<Ended> {
     let mut sheet = Sheet::default();
     for (name, value) in above() {
         sheet.define(name, value);
@@ -187,7 +187,7 @@ fn executed(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
 }
 
 /// Returns the value of a program, its trace and last values, or its failure.
-fn in_words(outcome: &Fallible<Outcome>) -> String {
+fn in_words(outcome: &Fallible<Ended>) -> String {
     match outcome {
         Ok(outcome) => {
             let written = |value| serde_json::to_string(&json::Written(value)).expect("JSON");

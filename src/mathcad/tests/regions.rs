@@ -2,7 +2,7 @@
 //! that change what they stand for, operators within operators.
 
 use fastrand::Rng;
-use mathcad::worksheet::{ExecutedRegion, Verdict, execute};
+use mathcad::worksheet::{Agreement, ExecutedRegion, execute};
 use mathcad::xmcd::document::{self, Content};
 use mathcad::xmcd::write;
 use mathcad::{Limits, Listing, Value};
@@ -48,12 +48,12 @@ fn matrix(rows: usize, cols: usize, entries: &[String]) -> String {
     format!("<matrix rows=\"{rows}\" cols=\"{cols}\">{}</matrix>", entries.concat())
 }
 
-fn unsupported(words: &str) -> Verdict {
-    Verdict::Unsupported(words.into())
+fn unsupported(words: &str) -> Agreement {
+    Agreement::Unsupported(words.into())
 }
 
-fn verdicts(checked: &[ExecutedRegion]) -> Vec<Verdict> {
-    checked.iter().map(|checked| checked.verdict.clone()).collect()
+fn verdicts(checked: &[ExecutedRegion]) -> Vec<Agreement> {
+    checked.iter().map(|checked| checked.agreement.clone()).collect()
 }
 
 /// Each with the words that name it; nothing is half understood.
@@ -79,7 +79,7 @@ fn unsupported_constructs_are_named() {
         ("<real>1e999</real>".into(), "the number \"1e999\""),
     ] {
         let checked = executed(&[eval(&expression, None)]);
-        assert_eq!(checked[0].verdict, unsupported(words), "{expression}");
+        assert_eq!(checked[0].agreement, unsupported(words), "{expression}");
     }
     let symbolic = executed(&[format!("<symEval>{a}</symEval>")]);
     assert_eq!(verdicts(&symbolic), [unsupported("symbolics")]);
@@ -87,7 +87,7 @@ fn unsupported_constructs_are_named() {
     for entries in [&three[..2], &[one.clone(), one.clone(), one.clone(), one.clone(), one]] {
         let result = format!("<result>{}</result>", matrix(2, 2, entries));
         let checked = executed(&[format!("<eval>{}{result}</eval>", real(2.0))]);
-        assert_eq!(checked[0].verdict, unsupported("a matrix that is not full"));
+        assert_eq!(checked[0].agreement, unsupported("a matrix that is not full"));
     }
 }
 
@@ -103,7 +103,7 @@ fn assert_values(definitions: &[String], expected: &[(String, &str)]) {
     let checked = executed(&regions);
     for ((expression, value), region) in expected.iter().zip(&checked[definitions.len()..]) {
         let found = region.value.as_ref().map(Value::to_string);
-        assert_eq!(found.as_deref(), Some(*value), "{expression}: {:?}", region.verdict);
+        assert_eq!(found.as_deref(), Some(*value), "{expression}: {:?}", region.agreement);
     }
 }
 
@@ -122,10 +122,14 @@ fn several_names_get_the_entries_in_their_places() {
         define(&names, &integral),
         eval(&id("b"), None),
     ]);
-    assert!(matches!(&checked[0].verdict, Verdict::Fails(why) if why.contains("2 x 2 ← 4 x 1")));
-    assert!(matches!(&checked[1].verdict, Verdict::Unsupported(why) if why.contains("rests on d")));
-    assert_eq!(checked[2].verdict, unsupported("an integral"));
-    assert_eq!(checked[3].verdict, unsupported("an integral (it rests on b)"));
+    assert!(
+        matches!(&checked[0].agreement, Agreement::Fails(why) if why.contains("2 x 2 ← 4 x 1"))
+    );
+    assert!(
+        matches!(&checked[1].agreement, Agreement::Unsupported(why) if why.contains("rests on d"))
+    );
+    assert_eq!(checked[2].agreement, unsupported("an integral"));
+    assert_eq!(checked[3].agreement, unsupported("an integral (it rests on b)"));
 }
 
 #[test]
@@ -168,7 +172,7 @@ fn range_variables_stand_in_sums_and_tables() {
     );
     // What Mathcad makes of a name that is defined over one is unknown.
     let checked = executed(&[defined[0].clone(), define(&id("y"), &table("i", "i"))]);
-    assert_eq!(checked[1].verdict, unsupported("a range variable in an expression (i)"));
+    assert_eq!(checked[1].agreement, unsupported("a range variable in an expression (i)"));
 }
 
 /// A loop, a choice and an error, each within a product.
@@ -197,7 +201,7 @@ fn programs_stand_within_expressions() {
     let back = format!("<program><return>{}</return></program>", real(3.0));
     let checked = executed(&[eval(&twice(&back), None)]);
     let words = "break, continue or return in a program within an expression";
-    assert_eq!(checked[0].verdict, unsupported(words));
+    assert_eq!(checked[0].agreement, unsupported(words));
 }
 
 /// Their order and signs are Mathcad's own, so that what differs in them alone is not called different.
@@ -207,43 +211,46 @@ fn eigenvalues_agree_in_any_order() {
     let m = numbers(2, 2, &[2.0, 0.0, 1.0, 3.0]);
     let saved = |name: &str, result: &str| {
         let text = format!("<eval>{}<result>{result}</result></eval>", call(name, &m));
-        executed(&[text]).remove(0).verdict
+        executed(&[text]).remove(0).agreement
     };
-    assert_eq!(saved("eigenvals", &numbers(2, 1, &[2.0, 3.0])), Verdict::Same);
+    assert_eq!(saved("eigenvals", &numbers(2, 1, &[2.0, 3.0])), Agreement::Same);
     let order = "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
     assert_eq!(saved("eigenvals", &numbers(2, 1, &[3.0, 2.0])), unsupported(order));
     let half = 0.5_f64.sqrt();
     assert_eq!(saved("eigenvecs", &numbers(2, 2, &[half, half, -1.0, 0.0])), unsupported(order));
-    assert!(matches!(saved("eigenvals", &numbers(2, 1, &[2.0, 4.0])), Verdict::Differs { .. }));
+    assert!(matches!(saved("eigenvals", &numbers(2, 1, &[2.0, 4.0])), Agreement::Differs { .. }));
     // Columns of which rounding decides the order, and entries that are 0 but for rounding.
     let equal = numbers(2, 2, &[1.0, 0.3, 0.3, 1.0]);
     let (more, zero) = (f64::from_bits(half.to_bits() + 1), 1e-17);
     for saved in [[half, more, -more, half], [more, half, half, -more], [more, half, -half, more]] {
         let text = format!("<result>{}</result>", numbers(2, 2, &saved));
         let checked = executed(&[format!("<eval>{}{text}</eval>", call("eigenvecs", &equal))]);
-        assert_eq!(checked[0].verdict, unsupported(order), "{saved:?}");
+        assert_eq!(checked[0].agreement, unsupported(order), "{saved:?}");
     }
     let diagonal = numbers(2, 2, &[3.0, 0.0, 0.0, 2.0]);
     let text = format!("<result>{}</result>", numbers(2, 2, &[1.0, zero, -zero, -1.0]));
     let checked = executed(&[format!("<eval>{}{text}</eval>", call("eigenvecs", &diagonal))]);
-    assert_eq!(checked[0].verdict, unsupported(order));
+    assert_eq!(checked[0].agreement, unsupported(order));
     // Two columns are not the same one twice.
     let twice = numbers(2, 2, &[half, half, half, half]);
     let checked =
         executed(&[format!("<eval>{}<result>{twice}</result></eval>", call("eigenvecs", &equal))]);
-    assert!(matches!(checked[0].verdict, Verdict::Differs { .. }));
+    assert!(matches!(checked[0].agreement, Agreement::Differs { .. }));
     // A rotation's are complex; those of a symmetric matrix are an orthogonal matrix.
     let rotation = numbers(2, 2, &[0.0, 1.0, -1.0, 0.0]);
     let checked = executed(&[eval(&call("eigenvals", &rotation), None)]);
-    assert_eq!(checked[0].verdict, unsupported("complex numbers"));
+    assert_eq!(checked[0].agreement, unsupported("complex numbers"));
     let double = numbers(2, 2, &[2.0, 0.0, 1.0, 2.0]);
     let checked = executed(&[eval(&call("eigenvecs", &double), None)]);
-    assert_eq!(checked[0].verdict, unsupported("eigenvectors of an eigenvalue that occurs twice"));
+    assert_eq!(
+        checked[0].agreement,
+        unsupported("eigenvectors of an eigenvalue that occurs twice")
+    );
     let symmetric = numbers(3, 3, &[2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0]);
     let values = numbers(3, 1, &[-1.0, 0.0, 1.0].map(|root: f64| 2.0 + root * 2.0_f64.sqrt()));
     let text = format!("<eval>{}<result>{values}</result></eval>", call("eigenvals", &symmetric));
-    let verdict = &executed(&[text])[0].verdict;
-    assert!(matches!(verdict, Verdict::Same | Verdict::Digits(14..)), "{verdict:?}");
+    let verdict = &executed(&[text])[0].agreement;
+    assert!(matches!(verdict, Agreement::Same | Agreement::Digits(14..)), "{verdict:?}");
 }
 
 /// What a name stood for is gone: a range, a function, a construct that is unsupported.
@@ -273,7 +280,7 @@ fn a_name_defined_anew_is_what_it_was_defined_as() {
     let rests = unsupported("an integral (it rests on y)");
     assert_eq!(verdicts(&checked)[6..9], [unsupported("an integral"), rests.clone(), rests]);
     assert_eq!(
-        checked[11].verdict,
+        checked[11].agreement,
         unsupported("`y`, which nothing above defines"),
         "it is a function no more"
     );
@@ -288,7 +295,7 @@ fn a_unit_is_not_called() {
     let checked = executed(&[eval(&call("m"), Some(1.0)), define(&function, &call("m"))]);
     assert_eq!(verdicts(&checked), [unsupported(unknown), unsupported(unknown)]);
     let product = apply("mult", &[&id("t"), &id("m")]);
-    assert_eq!(executed(&[define(&function, &product)])[0].verdict, unsupported("units: m"));
+    assert_eq!(executed(&[define(&function, &product)])[0].agreement, unsupported("units: m"));
 }
 
 /// The saved value of a definition that is unsupported goes on; that of a name that
@@ -304,7 +311,7 @@ fn a_saved_value_goes_on_only_where_a_name_is_defined() {
     ]);
     let expected = [
         unsupported("an integral"),
-        Verdict::Same,
+        Agreement::Same,
         unsupported("units: kg"),
         unsupported("units: kg"),
     ];
@@ -312,7 +319,7 @@ fn a_saved_value_goes_on_only_where_a_name_is_defined() {
     assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["0"]);
     let too_many = format!("<apply>{}{}{}</apply>", id("sin"), real(1.0), real(2.0));
     let words = "This function has 1 arguments; 2 were given.";
-    assert_eq!(verdicts(&executed(&[eval(&too_many, None)])), [Verdict::Fails(words.into())]);
+    assert_eq!(verdicts(&executed(&[eval(&too_many, None)])), [Agreement::Fails(words.into())]);
 }
 
 /// Areas within areas are looked into, but not without end.
@@ -332,8 +339,8 @@ fn areas_are_entered_thirty_deep() {
 fn regions_are_read_three_hundred_deep() {
     let deep = |parens: usize| {
         let [open, close] = ["<parens>", "</parens>"].map(|tag| tag.repeat(parens));
-        match &executed(&[eval(&format!("{open}{}{close}", real(1.0)), None)])[0].verdict {
-            Verdict::Unsupported(words) => words.clone(),
+        match &executed(&[eval(&format!("{open}{}{close}", real(1.0)), None)])[0].agreement {
+            Agreement::Unsupported(words) => words.clone(),
             other => panic!("{other:?}"),
         }
     };
@@ -473,15 +480,15 @@ fn operators_within_operators_need_no_parentheses() {
     assert!(values.iter().filter(|value| value.is_some()).count() > 300);
     for ((checked, value), tree) in checked.iter().zip(values).zip(trees) {
         let found = checked.value.as_ref().and_then(Value::number);
-        assert_eq!(found, value, "{} {tree}: {:?}", checked.text, checked.verdict);
+        assert_eq!(found, value, "{} {tree}: {:?}", checked.text, checked.agreement);
     }
 }
 
 /// An evaluation at which Mathcad saved an error.
-fn failed(expression: &str, words: &str) -> Verdict {
+fn failed(expression: &str, words: &str) -> Agreement {
     let region =
         format!("<region><math error=\"{words}\"><eval>{expression}</eval></math></region>");
-    execute(&worksheet(&region), &Limits::default()).remove(0).verdict
+    execute(&worksheet(&region), &Limits::default()).remove(0).agreement
 }
 
 /// Both fail: they agree only if the cause is the same.
@@ -497,12 +504,12 @@ fn failures_agree_where_their_cause_is_the_same() {
         (&undefined, "Деление на ноль.", false),
     ] {
         match failed(expression, words) {
-            Verdict::SameFailure { .. } => assert!(agrees, "{expression} {words}"),
-            Verdict::Differs { .. } => assert!(!agrees, "{expression} {words}"),
+            Agreement::SameFailure { .. } => assert!(agrees, "{expression} {words}"),
+            Agreement::Differs { .. } => assert!(!agrees, "{expression} {words}"),
             other => panic!("{other:?}"),
         }
     }
-    let Verdict::Unsupported(words) = failed(&division, "Решение не было найдено.")
+    let Agreement::Unsupported(words) = failed(&division, "Решение не было найдено.")
     else {
         panic!("a message that is not known")
     };
@@ -510,7 +517,7 @@ fn failures_agree_where_their_cause_is_the_same() {
         words.starts_with("Mathcad's error «Решение не было найдено.»; here: Division"),
         "{words}"
     );
-    let Verdict::Unsupported(words) = failed(&id("kg"), "Деление на ноль.") else {
+    let Agreement::Unsupported(words) = failed(&id("kg"), "Деление на ноль.") else {
         panic!("units")
     };
     assert_eq!(words, "units: kg; Mathcad saved an error: «Деление на ноль.»");
@@ -569,7 +576,7 @@ fn saved_values_go_on_as_input() {
     ]);
     let [one, y, z] = ["an integral", "an integral (it rests on y)", "an integral (it rests on z)"]
         .map(unsupported);
-    assert_eq!(verdicts(&checked[..4]), [one.clone(), y.clone(), y, Verdict::Same]);
+    assert_eq!(verdicts(&checked[..4]), [one.clone(), y.clone(), y, Agreement::Same]);
     assert_eq!(
         verdicts(&checked[4..]),
         [one, z.clone(), z],
@@ -584,8 +591,8 @@ fn saved_values_go_on_as_input() {
 fn definitions_that_differ_go_on_with_what_is_saved() {
     let three = define(&id("y"), &eval(&real(3.0), Some(4.0)));
     let checked = executed(&[three, eval(&id("y"), Some(4.0))]);
-    let differs = Verdict::Differs { saved: "4".into(), ours: "3".into() };
-    assert_eq!(verdicts(&checked), [differs, Verdict::Same]);
+    let differs = Agreement::Differs { saved: "4".into(), ours: "3".into() };
+    assert_eq!(verdicts(&checked), [differs, Agreement::Same]);
     assert_eq!(checked[1].inputs.iter().collect::<Vec<_>>(), ["0"]);
 }
 
@@ -609,7 +616,7 @@ fn origin_is_set_by_a_region_and_entries_show_themselves() {
          </settings><regions>{regions}</regions></worksheet>"
     );
     let checked = execute(&document::read(&text, "sheet").unwrap(), &Limits::default());
-    let (none, same) = (Verdict::NothingSaved, Verdict::Same);
+    let (none, same) = (Agreement::NothingSaved, Agreement::Same);
     let half = unsupported("an ORIGIN that is no whole number");
     let defined = [none.clone(), same.clone(), none.clone(), none, same.clone(), same, half];
     assert_eq!(verdicts(&checked), defined);
@@ -639,5 +646,5 @@ fn a_solve_block_is_named() {
 fn values_that_look_the_same_are_told_apart() {
     let checked = executed(&[eval(&numbers(1, 1, &[49.0]), Some(49.0))]);
     let [saved, ours] = ["49, a number", "49, a 1 x 1 array"].map(String::from);
-    assert_eq!(checked[0].verdict, Verdict::Differs { saved, ours });
+    assert_eq!(checked[0].agreement, Agreement::Differs { saved, ours });
 }

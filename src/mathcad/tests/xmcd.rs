@@ -5,7 +5,7 @@ use fastrand::Rng;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use mathcad::worksheet::{ExecutedRegion, Verdict, execute};
+use mathcad::worksheet::{Agreement, ExecutedRegion, execute};
 use mathcad::xmcd::document::{self, Content};
 use mathcad::xmcd::page::Page;
 use mathcad::xmcd::write;
@@ -85,17 +85,17 @@ fn saved(expression: &str, saved: &str) -> Vec<ExecutedRegion> {
 
 #[test]
 fn results_are_compared_number_by_number() {
-    let verdict = |e: &str, s: &str| saved(e, s).pop().unwrap().verdict;
-    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333333331</ml:real>"), Verdict::Same);
-    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333</ml:real>"), Verdict::Digits(10));
-    assert!(matches!(verdict("1 / 3", "<ml:real>0.3</ml:real>"), Verdict::Differs { .. }));
-    assert!(matches!(verdict("1 / 0", "<ml:real>0.3</ml:real>"), Verdict::Differs { .. }));
+    let verdict = |e: &str, s: &str| saved(e, s).pop().unwrap().agreement;
+    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333333331</ml:real>"), Agreement::Same);
+    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333</ml:real>"), Agreement::Digits(10));
+    assert!(matches!(verdict("1 / 3", "<ml:real>0.3</ml:real>"), Agreement::Differs { .. }));
+    assert!(matches!(verdict("1 / 0", "<ml:real>0.3</ml:real>"), Agreement::Differs { .. }));
     let matrix =
         "<ml:matrix rows=\"2\" cols=\"1\"><ml:real>1</ml:real><ml:real>2</ml:real></ml:matrix>";
-    assert_eq!(verdict("(1; 2)", matrix), Verdict::Same);
-    assert!(matches!(verdict("(1 2)", matrix), Verdict::Differs { .. }), "another shape");
-    assert!(matches!(verdict("(1; 2; 3)", matrix), Verdict::Differs { .. }), "one entry more");
-    assert!(matches!(verdict("1 / 0", ""), Verdict::Fails(_)), "nothing saved");
+    assert_eq!(verdict("(1; 2)", matrix), Agreement::Same);
+    assert!(matches!(verdict("(1 2)", matrix), Agreement::Differs { .. }), "another shape");
+    assert!(matches!(verdict("(1; 2; 3)", matrix), Agreement::Differs { .. }), "one entry more");
+    assert!(matches!(verdict("1 / 0", ""), Agreement::Fails(_)), "nothing saved");
     let two = "<ml:real>2</ml:real>";
     for (expression, construct) in [
         ("7·cm", "units: cm"),
@@ -104,18 +104,18 @@ fn results_are_compared_number_by_number() {
         ("nobody(t)", "`nobody`, which nothing above defines"),
         ("sin·2", "a function as a value (sin)"),
     ] {
-        let expected = Verdict::Unsupported(construct.into());
+        let expected = Agreement::Unsupported(construct.into());
         assert_eq!(verdict(expression, two), expected, "{expression}");
     }
     let fewer = "a call with fewer arguments, which is a function";
-    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Verdict::Unsupported(fewer.into()));
+    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Agreement::Unsupported(fewer.into()));
     assert_eq!(
         verdict("linterp(t,t,1)", "<ml:real>1</ml:real>"),
-        Verdict::Unsupported("the function linterp".into())
+        Agreement::Unsupported("the function linterp".into())
     );
     assert_eq!(
         verdict("t", "<ml:complex><ml:real>1</ml:real></ml:complex>"),
-        Verdict::Unsupported("complex numbers".into())
+        Agreement::Unsupported("complex numbers".into())
     );
 }
 
@@ -206,7 +206,7 @@ fn what_is_no_worksheet_is_refused() {
     );
     let checked = document::read(&deep, "deep").map(|s| execute(&s, &Limits::default()));
     let refused =
-        |c: &[ExecutedRegion]| c.iter().all(|c| matches!(c.verdict, Verdict::Unsupported(_)));
+        |c: &[ExecutedRegion]| c.iter().all(|c| matches!(c.agreement, Agreement::Unsupported(_)));
     assert!(checked.is_err() || checked.is_ok_and(|checked| refused(&checked)));
 }
 
@@ -238,15 +238,15 @@ fn mathcad_s_own_worksheets() {
         let text = std::fs::read_to_string(&file).expect("a worksheet");
         let sheet = document::read(&text, "worksheet").expect("a worksheet");
         for region in execute(&sheet, &Limits::default()) {
-            let kind = match region.verdict {
-                Verdict::NothingSaved => continue,
-                Verdict::Same => "same",
-                Verdict::Digits(_) => "digits",
-                Verdict::SameFailure { .. } => "failure",
-                Verdict::Differs { .. } | Verdict::Fails(_) => {
-                    panic!("{}, {}: {:?}", file.display(), region.id, region.verdict)
+            let kind = match region.agreement {
+                Agreement::NothingSaved => continue,
+                Agreement::Same => "same",
+                Agreement::Digits(_) => "digits",
+                Agreement::SameFailure { .. } => "failure",
+                Agreement::Differs { .. } | Agreement::Fails(_) => {
+                    panic!("{}, {}: {:?}", file.display(), region.id, region.agreement)
                 }
-                Verdict::Unsupported(_) => "unsupported",
+                Agreement::Unsupported(_) => "unsupported",
             };
             *counts.entry(kind).or_default() += 1;
         }

@@ -327,64 +327,62 @@ fn apply(node: Math<'_, '_>, subscript: bool) -> Read<String> {
         return Ok(format!("{function}({})", operands.join(",")));
     }
     let x = node.part(1)?;
-    if let Some(row) = node.spelling() {
-        return between(row, node, subscript);
-    }
+    let part = |k| node.part(k);
     let behind = |x| operand(x, Level::Behind, subscript);
-    match operator.tag() {
-        "neg" => Ok(format!("−{}", operand(x, Level::Power, subscript)?)),
-        "pow" => {
-            let y = node.part(2)?;
-            Ok(format!("{}^{}", behind(x)?, wrapped(y, in_exponent(y), subscript)?))
+    let Some(row) = node.spelling() else { return series(operator, x, node) };
+    let sign = row.sign;
+    match row.operator {
+        Operator::Any | Operator::All | Operator::Compare(_) | Operator::Calculate(_) => {
+            between(row, x, part(2)?, subscript)
         }
-        "absval" => Ok(format!("|{}|", text(x, subscript)?)),
-        "transpose" => {
+        Operator::Not => Ok(format!("{sign}{}", operand(x, row.level, subscript)?)),
+        Operator::Negative => Ok(format!("{sign}{}", operand(x, Level::Power, subscript)?)),
+        Operator::Power => {
+            let y = part(2)?;
+            Ok(format!("{}{sign}{}", behind(x)?, wrapped(y, in_exponent(y), subscript)?))
+        }
+        Operator::Magnitude => Ok(format!("|{}|", text(x, subscript)?)),
+        Operator::Transpose => {
             let inside = x.inside().filter(|inside| in_transpose(*inside)).unwrap_or(x);
-            Ok(format!("{}ᵀ", behind(inside)?))
+            Ok(format!("{}{sign}", behind(inside)?))
         }
-        "indexer" => {
-            let subscripts = joined(node.part(2)?, ",", |part| text(part, true))?;
+        Operator::Entry => {
+            let subscripts = joined(part(2)?, ",", |part| text(part, true))?;
             Ok(format!("{}[{subscripts}]", behind(x)?))
         }
-        "matcol" => Ok(format!("{}⟨{}⟩", behind(x)?, text(node.part(2)?, true)?)),
-        "summation" | "product" if x.tag() == "lambda" => {
-            let sign = if operator.tag() == "product" { "∏" } else { "∑" };
-            let (variable, term) = (name(x.part(0)?.part(0)?)?, expression(x.part(1)?)?);
-            let range = match node.part(2) {
-                Ok(bounds) => {
-                    format!("{} .. {}", expression(bounds.part(0)?)?, expression(bounds.part(1)?)?)
-                }
-                // Over the range variable of that name.
-                Err(_) => variable.clone(),
-            };
-            Ok(format!("{sign}({variable} ∈ {range}, {term})"))
-        }
-        _ => Err(unsupported(operator)),
+        Operator::Column => Ok(format!("{}⟨{}⟩", behind(x)?, text(part(2)?, true)?)),
     }
 }
 
-/// Spells an operator of [`OPERATORS`] with its operands. The left one needs no parentheses where it
-/// is of the operator's level: a comparison within another is a chain.
-fn between(row: &Spelling, node: Math<'_, '_>, subscript: bool) -> Read<String> {
-    let (sign, x) = (row.sign, node.part(1)?);
-    if row.operator == Operator::Not {
-        return Ok(format!("{sign}{}", operand(x, row.level, subscript)?));
-    }
-    let y = node.part(2)?;
-    let right_level = match row.operator {
-        Operator::Calculate(Operation::Divide) => {
-            let above = wrapped(x, in_fraction(x, Level::Product), subscript)?;
-            let below = wrapped(y, in_fraction(y, Level::Negative), subscript)?;
-            return Ok(format!("{above} / {below}"));
-        }
-        Operator::Any => Level::All,
-        Operator::All | Operator::Not => Level::Not,
-        Operator::Compare(_) => Level::Sum,
-        Operator::Calculate(Operation::Add | Operation::Subtract) => Level::Product,
-        Operator::Calculate(Operation::Multiply) => Level::Negative,
+/// Spells a sum or product of a function of its variable.
+fn series(operator: Math<'_, '_>, x: Math<'_, '_>, node: Math<'_, '_>) -> Read<String> {
+    let sign = match operator.tag() {
+        "summation" if x.tag() == "lambda" => "∑",
+        "product" if x.tag() == "lambda" => "∏",
+        _ => return Err(unsupported(operator)),
     };
+    let (variable, term) = (name(x.part(0)?.part(0)?)?, expression(x.part(1)?)?);
+    let range = match node.part(2) {
+        Ok(bounds) => {
+            format!("{} .. {}", expression(bounds.part(0)?)?, expression(bounds.part(1)?)?)
+        }
+        // Over the range variable of that name.
+        Err(_) => variable.clone(),
+    };
+    Ok(format!("{sign}({variable} ∈ {range}, {term})"))
+}
+
+/// Spells an operator between two operands. The left one needs no parentheses where it is of the operator's
+/// level: a comparison within another is a chain.
+fn between(row: &Spelling, x: Math<'_, '_>, y: Math<'_, '_>, subscript: bool) -> Read<String> {
+    let sign = row.sign;
+    if row.operator == Operator::Calculate(Operation::Divide) {
+        let above = wrapped(x, in_fraction(x, Level::Product), subscript)?;
+        let below = wrapped(y, in_fraction(y, Level::Negative), subscript)?;
+        return Ok(format!("{above} {sign} {below}"));
+    }
     let left = operand(x, row.level, subscript)?;
-    let right = operand(y, right_level, subscript)?;
+    let right = wrapped(y, y.level() <= row.level, subscript)?;
     let is_close = match row.level {
         Level::Sum => subscript && !left.contains('[') && !right.contains('['),
         Level::Product => !(left.ends_with(')') && right.starts_with('(')),
@@ -432,15 +430,10 @@ impl Operand for Math<'_, '_> {
             let negative = self.text().starts_with('-');
             return if negative { Level::Negative } else { Level::Atom };
         }
-        if let Some(row) = self.spelling() {
-            return row.level;
-        }
-        match self.operator() {
-            "neg" => Level::Negative,
-            "pow" => Level::Power,
-            "transpose" | "matcol" => Level::Behind,
-            "indexer" if !self.is_entry() => Level::Behind,
-            _ => Level::Atom,
+        match self.spelling() {
+            Some(_) if self.is_entry() => Level::Atom,
+            Some(row) => row.level,
+            None => Level::Atom,
         }
     }
 

@@ -4,10 +4,8 @@ use super::FUNCTIONS;
 use super::parentheses::{Operand, in_exponent, in_fraction, in_transpose};
 use crate::lexer::Names;
 use crate::listing::Listing;
-use crate::syntax::{
-    Expr, Kind, Level, Operation, Operator, Range, Reference, Slot, Spread, Statement, Step,
-};
-use crate::value::Array;
+use crate::syntax::{Expr, Kind, Level, Operation, Operator, Statement, Step};
+use crate::value::{Array, Value};
 use base::xml::Element;
 
 /// Writes the definition of a listing's function, or of a name where it has no parameters.
@@ -61,6 +59,19 @@ fn by_columns<T>(entries: &[T], cols: usize, write: impl Fn(&T) -> Element) -> E
         .set("rows", rows.to_string())
         .set("cols", cols.to_string())
         .with_all(places.map(|k| write(&entries[k])))
+}
+
+/// Writes a value: a number, a string or an array.
+pub fn literal(value: &Value) -> Element {
+    match value {
+        Value::Number(x) => real(*x),
+        Value::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
+        Value::Array(array) => matrix(array),
+        Value::Nested(nested) => {
+            let entries: Vec<Value> = nested.grid().entries().cloned().collect();
+            by_columns(&entries, nested.grid().cols(), literal)
+        }
+    }
 }
 
 /// Makes the element of a real number.
@@ -132,27 +143,15 @@ impl Writer<'_> {
                 element("ml:tryCatch", [self.block(body), self.block(fallback)])
             }
             Step::For { name, range, body } => {
-                let range = match range {
-                    Range::Over(values) => self.sequence(values),
-                    Range::Span { from, second, to } => {
-                        let start = self.sequence([from].into_iter().chain(second));
-                        element("ml:range", [start, self.expr(to)])
-                    }
+                let start = self.sequence(&range.values);
+                let range = match &range.to {
+                    Some(to) => element("ml:range", [start, self.expr(to)]),
+                    None => start,
                 };
                 element("ml:for", [id(self.names.name(*name)), range, self.block(body)])
             }
             Step::Assign { target, value } => {
-                element("ml:localDefine", [self.reference(target), self.expr(value)])
-            }
-            Step::Spread { to, value } => {
-                let name = |slot: &Slot| id(self.names.name(*slot));
-                let to = match to {
-                    Spread::Names { names, cols } => by_columns(names, *cols, name),
-                    Spread::Column { name: array, column, .. } => {
-                        apply("ml:matcol", [name(array), self.expr(column)])
-                    }
-                };
-                element("ml:localDefine", [to, self.expr(value)])
+                element("ml:localDefine", [self.expr(target), self.expr(value)])
             }
             Step::Evaluate { value } => self.expr(value),
             Step::Return { value } => element("ml:return", [self.expr(value)]),
@@ -166,83 +165,44 @@ impl Writer<'_> {
     }
 
     /// Writes expressions as a sequence; one alone is itself.
-    fn sequence<'e>(&self, exprs: impl IntoIterator<Item = &'e Expr>) -> Element {
-        let mut elements: Vec<_> = exprs.into_iter().map(|x| self.expr(x)).collect();
+    fn sequence(&self, exprs: &[Expr]) -> Element {
+        let mut elements: Vec<_> = exprs.iter().map(|x| self.expr(x)).collect();
         match elements.len() {
             1 => elements.remove(0),
             _ => element("ml:sequence", elements),
         }
     }
 
-    fn reference(&self, reference: &Reference) -> Element {
-        let name = id(self.names.name(reference.name));
-        match reference.row {
-            None => name,
-            Some(_) => apply("ml:indexer", [name, self.sequence(reference.subscripts())]),
-        }
-    }
-
     fn expr(&self, expr: &Expr) -> Element {
+        let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => real(*x),
-            Kind::Text(text) => Element::with_text("ml:str", text).set("xml:space", "preserve"),
-            Kind::Read(reference) => self.reference(reference),
-            Kind::Entry { of, subscripts } => {
-                apply("ml:indexer", [self.behind(of), self.sequence(subscripts)])
+            Kind::Literal(value) => literal(value),
+            Kind::Name(name) => id(self.names.name(*name)),
+            Kind::Group => parens(self.expr(&parts[0])),
+            Kind::Array { cols } => by_columns(parts, *cols, |x| self.expr(x)),
+            Kind::Apply(operator) => self.applied(*operator, parts),
+            Kind::Chain(comparisons) => {
+                self.folded(comparisons.iter().map(|sign| Operator::Compare(*sign)), parts)
             }
-            Kind::Group(x) => parens(self.expr(x)),
-            Kind::Array { entries, cols } => by_columns(entries, *cols, |x| self.expr(x)),
-            Kind::Magnitude(x) => apply("ml:absval", [self.expr(x)]),
-            Kind::Negative(x) => match x.kind {
-                Kind::Number(x) => real(-x),
-                _ => apply("ml:neg", [self.expr(x)]),
-            },
-            Kind::Not(x) => apply("ml:not", [self.expr(x)]),
-            Kind::Transpose(x) => {
-                let inside = if in_transpose(&**x) { parens(self.expr(x)) } else { self.behind(x) };
-                apply("ml:transpose", [inside])
-            }
-            Kind::Column(x, j) => apply("ml:matcol", [self.behind(x), self.expr(j)]),
-            Kind::Power(x, y) => apply("ml:pow", [self.expr(x), self.without(y, in_exponent)]),
-            Kind::Arithmetic(Operation::Divide, x, y) => {
-                let above = self.without(x, |x| in_fraction(x, Level::Product));
-                let below = self.without(y, |y| in_fraction(y, Level::Negative));
-                apply("ml:div", [above, below])
-            }
-            Kind::Arithmetic(operation, x, y) => {
-                self.operated(Operator::Calculate(*operation), self.expr(x), y)
-            }
-            Kind::Compare(comparison, x, y) => {
-                self.operated(Operator::Compare(*comparison), self.expr(x), y)
-            }
-            Kind::Chain(first, rest) => rest.iter().fold(self.expr(first), |left, (sign, x)| {
-                self.operated(Operator::Compare(*sign), left, x)
-            }),
-            Kind::All(operands) | Kind::Any(operands) => {
-                let all = matches!(expr.kind, Kind::All(_));
-                let operator = if all { Operator::All } else { Operator::Any };
-                let (first, rest) = operands.split_first().expect("two operands or more");
-                rest.iter().fold(self.expr(first), |left, x| self.operated(operator, left, x))
-            }
-            Kind::Call(name, arguments) => {
+            Kind::Call(name) => {
                 let name = self.names.name(*name);
-                match FUNCTIONS.iter().find(|(_, f, n)| *f == name && *n == arguments.len()) {
+                match FUNCTIONS.iter().find(|(_, f, n)| *f == name && *n == parts.len()) {
                     Some((element, ..)) => {
-                        let mut written: Vec<_> = arguments.iter().map(|x| self.expr(x)).collect();
+                        let mut written: Vec<_> = parts.iter().map(|x| self.expr(x)).collect();
                         if name == "log" {
                             written.reverse();
                         }
                         apply(element, written)
                     }
-                    None => element("ml:apply", [id(name), self.sequence(arguments)]),
+                    None => element("ml:apply", [id(name), self.sequence(parts)]),
                 }
             }
             Kind::Program(block) => match block.as_slice() {
                 [_] => Element::new("ml:program").with(self.block(block)),
                 several => self.block(several),
             },
-            Kind::If(parts) => element("ml:apply", [id("if"), self.sequence(&**parts)]),
-            Kind::Series { function, name, parts } => {
+            Kind::If => element("ml:apply", [id("if"), self.sequence(parts)]),
+            Kind::Series { function, name } => {
                 let (term, range) = parts.split_last().expect("a series has a term");
                 let product = self.names.name(*function) == "∏";
                 let bound = element("ml:boundVars", [id(self.names.name(*name))]);
@@ -254,6 +214,44 @@ impl Writer<'_> {
                 apply(series, [lambda].into_iter().chain(bounds))
             }
         }
+    }
+
+    /// Writes an operator before its operands, with the parentheses that Mathcad's places need.
+    fn applied(&self, operator: Operator, operands: &[Expr]) -> Element {
+        let x = &operands[0];
+        let written = match operator {
+            Operator::Any | Operator::All => {
+                return self.folded(operands[1..].iter().map(|_| operator), operands);
+            }
+            Operator::Negative => match x.kind {
+                Kind::Literal(Value::Number(x)) => return real(-x),
+                _ => vec![self.expr(x)],
+            },
+            Operator::Not
+            | Operator::Magnitude
+            | Operator::Compare(_)
+            | Operator::Calculate(Operation::Add | Operation::Subtract | Operation::Multiply) => {
+                operands.iter().map(|x| self.expr(x)).collect()
+            }
+            Operator::Calculate(Operation::Divide) => vec![
+                self.without(x, |x| in_fraction(x, Level::Product)),
+                self.without(&operands[1], |y| in_fraction(y, Level::Negative)),
+            ],
+            Operator::Power => vec![self.expr(x), self.without(&operands[1], in_exponent)],
+            Operator::Transpose if in_transpose(x) => vec![parens(self.expr(x))],
+            Operator::Transpose => vec![self.behind(x)],
+            Operator::Entry | Operator::Column => {
+                vec![self.behind(x), self.sequence(&operands[1..])]
+            }
+        };
+        apply(operator.spelling().element, written)
+    }
+
+    /// Writes each operator between what stands before it and the next operand.
+    fn folded(&self, operators: impl Iterator<Item = Operator>, operands: &[Expr]) -> Element {
+        operators.zip(&operands[1..]).fold(self.expr(&operands[0]), |left, (operator, x)| {
+            apply(operator.spelling().element, [left, self.expr(x)])
+        })
     }
 
     /// Writes an operand, without its parentheses where they stand for Mathcad's own place.
@@ -269,48 +267,23 @@ impl Writer<'_> {
         let inside = self.expr(x);
         if x.level() < Level::Atom || x.is_entry() { parens(inside) } else { inside }
     }
-
-    fn operated(&self, operator: Operator, left: Element, right: &Expr) -> Element {
-        apply(operator.spelling().element, [left, self.expr(right)])
-    }
 }
 
 impl Operand for &Expr {
     fn level(self) -> Level {
-        match &self.kind {
-            Kind::Any(_) => Level::Any,
-            Kind::All(_) => Level::All,
-            Kind::Not(_) => Level::Not,
-            Kind::Compare(..) | Kind::Chain(..) => Level::Comparison,
-            Kind::Arithmetic(operation, ..) => Operator::Calculate(*operation).spelling().level,
-            Kind::Negative(_) => Level::Negative,
-            Kind::Power(..) => Level::Power,
-            Kind::Transpose(_) | Kind::Column(..) | Kind::Entry { .. } => Level::Behind,
-            Kind::Number(_)
-            | Kind::Text(_)
-            | Kind::Read(_)
-            | Kind::Group(_)
-            | Kind::Array { .. }
-            | Kind::Magnitude(_)
-            | Kind::Call(..)
-            | Kind::If(_)
-            | Kind::Program(_)
-            | Kind::Series { .. } => Level::Atom,
-        }
+        Expr::level(self)
     }
 
     fn inside(self) -> Option<Self> {
-        match &self.kind {
-            Kind::Group(x) => Some(x),
-            _ => None,
-        }
+        matches!(self.kind, Kind::Group).then(|| &self.parts[0])
     }
 
     fn is_plain_opposite(self) -> bool {
-        matches!(&self.kind, Kind::Negative(x) if x.level() >= Level::Behind)
+        matches!(self.kind, Kind::Apply(Operator::Negative))
+            && self.parts[0].level() >= Level::Behind
     }
 
     fn is_entry(self) -> bool {
-        matches!(&self.kind, Kind::Read(reference) if reference.row.is_some())
+        Expr::is_entry(self)
     }
 }

@@ -1,10 +1,10 @@
 //! The worksheet: tables, `Ae`, `B`, `D`, the listings, the iterations, and our results beside
 //! Mathcad's.
 
-use super::{CorrectedExport, Export, Run};
+use super::{CorrectedExport, Export, ITERATED, MOVED, Run, listing};
 use ::mathcad::value::Array;
 use ::mathcad::xmcd::{page::Page, write};
-use ::mathcad::{Listing, Settings, Value};
+use ::mathcad::{Settings, Value};
 use paper::corrected::Program;
 use paper::listings::{Which, elasticity, settings, tables};
 use paper::mirror::Worksheet;
@@ -42,22 +42,6 @@ const GRADIENTS: &str = "B() :=
       b[3,2·k] ← b[1,2·k−1]
     all[n] ← b
   all
-";
-
-const MOVED: &str = "moved(u) :=
-  x ← node
-  for n ∈ 1 .. R
-    x[n,2] ← node[n,2] + u[2·n−1]
-    x[n,3] ← node[n,3] + u[2·n]
-  x
-";
-
-const ITERATED: &str = "iterated(steps) :=
-  x ← node
-  for k ∈ 1 .. steps
-    u ← lsolve(Km(c_cnt(x)),F)
-    x ← moved(u)
-  u
 ";
 
 /// Strains, stresses and the von Mises stress of each element, by rows: e_xx, e_yy, g_xy, s_xx,
@@ -227,16 +211,9 @@ fn beside(page: &mut Page, name: &str, ours: &Array, theirs: &str) {
 }
 
 fn define(page: &mut Page, name: &str, value: &Value) {
-    match value {
-        Value::Array(array) => page.define(name, write::matrix(array), array.rows()),
-        value => page.define(name, write::real(value.number().unwrap_or_default()), 1),
-    };
+    page.define(name, write::literal(value), value.size().0);
 }
 
 fn expression(text: &str) -> base::xml::Element {
     write::expression(&listing(&format!("_() :=\n  {text}")))
-}
-
-fn listing(text: &str) -> Listing {
-    Listing::parse("export", text).expect("the export's own programs are sound")
 }

@@ -4,6 +4,7 @@
 pub mod mathcad;
 pub mod octave;
 
+use ::mathcad::Listing;
 use ::mathcad::array::Table;
 use paper::corrected::Bound;
 use paper::mirror::{Pairs, Reading, Worksheet};
@@ -54,4 +55,26 @@ pub struct Run {
     pub u: Vec<f64>,
     /// The von Mises stresses at the end, stress. M.
     pub stress: Vec<f64>,
+}
+
+/// The nodes in the shape of some displacements.
+const MOVED: &str = "moved(u) :=
+  x ← node
+  for n ∈ 1 .. R
+    x[n,2] ← node[n,2] + u[2·n−1]
+    x[n,3] ← node[n,3] + u[2·n]
+  x
+";
+
+/// The displacements after so many iterations of the listings.
+const ITERATED: &str = "iterated(steps) :=
+  x ← node
+  for k ∈ 1 .. steps
+    u ← lsolve(Km(c_cnt(x)),F)
+    x ← moved(u)
+  u
+";
+
+fn listing(text: &str) -> Listing {
+    Listing::parse("export", text).expect("the export's own programs are sound")
 }

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{CorrectedExport, Export};
+use super::{CorrectedExport, Export, ITERATED, MOVED, listing};
 use ::mathcad::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Statement, Step,
 };
@@ -16,8 +16,7 @@ use ::mathcad::{Array, Conjunction, Listing, Value};
 use base::files::PER_CENT;
 use base::plain::on_a_line;
 use paper::corrected::Program;
-use paper::listings::{Which, tables};
-use problem::element::Plane;
+use paper::listings::{Which, elasticity, tables};
 
 const HELPERS: &str = "
 function c = over(a, b)
@@ -68,23 +67,7 @@ function beside(name, x, ours)
   show(['ours_' name], ours);
   show(['difference_' name], max(abs(x(:) - ours(:))));
 end
-";
 
-const STRAIN: &str = "
-function d = D(e, nu)
-  f = over(e, (1 + nu) * (1 - 2 * nu));
-  d = [f * (1 - nu), f * nu, 0; f * nu, f * (1 - nu), 0; 0, 0, f * ((1 - 2 * nu) / 2)];
-end
-";
-
-const STRESS: &str = "
-function d = D(e, nu)
-  f = over(e, 1 - nu * nu);
-  d = [f, f * nu, 0; f * nu, f, 0; 0, 0, f * ((1 - nu) / 2)];
-end
-";
-
-const SOLVER: &str = "
 function x = lsolve(a, b)
   x = a \\ b;
 end
@@ -92,7 +75,8 @@ end
 
 /// Writes the program of an export.
 pub fn program(export: &Export) -> String {
-    let globals = Globals::new(tables(export.sheet));
+    let force = export.run.as_ref().map(|run| ("F", column(&run.force)));
+    let globals = Globals(tables(export.sheet).into_iter().chain(force).collect());
     let readings = match export.reading.to_string() {
         given if given.is_empty() => "all by default".into(),
         given => given,
@@ -105,8 +89,12 @@ pub fn program(export: &Export) -> String {
         let more = if *which == Which::CCnt { ", ct, yt, dy" } else { "" };
         text += &function(&which.under(export.reading), more, export.reading.r4, &globals);
     }
-    text += elasticity(export.sheet.plane);
-    text += &format!("{HELPERS}\n{}{}", globals.declaration(), globals.definitions);
+    let mut added = vec![elasticity(export.sheet.plane)];
+    if export.run.is_some() {
+        added.extend([MOVED, ITERATED]);
+    }
+    text += &own(&added, &globals);
+    text += &globals.definitions();
     text += &format!("  node_n = {};\n", literal(&Value::from(export.node_n)));
     text += "  [k_cnt, ct, yt, dy] = c_cnt(node_n);\n";
     match &export.run {
@@ -124,32 +112,24 @@ pub fn program(export: &Export) -> String {
     }
     text += "  show('MJS', Km(k_cnt));\n";
     if let Some(run) = &export.run {
-        text += &format!(
-            "  F = {};\n  x = node;\n  for k = 1:{}\n    U = Km(c_cnt(x)) \\ F;\n    x = node;\n\
-             \x20   x(:,2) = node(:,2) + U(1:2:end);\n    x(:,3) = node(:,3) + U(2:2:end);\n  end\n",
-            literal(&Value::from(Array::column(run.force.clone()))),
-            run.iterations
-        );
-        text += &beside("U", Value::from(Array::column(run.u.clone())));
+        text += &format!("  U = iterated({});\n", run.iterations);
+        text += &beside("U", column(&run.u));
     }
     text
 }
 
 /// Writes the program of the corrected algorithm.
 pub fn corrected(export: &CorrectedExport) -> String {
-    let force = Value::from(Array::column(export.force.clone()));
-    let more = [("F", force), ("both", export.bound.both().into())];
-    let globals = Globals::new(tables(export.sheet).into_iter().chain(more));
+    let more = [("F", column(&export.force)), ("both", export.bound.both().into())];
+    let globals = Globals(tables(export.sheet).into_iter().chain(more).collect());
     let mut text = head(export.title, "The corrected algorithm of plane-contact.");
     for program in Program::ALL {
         text += &function(&program.listing(), "", Conjunction::Guarded, &globals);
     }
-    text += elasticity(export.sheet.plane);
-    text += SOLVER;
-    text += HELPERS;
-    text += &format!("\n{}{}", globals.declaration(), globals.definitions);
+    text += &own(&[elasticity(export.sheet.plane)], &globals);
+    text += &globals.definitions();
     text += &format!("  U = iterate({});\n  U = U(1:{});\n", export.steps, export.u.len());
-    text + &beside("U", Value::from(Array::column(export.u.clone())))
+    text + &beside("U", column(&export.u))
 }
 
 /// Begins a script: its title on one line, whatever it holds, and a statement, because a file that
@@ -161,11 +141,14 @@ fn head(title: &str, about: &str) -> String {
     )
 }
 
-fn elasticity(plane: Plane) -> &'static str {
-    match plane {
-        Plane::Strain => STRAIN,
-        Plane::Stress => STRESS,
-    }
+/// Translates listings that the paper does not print, and adds the functions that Octave has under other names.
+fn own(texts: &[&str], globals: &Globals) -> String {
+    let translated = |text: &&str| function(&listing(text), "", Conjunction::Guarded, globals);
+    texts.iter().map(translated).collect::<String>() + HELPERS
+}
+
+fn column(entries: &[f64]) -> Value {
+    Array::column(entries.to_vec()).into()
 }
 
 /// Writes the statement that prints a result by its name, and what this program has for it beside.
@@ -173,33 +156,28 @@ fn beside(name: &str, ours: Value) -> String {
     format!("  beside('{name}', {name}, {});\n", literal(&ours))
 }
 
-/// The names of the worksheet, what they stand for, and the statements that define them.
-#[derive(Default)]
-struct Globals {
-    names: BTreeSet<&'static str>,
-    scalars: BTreeSet<&'static str>,
-    nested: BTreeSet<&'static str>,
-    definitions: String,
-}
+/// The names of the worksheet, and what they stand for.
+struct Globals(Vec<(&'static str, Value)>);
 
 impl Globals {
-    fn new(tables: impl IntoIterator<Item = (&'static str, Value)>) -> Self {
-        let mut globals = Globals::default();
-        for (table, value) in tables {
-            match &value {
-                Value::Number(_) => drop(globals.scalars.insert(table)),
-                Value::Nested(_) => drop(globals.nested.insert(table)),
-                Value::Array(_) | Value::Text(_) => {}
-            }
-            globals.names.insert(table);
-            globals.definitions += &format!("  {} = {};\n", ascii(table), literal(&value));
-        }
-        globals
+    fn value(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(global, _)| *global == name).map(|(_, value)| value)
     }
 
-    fn declaration(&self) -> String {
-        let names: Vec<_> = self.names.iter().map(|name| ascii(name)).collect();
-        format!("  global {}\n", names.join(" "))
+    /// Declares those of some names that are the worksheet's.
+    fn declaration<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> String {
+        let own = names.into_iter().filter(|name| self.value(name).is_some());
+        let own: Vec<_> = own.map(ascii).collect();
+        if own.is_empty() { String::new() } else { format!("  global {}\n", own.join(" ")) }
+    }
+
+    /// Declares and defines all of them.
+    fn definitions(&self) -> String {
+        let mut text = "\n".to_string() + &self.declaration(self.0.iter().map(|(name, _)| *name));
+        for (name, value) in &self.0 {
+            text += &format!("  {} = {};\n", ascii(name), literal(value));
+        }
+        text
     }
 }
 
@@ -240,7 +218,7 @@ fn function(listing: &Listing, more: &str, conjunction: Conjunction, globals: &G
         listing.parameters.iter().map(|slot| ascii(listing.names.name(*slot))).collect();
     let mut text =
         format!("\nfunction [value{more}] = {}({})\n", listing.function(), parameters.join(", "));
-    text += &globals.declaration();
+    text += &globals.declaration(listing.free_names());
     translator.block(&listing.program, 1, &mut text);
     text + "end\n"
 }
@@ -262,10 +240,8 @@ impl Translator<'_> {
         for Statement { step, .. } in block {
             match step {
                 Step::For { name, .. } => drop(found.insert(*name)),
-                Step::Assign { target, value, .. }
-                    if target.row.is_none() && self.is_scalar(value) =>
-                {
-                    found.insert(target.name);
+                Step::Assign { target, value } if self.is_scalar(value) => {
+                    found.extend(target.name());
                 }
                 _ => {}
             }
@@ -274,26 +250,29 @@ impl Translator<'_> {
     }
 
     fn is_scalar(&self, expr: &Expr) -> bool {
+        use Operator::*;
+        let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(_) | Kind::Compare(..) | Kind::All(_) | Kind::Magnitude(_) => true,
-            Kind::Read(reference) => {
-                let name = self.listing.names.name(reference.name);
-                match reference.row {
-                    Some(_) => !self.globals.nested.contains(name),
-                    None => {
-                        self.scalars.contains(&reference.name)
-                            || self.globals.scalars.contains(name)
-                    }
-                }
+            Kind::Apply(Compare(_) | All | Magnitude) => true,
+            Kind::Literal(value) => value.number().is_some(),
+            Kind::Name(name) => {
+                self.scalars.contains(name) || matches!(self.global(expr), Some(Value::Number(_)))
             }
-            Kind::Group(x) | Kind::Negative(x) => self.is_scalar(x),
-            Kind::Arithmetic(_, x, y) => self.is_scalar(x) && self.is_scalar(y),
-            Kind::Call(name, _) => {
+            Kind::Apply(Entry) => !matches!(self.global(&parts[0]), Some(Value::Nested(_))),
+            Kind::Group | Kind::Apply(Negative | Calculate(_)) => {
+                parts.iter().all(|part| self.is_scalar(part))
+            }
+            Kind::Call(name) => {
                 matches!(self.listing.names.name(*name), "rows" | "min" | "max")
             }
             // Operations on arrays serve numbers too.
             _ => false,
         }
+    }
+
+    /// Returns what a name of the worksheet stands for.
+    fn global(&self, expr: &Expr) -> Option<&Value> {
+        self.globals.value(self.listing.names.name(expr.name()?))
     }
 
     fn block(&self, block: &[Statement], level: usize, text: &mut String) {
@@ -314,27 +293,23 @@ impl Translator<'_> {
         }
         let inner = level + usize::from(guard.is_some());
         match step {
-            Step::For { name, range: Range::Span { from, second: None, to }, body, .. } => {
-                let (from, to) = (self.expr(from), self.expr(to));
-                put(inner, &format!("for {} = upto({from}, {to})", self.name(*name)));
+            Step::For { name, range: Range { values, to: Some(to) }, body } => {
+                let (values, to) = (self.list(values), self.expr(to));
+                put(inner, &format!("for {} = upto({values}, {to})", self.name(*name)));
                 self.block(body, inner + 1, text);
             }
             Step::If { condition, body } => {
                 put(inner, &format!("if {}", self.expr(condition)));
                 self.block(body, inner + 1, text);
             }
-            Step::Assign { target, value, .. } => {
-                let name = self.name(target.name);
-                let place = match (&target.row, &target.col) {
-                    (Some(row), Some(col)) => {
-                        format!("{name}({}, {})", self.expr(row), self.expr(col))
-                    }
-                    (Some(row), None) => format!("{name}({}, 1)", self.expr(row)),
-                    (None, _) => name,
+            Step::Assign { target, value } => {
+                let place = match target.parts.as_slice() {
+                    [name, row] => format!("{}({}, 1)", self.expr(name), self.expr(row)),
+                    _ => self.expr(target),
                 };
                 put(inner, &format!("{place} = {};", self.expr(value)));
             }
-            Step::Evaluate { value, .. } => put(inner, &format!("value = {};", self.expr(value))),
+            Step::Evaluate { value } => put(inner, &format!("value = {};", self.expr(value))),
             Step::Return { value, .. } => {
                 put(inner, &format!("value = {};", self.expr(value)));
                 put(inner, "return");
@@ -351,70 +326,62 @@ impl Translator<'_> {
     }
 
     fn expr(&self, expr: &Expr) -> String {
+        let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Number(x) => number(*x),
-            Kind::Read(reference) => {
-                let name = self.name(reference.name);
-                let subscripts = self.list(reference.subscripts());
-                let nested = self.globals.nested.contains(self.listing.names.name(reference.name));
-                match (reference.row.is_some(), nested) {
-                    (false, _) => name,
-                    (true, true) => format!("{name}{{{subscripts}}}"),
-                    (true, false) => format!("{name}({subscripts})"),
-                }
-            }
-            Kind::Group(x) => format!("({})", self.expr(x)),
-            Kind::Array { entries, cols } => {
-                let rows: Vec<_> = entries.chunks(*cols).map(|row| self.list(row)).collect();
+            Kind::Literal(value) => literal(value),
+            Kind::Name(name) => self.name(*name),
+            Kind::Group => format!("({})", self.expr(&parts[0])),
+            Kind::Array { cols } => {
+                let rows: Vec<_> = parts.chunks(*cols).map(|row| self.list(row)).collect();
                 format!("[{}]", rows.join("; "))
             }
-            Kind::Magnitude(x) if self.is_scalar(x) => format!("abs({})", self.expr(x)),
-            Kind::Magnitude(x) => format!("norm({})", self.expr(x)),
-            Kind::Column(x, column) => format!("{}(:, {})", self.expr(x), self.expr(column)),
-            Kind::Power(x, exponent) => format!("{} ^ {}", self.expr(x), self.expr(exponent)),
-            Kind::Negative(x) => format!("-{}", self.expr(x)),
-            Kind::Transpose(x) => format!("{}.'", self.expr(x)),
-            Kind::Arithmetic(Operation::Divide, x, y) => {
-                format!("over({}, {})", self.expr(x), self.expr(y))
-            }
-            Kind::Arithmetic(Operation::Multiply, x, y)
-                if !self.is_scalar(x) && !self.is_scalar(y) =>
-            {
-                format!("ordered({}, {})", self.expr(x), self.expr(y))
-            }
-            Kind::Arithmetic(operation, x, y) => {
-                let sign = Operator::Calculate(*operation).spelling().typed;
-                format!("{} {sign} {}", self.expr(x), self.expr(y))
-            }
-            Kind::Compare(comparison, x, y) => {
-                let sign = match comparison {
-                    Comparison::Equal => "==",
-                    Comparison::Unequal => "~=",
-                    Comparison::Less
-                    | Comparison::LessOrEqual
-                    | Comparison::Greater
-                    | Comparison::GreaterOrEqual => Operator::Compare(*comparison).spelling().typed,
-                };
-                format!("{} {sign} {}", self.expr(x), self.expr(y))
-            }
-            Kind::All(operands) => {
-                let mut operands: Vec<&Expr> = operands.iter().collect();
-                if self.conjunction == Conjunction::Guarded {
-                    operands.sort_by_key(|x| self.can_fail(x));
-                }
-                match self.conjunction {
-                    Conjunction::Eager => format!("all([{}])", self.list(operands)),
-                    Conjunction::Guarded | Conjunction::LeftToRight => {
-                        let operands = operands.into_iter().map(|x| self.expr(x));
-                        operands.collect::<Vec<_>>().join(" && ")
-                    }
-                }
-            }
-            Kind::Call(name, arguments) => {
-                format!("{}({})", self.name(*name), self.list(arguments))
-            }
+            Kind::Apply(operator) => self.applied(*operator, parts),
+            Kind::Call(name) => format!("{}({})", self.name(*name), self.list(parts)),
             other => unreachable!("the listings have no {other:?}"),
         }
+    }
+
+    fn applied(&self, operator: Operator, operands: &[Expr]) -> String {
+        let x = self.expr(&operands[0]);
+        let y = || self.expr(&operands[1]);
+        let is_scalar = |k: usize| self.is_scalar(&operands[k]);
+        let sign = match operator {
+            Operator::Magnitude if is_scalar(0) => return format!("abs({x})"),
+            Operator::Magnitude => return format!("norm({x})"),
+            Operator::Negative => return format!("-{x}"),
+            Operator::Transpose => return format!("{x}.'"),
+            Operator::Column => return format!("{x}(:, {})", y()),
+            Operator::Entry => {
+                let subscripts = self.list(&operands[1..]);
+                return match self.global(&operands[0]) {
+                    Some(Value::Nested(_)) => format!("{x}{{{subscripts}}}"),
+                    _ => format!("{x}({subscripts})"),
+                };
+            }
+            Operator::All => return self.all(operands),
+            Operator::Calculate(Operation::Divide) => return format!("over({x}, {})", y()),
+            Operator::Calculate(Operation::Multiply) if !is_scalar(0) && !is_scalar(1) => {
+                return format!("ordered({x}, {})", y());
+            }
+            Operator::Compare(Comparison::Equal) => "==",
+            Operator::Compare(Comparison::Unequal) => "~=",
+            Operator::Compare(_) | Operator::Calculate(_) | Operator::Power => {
+                operator.spelling().typed
+            }
+            Operator::Any | Operator::Not => unreachable!("the listings have no {operator:?}"),
+        };
+        format!("{x} {sign} {}", y())
+    }
+
+    /// Writes a conjunction; where a false operand decides though another fails, those that cannot fail come first.
+    fn all(&self, operands: &[Expr]) -> String {
+        let mut operands: Vec<&Expr> = operands.iter().collect();
+        match self.conjunction {
+            Conjunction::Eager => return format!("all([{}])", self.list(operands)),
+            Conjunction::Guarded => operands.sort_by_key(|x| self.can_fail(x)),
+            Conjunction::LeftToRight => {}
+        }
+        operands.into_iter().map(|x| self.expr(x)).collect::<Vec<_>>().join(" && ")
     }
 
     fn list<'a>(&self, exprs: impl IntoIterator<Item = &'a Expr>) -> String {
@@ -423,16 +390,8 @@ impl Translator<'_> {
 
     /// Returns whether an expression has subscripts or divides.
     fn can_fail(&self, expr: &Expr) -> bool {
-        use Kind::*;
-        let own = match &expr.kind {
-            Read(reference) => reference.row.is_some(),
-            Arithmetic(operation, ..) => *operation == Operation::Divide,
-            Entry { .. } | Column(..) => true,
-            Array { .. } | Series { .. } => false,
-            Number(_) | Text(_) | Group(_) | Magnitude(_) | Negative(_) | Not(_) | Transpose(_)
-            | Power(..) | Compare(..) | Chain(..) | All(_) | Any(_) | Call(..) | If(_)
-            | Program(_) => false,
-        };
-        own || expr.parts().into_iter().any(|part| self.can_fail(part))
+        use Operator::*;
+        let own = matches!(expr.kind, Kind::Apply(Entry | Column | Calculate(Operation::Divide)));
+        own || expr.parts.iter().any(|part| self.can_fail(part))
     }
 }

@@ -3,7 +3,7 @@
 use mathcad::array::{Column, Table};
 use mathcad::failure::Fallible;
 use mathcad::xmcd::page::Page;
-use mathcad::{Array, Cause, Conjunction, Edit, Limits, Listing, Outcome, Settings, Value};
+use mathcad::{Array, Cause, Conjunction, Edit, Ended, Limits, Listing, Settings, Value};
 
 const LISTINGS: [(&str, &str); 2] = [
     ("c_cnt", include_str!("../../../listings/c_cnt.txt")),
@@ -71,7 +71,7 @@ fn table<const N: usize>(rows: &[[f64; N]]) -> Table<f64> {
 ///       /                6      7/2,  17/8
 ///     1
 /// ```
-fn find_pairs(listing: &Listing, settings: &Settings) -> Fallible<Outcome> {
+fn find_pairs(listing: &Listing, settings: &Settings) -> Fallible<Ended> {
     let moved = table(&[
         [1.0, 0.0, 0.0, 0.0],
         [2.0, 2.0, 1.0, 0.0],

@@ -9,7 +9,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
 use mathcad::{
-    Cause, Limits, Listing, Outcome, Settings, Sheet, Value, file,
+    Cause, Ended, Limits, Listing, Settings, Sheet, Value, file,
     json::{self, Written},
     unsupported::is_unit,
 };
@@ -122,7 +122,7 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
 }
 
 /// Reports what `trace` was given, then the value, a row on each line.
-fn ended(outcome: &Outcome) -> Report {
+fn ended(outcome: &Ended) -> Report {
     let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
     let value = match &outcome.value {
         nested @ Value::Nested(_) => {

@@ -9,7 +9,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::Result;
 use flate2::read::MultiGzDecoder;
-use mathcad::worksheet::{self, Verdict};
+use mathcad::worksheet::{self, Agreement};
 use mathcad::{Limits, xmcd::document};
 use output::worksheet as report;
 
@@ -55,9 +55,10 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     bar.finish();
     let json = || report::json(&shown(&args.file), &checked);
     print_either(args.json, json, || report::report(&checked))?;
-    let some = |is: fn(&Verdict) -> bool| checked.iter().any(|region| is(&region.verdict));
-    let differs = some(|verdict| matches!(verdict, Verdict::Differs { .. } | Verdict::Fails(_)));
-    Ok(ExitStatus::compared(!differs && some(Verdict::agrees)))
+    let some = |is: fn(&Agreement) -> bool| checked.iter().any(|region| is(&region.agreement));
+    let differs =
+        some(|agreement| matches!(agreement, Agreement::Differs { .. } | Agreement::Fails(_)));
+    Ok(ExitStatus::compared(!differs && some(Agreement::agrees)))
 }
 
 /// Reads a worksheet's file.
