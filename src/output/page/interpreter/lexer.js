@@ -1,11 +1,11 @@
 // A line's text as tokens: { type, value, start, end }. The types: number, text, name, function (a name
 // with a bracket behind it), sign (keywords too), bar (that closes |x|), gap (between elements of a row).
 
-/** All operators: as printed, as typed, and how tightly they bind. */
+/** All operators: as printed, as typed, and how tightly they bind, by the expression that they make. */
 const OPERATORS = [
   ["∨", "or", "any"], ["∧", "and", "all"], ["¬", "not", "not"],
-  ["=", "=", "comparison"], ["≠", "!=", "comparison"], ["<", "<", "comparison"],
-  ["≤", "<=", "comparison"], [">", ">", "comparison"], ["≥", ">=", "comparison"],
+  ["=", "=", "compare"], ["≠", "!=", "compare"], ["<", "<", "compare"],
+  ["≤", "<=", "compare"], [">", ">", "compare"], ["≥", ">=", "compare"],
   ["+", "+", "sum"], ["−", "-", "sum"], ["·", "*", "product"], ["/", "/", "product"],
 ].map(([sign, typed, level]) => ({ sign, typed, level }));
 

@@ -146,28 +146,19 @@ class LineParser {
     return list;
   }
 
-  expression() { return this.joined("∨", "any", () => this.joined("∧", "all", () => this.not())); }
+  expression() { return this.joined("any", "`∨`", () => this.joined("all", "`∧`", () => this.not())); }
 
-  /** Reads operands with a sign between them; one alone is itself. */
-  joined(sign, kind, operand) {
+  /** Reads operands with operators of a level between them, which messages call `words`; one alone is itself. */
+  joined(level, words, operand) {
     const start = this.start;
-    const parts = [operand()];
-    while (this.takes(sign)) parts.push(operand());
-    return parts.length === 1 ? parts[0] : this.node(kind, start, { parts });
+    const [parts, signs] = [[operand()], []];
+    for (let sign; (sign = this.operator(level, words)); parts.push(operand())) signs.push(sign);
+    return signs.length === 0 ? parts[0] : this.node(level, start, { signs, parts });
   }
 
   not() {
     const start = this.start;
-    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.comparison();
-  }
-
-  /** Reads a comparison, or several of each operand with the next. */
-  comparison() {
-    const start = this.start;
-    const parts = [this.sum()];
-    const signs = [];
-    for (let sign; (sign = this.operator("comparison", "a comparison")); parts.push(this.sum())) signs.push(sign);
-    return signs.length === 0 ? parts[0] : this.node("compare", start, { signs, parts });
+    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.joined("compare", "a comparison", () => this.sum());
   }
 
   sum() { return this.calculation("sum", () => this.product()); }
