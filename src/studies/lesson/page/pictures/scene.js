@@ -7,7 +7,7 @@ function withReversed(own, turned) {
   return {
     ...own,
     edges: own.edges.map(([number, nodes]) => [number, ends(number, nodes)]),
-    rows: own.rows.map(([number, kind, physical, geometric, nodes]) => [number, kind, physical, geometric, ends(number, nodes)]),
+    elem: own.elem.map((row) => [...row.slice(0, 5), ...ends(row[0], row.slice(5, 7)), row[7]]),
   };
 }
 
