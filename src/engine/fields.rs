@@ -1,8 +1,8 @@
 //! A solution by node, point and restraint, in plain numbers.
 
+use super::contact::search::is_in_triangle;
 use super::quantities::SupportForce;
 use super::solution::Solution;
-use numbers::scalar::Scalar;
 use problem::model::{NodeId, TriangleId};
 
 impl Solution {
@@ -19,11 +19,8 @@ impl Solution {
     /// Stress is constant in a triangle and jumps from one to the next: a point on a common edge has that of the
     /// triangle which the mesh lists first.
     pub fn stress_at(&self, x: f64, y: f64) -> Option<[f64; 3]> {
-        let is_left_of = |[from, to]: [[f64; 2]; 2]| f64::orientation(from, to, [x, y]) >= 0.0;
-        let has_point = |triangle: &TriangleId| {
-            let [a, b, c] = self.model.corners(*triangle);
-            [[a, b], [b, c], [c, a]].into_iter().all(is_left_of)
-        };
+        let has_point =
+            |triangle: &TriangleId| is_in_triangle(self.model.corners(*triangle), [x, y]);
         let triangle = self.model.triangle_ids().find(has_point)?;
         Some(self.elements[triangle.index()].sigma.into())
     }

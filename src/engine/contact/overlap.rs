@@ -11,9 +11,8 @@ use std::collections::HashSet;
 
 use super::outline::Outline;
 use super::pairing::Vector;
-use super::search::Segment;
+use super::search::{Segment, is_in_triangle};
 use super::surface::{Edge, Surface, Surfaces};
-use numbers::scalar::Scalar;
 use problem::model::{Body, Bounds, Model, NodeId};
 use problem::tree::Tree;
 
@@ -144,9 +143,8 @@ impl PlacedTriangles {
         let p = shape[node.index()];
         let mut is_inside = false;
         self.tree.visit(&|b: Bounds| b.contains(p).then_some(0.0), &mut |k| {
-            let (nodes, [a, b, c]) = self.triangles[k];
-            let turns = [[a, b], [b, c], [c, a]].map(|[from, to]| f64::orientation(from, to, p));
-            is_inside |= !nodes.contains(&node) && turns.iter().all(|turn| *turn >= 0.0);
+            let (nodes, corners) = self.triangles[k];
+            is_inside |= !nodes.contains(&node) && is_in_triangle(corners, p);
         });
         is_inside
     }

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
-use super::search::{Segment, dot, minus};
+use super::search::{Segment, dot, is_inside, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
 use problem::model::{Body, EdgeId, Model, NodeId, unordered};
@@ -98,12 +98,7 @@ impl Surface {
         }
         let near = (BESIDE * depth).powi(2);
         let is_beside = |ends: &[Vector; 2]| Segment::new(*ends).closest(p).distance_square < near;
-        // Of the sides that a line from the point upwards crosses there is an odd number where it lies inside.
-        let is_above = |[a, b]: &&[Vector; 2]| {
-            (a[0] > p[0]) != (b[0] > p[0]) && (f64::orientation(*a, *b, p) > 0.0) == (b[0] < a[0])
-        };
-        let above = self.outline.iter().filter(is_above).count();
-        above.is_multiple_of(2) || self.outline.iter().any(is_beside)
+        !is_inside(self.outline.iter().copied(), p) || self.outline.iter().any(is_beside)
     }
 
     /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that

@@ -20,7 +20,7 @@ use crate::{Request, is_dense};
 use base::choices;
 use base::error::Result;
 use problem::modelling::{ContactModel, Coupling, Friction, StatusRule, Variant};
-use problem::scene::symmetry::half;
+use problem::scene::symmetry::{half, line_of};
 
 choices! {
     /// How the matrices of a run are kept.
@@ -136,8 +136,7 @@ impl Plan {
             solver,
             storage: if is_dense(variant, arithmetic) { Storage::Dense } else { Storage::Sparse },
             orphans: model.dropped.len(),
-            half: half(scene)
-                .map(|half| HalfPlan { at: model.bounds().centre()[0], nodes: half.nodes.len() }),
+            half: half(scene).map(|half| HalfPlan { at: line_of(model), nodes: half.nodes.len() }),
         })
     }
 

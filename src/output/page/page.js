@@ -24,8 +24,14 @@ function button(text, act, attributes = {}) {
   return made;
 }
 
-/** Makes the head of a table: a heading a column. */
-const headOf = (texts) => make("thead", {}, make("tr", {}, ...texts.map((text) => make("th", { scope: "col" }, text))));
+/** Makes a table: its caption where it has one, a heading a column, and rows that begin with theirs; a heading is a text,
+ * or a cell of its own. */
+function tableFrom(caption, heads, rows) {
+  const headed = ([first, ...cells]) => [typeof first === "string" ? make("th", { scope: "row" }, first) : first, ...cells];
+  const head = heads.map((text) => (typeof text === "string" ? make("th", { scope: "col" }, text) : text));
+  const body = rows.map((row) => make("tr", {}, ...headed(row)));
+  return make("table", {}, ...(caption ? [make("caption", {}, caption)] : []), make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...body));
+}
 
 /** The language in which the page speaks. */
 const speech = { language: data.language ?? "en" };
@@ -86,6 +92,41 @@ function prepared(canvas, height, width = canvas.clientWidth) {
   return { context, width, height };
 }
 
+/** The smallest and the largest of many numbers. */
+function range(values) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const x of values) {
+    if (x < low) low = x;
+    if (x > high) high = x;
+  }
+  return [low, high];
+}
+
+/** Draws a path through points. @param {any} context @param {any[]} points @param {any} style */
+function path(context, points, { close = false, ...style }) {
+  context.beginPath();
+  points.forEach((point) => context.lineTo(...point));
+  if (close) context.closePath();
+  inked(context, style);
+}
+
+/** Draws a circle. @param {any} context @param {any[]} middle @param {number} radius @param {any} style */
+function circle(context, middle, radius, style) {
+  context.beginPath();
+  context.arc(...middle, radius, 0, 2 * Math.PI);
+  inked(context, style);
+}
+
+/** Fills and strokes the path that was begun. @param {any} context @param {any} style */
+function inked(context, { fill = null, stroke = null, width = 1, dash = [], alpha = 1 }) {
+  Object.assign(context, { globalAlpha: alpha, fillStyle: fill, strokeStyle: stroke, lineWidth: width });
+  context.setLineDash(dash);
+  if (fill) context.fill();
+  if (stroke) context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
 /** Shows the exact value of what has `data-exact`, under the pointer or with the focus. */
 function showExactValues() {
   const tip = make("div", { id: "tip", hidden: true });
@@ -103,6 +144,9 @@ function showExactValues() {
   document.addEventListener("focusin", show);
   document.addEventListener("scroll", () => (tip.hidden = true), true);
 }
+
+/** The way of each arrow key: right and down. */
+const ARROWS = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 
 /** Makes what `selector` finds in `container` one stop of the Tab key; arrow keys go from one to the
  * next. Called again when the content was made anew. */

@@ -40,8 +40,7 @@ function tableOf(title, columns, rows) {
     const full = typeof value === "number" && shown !== String(value) ? exact(value) : undefined;
     return make("td", { class: kind ?? "number", "data-exact": full }, shown);
   };
-  const body = rows.map((row) => make("tr", {}, ...columns.map(cell(row))));
-  const table = make("table", {}, make("caption", {}, title), make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...body));
+  const table = tableFrom(title, head, rows.map((row) => columns.map(cell(row))));
   addCopying(table);
   return make("div", { class: "table", tabindex: 0, role: "region", "aria-label": title }, table);
 }

@@ -58,10 +58,14 @@ struct Line<'a> {
     place: f64,
 }
 
+/// Returns where the only vertical line stands about which a model may be symmetric: its x, length.
+pub fn line_of(model: &Model) -> f64 {
+    model.bounds().centre()[0]
+}
+
 impl<'a> Line<'a> {
     fn of(model: &'a Model) -> Self {
-        let all = model.bounds();
-        Line { model, at: all.centre()[0], place: PLACE * all.larger_side() }
+        Line { model, at: line_of(model), place: PLACE * model.bounds().larger_side() }
     }
 
     /// Returns -1 for a node left of the line, 0 on it, 1 right of it.

@@ -5,11 +5,12 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use super::prices;
+use super::variants::apart;
 use base::error::InputError;
 use base::limits;
 use engine::error::Error;
 use engine::estimates::{equivalent, moves};
-use engine::{Request, Solution, distance, last_under_each_load, solve};
+use engine::{Distance, Request, Solution, distance, last_under_each_load, solve};
 use paper::corrected;
 use paper::door::{self, Call};
 use paper::mirror::{Failure, Reading};
@@ -230,6 +231,11 @@ impl Case {
     /// without contact, and where [`Case::unsolved`] says why.
     pub fn equilibrium(&self) -> Option<&Solution> {
         self.solved_equilibrium()?.ok()
+    }
+
+    /// How far a run is from the equilibrium; nothing where there is none.
+    pub fn from_equilibrium(&self, run: &Solution) -> Option<Distance> {
+        Some(apart(run, self.equilibrium()?))
     }
 
     /// The solution that the corrected algorithm has: without friction, node to segment, in the initial

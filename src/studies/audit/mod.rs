@@ -8,6 +8,20 @@
 //! | a reading: what another one changes | `paper::mirror::READINGS` | [`readings::Effect`] |
 //! | a variant | `problem::modelling::Variant` | [`variants::VariantRun`] |
 
+/// Checks, when the program is built, that a table has one row for each id, in the order of the ids.
+macro_rules! one_row_for_each {
+    ($id:ty, $table:ident) => {
+        const _: () = {
+            assert!($table.len() == <$id>::ALL.len());
+            let mut k = 0;
+            while k < $table.len() {
+                assert!($table[k].id as usize == k);
+                k += 1;
+            }
+        };
+    };
+}
+
 mod assumptions;
 mod case;
 pub mod claims;

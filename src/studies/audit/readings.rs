@@ -6,9 +6,8 @@ use serde::Serialize;
 use super::case::Case;
 use super::evidence::{NoFigures, Outcome, differ};
 use super::findings::ROUNDING;
-use super::variants::apart;
 use engine::error::Error;
-use engine::{Detail, Request, Solution, max_displacement, over, solve};
+use engine::{Detail, max_displacement, over};
 use mathcad::{Failure, Settings, SparseSquare};
 use paper::door::{self, Call};
 use paper::listings::{self, Which};
@@ -55,10 +54,8 @@ pub struct Effect {
 /// Tries every other value of every reading on a scene, in the order of [`READINGS`].
 pub fn effects(case: &Case) -> Vec<Effect> {
     let cases = || [case].into_iter().chain(case.equivalents());
-    let as_read = |case| AsRead {
-        mirror: initial(case, case.reading()),
-        blank: executed(case, &Settings::default()),
-    };
+    let as_read =
+        |case| AsRead { mirror: initial(case), blank: executed(case, &Settings::default()) };
     let as_read: Vec<(&Case, AsRead)> = cases().map(|case| (case, as_read(case))).collect();
     let effect = |(row, other)| {
         let mut effects = as_read.iter().map(|(case, own)| Effect::new(row, other, case, own));
@@ -91,10 +88,9 @@ struct Initial {
     matrix: SparseSquare,
 }
 
-fn initial(case: &Case, reading: &Reading) -> Result<Initial, Error> {
-    let model = case.request(case.scene.variant).reading(*reading).model()?;
-    let call = Call::c_cnt(&model, reading, &model.nodes)?;
-    let matrix = call.km(reading)?;
+fn initial(case: &Case) -> Result<Initial, Error> {
+    let call = case.initial()?;
+    let matrix = call.km(case.reading())?;
     Ok(Initial { pairs: call.pairs, matrix })
 }
 
@@ -164,15 +160,16 @@ impl Effect {
         match trial {
             // The mirror under the reading, beside the mirror under the default one.
             Trial::OwnVariant | Trial::Printed => {
-                self.compare(as_read.mirror.as_ref()?, &initial(case, &reading)?);
-                let variant = self.variant.expect("the trial runs one");
-                let request = case.request(variant).reading(reading);
-                let other = solve(&request, &mut |_| ())?;
-                self.equilibrium_error = equilibrium_error(case, &request, &other);
-                self.apart = other.model.plane != case.model().plane;
-                self.unsettled = other.last().cycle.as_ref().is_some_and(|cycle| cycle.length > 1);
+                let as_read = as_read.mirror.as_ref()?;
+                let other = case.under(reading)?;
+                self.compare(as_read, &initial(&other)?);
+                let run = other.run(self.variant.expect("the trial runs one"))?;
+                self.apart = run.model.plane != case.model().plane;
+                let of = if self.apart { &other } else { case };
+                self.equilibrium_error = of.from_equilibrium(run).map(|from| from.energy_relative);
+                self.unsettled = run.last().cycle.as_ref().is_some_and(|cycle| cycle.length > 1);
                 let own = own.map_err(|why| format!("as it is read: {why}"))?;
-                self.displacement = Some(max_displacement(&(&own.u - &other.u)));
+                self.displacement = Some(max_displacement(&(&own.u - &run.u)));
             }
             // The shapes of a variant once more under the reading, which can only make `c_cnt` fail, or
             // leave everything as it is.
@@ -194,7 +191,8 @@ impl Effect {
                     }
                 }
                 (self.statuses, self.entries, self.displacement) = (Some(0), Some(0), Some(0.0));
-                self.equilibrium_error = equilibrium_error(case, &solution.request, solution);
+                self.equilibrium_error =
+                    case.from_equilibrium(solution).map(|from| from.energy_relative);
             }
             // The listings under other settings of the worksheet, beside those under a blank one's.
             Trial::Worksheet => {
@@ -267,14 +265,4 @@ impl Effect {
             self.equilibrium_error,
         ]
     }
-}
-
-/// The distance of a run from the equilibrium under its own plane problem, which R6 may change.
-fn equilibrium_error(case: &Case, request: &Request, run: &Solution) -> Option<f64> {
-    let own = case.equilibrium()?;
-    if run.model.plane == own.model.plane {
-        return Some(apart(run, own).energy_relative);
-    }
-    let other = solve(&request.equilibrium(), &mut |_| ()).ok()?;
-    Some(apart(run, &other).energy_relative)
 }

@@ -202,7 +202,7 @@ fn end(case: &Case, variant: Variant) -> Outcome<VariantRun> {
         eq1_residual: last.contact_residual(),
         cycle: last.cycle.clone(),
         bodies: summaries(solution),
-        distance: case.equilibrium().map(|other| apart(solution, other)),
+        distance: case.from_equilibrium(solution),
         friction_needed: needed.reduce(f64::max),
         pulling: pulling(&solution.contact, solution.model.load.amax()),
         penetration: Penetration::of(solution),

@@ -22,8 +22,9 @@ use output::json::document;
 use output::page::{INTERPRETER, Page};
 use output::tables::figure_numbers;
 use paper::corrected::{Program, program};
+use paper::door;
 use paper::listings::Which;
-use problem::model::{Element, Model};
+use problem::model::Model;
 use problem::scene::Scene;
 
 /// A scene of a lesson, with the runs that it offers, the first of them as printed.
@@ -218,18 +219,9 @@ impl Shared {
 /// triangles are counted from 1.
 pub fn mesh(model: &Model) -> Value {
     let body = |id| model.bodies.iter().position(|body| body.triangles.contains(&id));
-    let triangle = |id| {
-        let triangle = model.triangle(id);
-        (triangle.nodes, body(id), triangle.material.e, triangle.material.nu)
-    };
-    let rows = model.rows.iter().map(|row| {
-        let (kind, nodes) = match &row.element {
-            Element::Point(node) => (15, vec![*node]),
-            Element::Edge(id) => (1, model.edge(*id).nodes.to_vec()),
-            Element::Triangle(id) => (2, model.triangle(*id).nodes.to_vec()),
-        };
-        (row.number, kind, row.physical, row.geometric, nodes)
-    });
+    let triangle = |id| (model.triangle(id).nodes, body(id));
+    let sheet = door::worksheet(model, |x| x);
+    let elem = (1..=sheet.elem.rows()).map(|row| sheet.elem.row(row).collect::<Vec<_>>());
     let edges = model.target_edges().map(|edge| (edge.number, edge.nodes));
     let restrained = model.node_ids().map(|node| model.restraints_of(node));
     let target = model.target().map(|target| target.nodes[0]);
@@ -238,7 +230,9 @@ pub fn mesh(model: &Model) -> Value {
         "z": model.z,
         "dropped": model.dropped,
         "thickness": model.thickness,
-        "rows": rows.collect::<Vec<_>>(),
+        "elem": elem.collect::<Vec<_>>(),
+        "E": sheet.E.as_slice(),
+        "ν": sheet.nu.as_slice(),
         "triangles": model.triangle_ids().map(triangle).collect::<Vec<_>>(),
         "bodies": model.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
         "target": model.bodies.iter().position(|b| target.is_some_and(|node| b.has(node))),

@@ -1,11 +1,14 @@
 //! Speed against accuracy, for people, for machines and as a picture.
 
-use crate::trade::{AccurateSolution, Errors, Order, Rounding, Row, Section, Trade};
+use crate::trade::{AXES, AccurateSolution, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
 use output::model::{Cell, Report, Table};
 use output::numbers::reason;
-use output::picture::{Axis, Series, Style, chart};
+use output::picture::{Axis, SERIES, Series, Style, chart};
 use problem::modelling::Variant;
+
+// Each axis has a colour of its own.
+const _: () = assert!(AXES.len() <= SERIES);
 
 /// Reports a table for each axis.
 pub fn report(trade: &Trade) -> Report {

@@ -119,7 +119,7 @@ const overPivot = (x, pivot) => (Number.isFinite(1 / pivot) ? x * (1 / pivot) : 
  * added up before they are subtracted from it. */
 function factors(matrix) {
   const n = matrix.rows;
-  const rows = Array.from({ length: n }, (_, i) => matrix.entries.slice(i * n, (i + 1) * n));
+  const rows = matrix.lists;
   const sums = rows.map((row) => row.map(() => 0));
   const order = rows.map((_, i) => i);
   let sign = 1;

@@ -1,11 +1,11 @@
 // A line's text as tokens: { type, value, start, end }. The types: number, text, name, function (a name
 // with a bracket behind it), sign (keywords too), bar (that closes |x|), gap (between elements of a row).
 
-/** All operators: as printed, as typed, and how tightly they bind. */
+/** All operators: as printed, as typed, and how tightly they bind, by the expression that they make. */
 const OPERATORS = [
   ["∨", "or", "any"], ["∧", "and", "all"], ["¬", "not", "not"],
-  ["=", "=", "comparison"], ["≠", "!=", "comparison"], ["<", "<", "comparison"],
-  ["≤", "<=", "comparison"], [">", ">", "comparison"], ["≥", ">=", "comparison"],
+  ["=", "=", "compare"], ["≠", "!=", "compare"], ["<", "<", "compare"],
+  ["≤", "<=", "compare"], [">", ">", "compare"], ["≥", ">=", "compare"],
   ["+", "+", "sum"], ["−", "-", "sum"], ["·", "*", "product"], ["/", "/", "product"],
 ].map(([sign, typed, level]) => ({ sign, typed, level }));
 
@@ -26,10 +26,14 @@ const NUMBER = /^\d+(?:\.\d+)?(?:[eE][+\-−]?\d+)?/;
 /** The sign as printed that a sign or keyword stands for. `<-` stays: the grammar knows where it assigns. */
 const printed = (typed) => (typed === "in" ? "∈" : (OPERATORS.find((row) => row.typed === typed)?.sign ?? typed));
 
-/** A place in a line and what is wrong there. */
-class Complaint {
-  at; message;
-  constructor(at, message) { Object.assign(this, { at, message }); }
+/** Where and why a text leaves the notation: the printed line, and the line and the column in the text,
+ * all from 1. */
+class ParseError {
+  line; fileLine; column; message;
+  constructor(line, at, message) {
+    const behind = [...line.text.slice(0, at)].length;
+    Object.assign(this, { line: line.number, fileLine: line.inFile, column: 2 * line.level + behind + 1, message });
+  }
 }
 
 /** A token as messages name it. */
@@ -52,47 +56,48 @@ const endsOperand = (token) => ["number", "text", "name", "bar"].includes(token?
 const startsOperand = (token) =>
   ["number", "text", "name", "function"].includes(token.type) || isSign(token, "(", "|", "{", "if");
 
-/** Splits a line into tokens; from `#` on it is a remark. Throws a complaint, also of brackets more than
+/** Splits a line into tokens; from `#` on it is a remark. Throws a ParseError, also of brackets more than
  * `depth` deep. */
-function tokensOf(text, depth) {
+function tokensOf(line, depth) {
+  const { text } = line;
   const found = [];
   const open = [];
   for (let at = 0; ; at = found.at(-1).end) {
     const spaces = /^ */.exec(text.slice(at))[0].length;
     at += spaces;
     if (at === text.length || text[at] === "#") return found;
-    const token = tokenAt(text, at, found, open);
+    const token = tokenAt(line, at, found, open);
     const wanted = startsOperand(token) ? 1 : 2;
     if (open.at(-1) === "(" && endsOperand(found.at(-1)) && !isSign(token, ")", ",", ";") && spaces >= wanted) {
       found.push({ type: "gap", start: at - spaces, end: at });
     }
     if (isSign(token, "(", "[", "⟨", "|", "{")) open.push(token.value);
     if (isSign(token, ")", "]", "⟩", "}") || token.type === "bar") open.pop();
-    if (open.length > depth) throw new Complaint(at, `found brackets more than ${depth} deep`);
+    if (open.length > depth) throw new ParseError(line, at, `found brackets more than ${depth} deep`);
     found.push(token);
   }
 }
 
-function tokenAt(text, at, found, open) {
-  const rest = text.slice(at);
+function tokenAt(line, at, found, open) {
+  const rest = line.text.slice(at);
   const token = (type, value, length) => ({ type, value, start: at, end: at + length });
   const sign = SIGNS.find((sign) => rest.startsWith(sign));
-  if (sign === "-" && isSign(found.at(-1), "<")) throw new Complaint(at, `found ${ARROW}`);
+  if (sign === "-" && isSign(found.at(-1), "<")) throw new ParseError(line, at, `found ${ARROW}`);
   if (sign === "|" && open.at(-1) === "|" && endsOperand(found.at(-1))) return token("bar", "|", 1);
   if (sign) return token("sign", printed(sign), sign.length);
   if (rest[0] === '"') {
     const length = rest.indexOf('"', 1) + 1;
-    if (length === 0) throw new Complaint(at, "found a string without its second quotation mark");
+    if (length === 0) throw new ParseError(line, at, "found a string without its second quotation mark");
     return token("text", rest.slice(1, length - 1), length);
   }
   const number = NUMBER.exec(rest)?.[0];
   if (number) {
     const value = Number(number.replace("−", "-"));
-    if (!Number.isFinite(value)) throw new Complaint(at, "found a number too large");
+    if (!Number.isFinite(value)) throw new ParseError(line, at, "found a number too large");
     return token("number", value, number.length);
   }
   const name = NAME.exec(rest)?.[0];
-  if (!name) throw new Complaint(at, `found ${quoted(String.fromCodePoint(rest.codePointAt(0)))}, which is no part of the notation`);
+  if (!name) throw new ParseError(line, at, `found ${quoted(String.fromCodePoint(rest.codePointAt(0)))}, which is no part of the notation`);
   if (KEYWORDS.includes(name)) return token("sign", printed(name), name.length);
   return token(rest[name.length] === "(" ? "function" : "name", name, name.length);
 }

@@ -4,11 +4,11 @@
 /** The most lines, characters of a line, and levels of brackets, expressions, blocks and arrays. */
 const MOST = { lines: 1000, characters: 2000, depth: 64 };
 
-/** Reads one line by descent. From the loosest to the tightest: ∨, ∧, ¬, comparisons, + −, · /, the sign
+/** Reads one line, the listing's of this number, by descent. From the loosest to the tightest: ∨, ∧, ¬, comparisons, + −, · /, the sign
  * of −x, one power, and behind an operand xᵀ, x[i], x⟨j⟩. */
 class LineParser {
-  tokens; line; next; expected;
-  constructor(tokens, line) { Object.assign(this, { tokens, line, next: 0, expected: [] }); }
+  tokens; line; number; next; expected;
+  constructor(tokens, line, number) { Object.assign(this, { tokens, line, number, next: 0, expected: [] }); }
   get token() { return this.tokens[this.next]; }
   get start() { return this.token?.start ?? this.tokens.at(-1)?.end ?? 0; }
 
@@ -30,10 +30,10 @@ class LineParser {
   end() { if (this.token) this.refuse(); }
 
   refuse() {
-    if (isSign(this.token, "<-")) throw new Complaint(this.start, `found ${ARROW}`);
+    if (isSign(this.token, "<-")) throw new ParseError(this.line, this.start, `found ${ARROW}`);
     const expected = this.expected.filter(([place]) => place === this.next).map(([, words]) => words);
     const found = this.token ? tokenInWords(this.token) : "the end of the line";
-    throw new Complaint(this.start, `found ${found}, expected ${[...new Set(expected)].sort().join(" or ")}`);
+    throw new ParseError(this.line, this.start, `found ${found}, expected ${[...new Set(expected)].sort().join(" or ")}`);
   }
 
   /** Takes a name, or a function. */
@@ -58,10 +58,10 @@ class LineParser {
   step() {
     const start = this.start;
     const word = this.token?.type === "sign" && !this.isChoice() ? this.token.value : "";
-    const statement = { line: this.line, ...this.headed(word) };
+    const statement = { line: this.number, ...this.headed(word) };
     if (!statement.body && this.takes("otherwise")) {
-      if (statement.condition) throw new Complaint(start, "found `if` and `otherwise` on one line");
-      return { line: this.line, step: "otherwise", body: [statement] };
+      if (statement.condition) throw new ParseError(this.line, start, "found `if` and `otherwise` on one line");
+      return { line: this.number, step: "otherwise", body: [statement] };
     }
     return statement;
   }
@@ -128,7 +128,7 @@ class LineParser {
     const values = this.list(() => this.expression());
     if (!this.takes("..")) return { values };
     const to = this.expression();
-    if (values.length > 2) throw new Complaint(start, "found a range within a list");
+    if (values.length > 2) throw new ParseError(this.line, start, "found a range within a list");
     return { from: values[0], second: values[1], to };
   }
 
@@ -146,28 +146,19 @@ class LineParser {
     return list;
   }
 
-  expression() { return this.joined("∨", "any", () => this.joined("∧", "all", () => this.not())); }
+  expression() { return this.joined("any", "`∨`", () => this.joined("all", "`∧`", () => this.not())); }
 
-  /** Reads operands with a sign between them; one alone is itself. */
-  joined(sign, kind, operand) {
+  /** Reads operands with operators of a level between them, which messages call `words`; one alone is itself. */
+  joined(level, words, operand) {
     const start = this.start;
-    const parts = [operand()];
-    while (this.takes(sign)) parts.push(operand());
-    return parts.length === 1 ? parts[0] : this.node(kind, start, { parts });
+    const [parts, signs] = [[operand()], []];
+    for (let sign; (sign = this.operator(level, words)); parts.push(operand())) signs.push(sign);
+    return signs.length === 0 ? parts[0] : this.node(level, start, { signs, parts });
   }
 
   not() {
     const start = this.start;
-    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.comparison();
-  }
-
-  /** Reads a comparison, or several of each operand with the next. */
-  comparison() {
-    const start = this.start;
-    const parts = [this.sum()];
-    const signs = [];
-    for (let sign; (sign = this.operator("comparison", "a comparison")); parts.push(this.sum())) signs.push(sign);
-    return signs.length === 0 ? parts[0] : this.node("compare", start, { signs, parts });
+    return this.takes("¬") ? this.node("not", start, { parts: [this.not()] }) : this.joined("compare", "a comparison", () => this.sum());
   }
 
   sum() { return this.calculation("sum", () => this.product()); }
@@ -232,7 +223,7 @@ class LineParser {
     if (token.value === "(") return this.rows(start);
     if (token.value === "if") {
       const parts = this.inBrackets(() => this.expression());
-      if (parts.length !== 3) throw new Complaint(start, "found `if` without three arguments");
+      if (parts.length !== 3) throw new ParseError(this.line, start, "found `if` without three arguments");
       return this.node("choice", start, { parts });
     }
     if (token.value === "transpose") {
@@ -279,7 +270,7 @@ class LineParser {
     }
     ends.push(parts.length);
     const cols = ends[0];
-    if (ends.some((end, row) => end !== (row + 1) * cols)) throw new Complaint(open, "found rows of different lengths");
+    if (ends.some((end, row) => end !== (row + 1) * cols)) throw new ParseError(this.line, open, "found rows of different lengths");
     return parts.length === 1 ? this.node("group", start, { parts }) : this.node("array", start, { cols, parts });
   }
 }
@@ -301,16 +292,6 @@ function writtenBy(statement) {
   const own = { for: [name], assign: [target?.name], spread: names }[step] ?? [];
   const inner = (part) => (part.kind === "program" ? part.block.flatMap(writtenBy) : part.parts.flatMap(inner));
   return [...own, ...ownExpressions(statement).flatMap(inner), ...blocksOf(statement).flatMap(writtenBy)];
-}
-
-/** Where and why a text leaves the notation: the printed line, and the line and the column in the text,
- * all from 1. */
-class ParseError {
-  line; fileLine; column; message;
-  constructor(line, at, message) {
-    const behind = [...line.text.slice(0, at)].length;
-    Object.assign(this, { line: line.number, fileLine: line.inFile, column: 2 * line.level + behind + 1, message });
-  }
 }
 
 /** A line of a listing: its number in the print and in the text, its level and its text. An odd space
@@ -346,16 +327,6 @@ class ListingReader {
   constructor(lines) { Object.assign(this, { lines, next: 0 }); }
   refuse(line, at, message) { throw new ParseError(line, at, message); }
 
-  /** Does what reads a line, whose complaint becomes an error of that line. */
-  on(line, read) {
-    try {
-      return read();
-    } catch (complaint) {
-      if (complaint instanceof Complaint) this.refuse(line, complaint.at, complaint.message);
-      throw complaint;
-    }
-  }
-
   /** Reads the first line: the parameters, and the body if it stands on that line too. */
   header() {
     const line = this.lines[0] ?? lineOf(1, 1, "");
@@ -364,7 +335,7 @@ class ListingReader {
     this.next = 1;
     const sign = tokens.findIndex((token) => isSign(token, ":="));
     const behind = sign < 0 ? tokens.length : sign + 1;
-    const { parameters } = this.on(line, () => new LineParser(tokens.slice(0, behind), 0).header());
+    const { parameters } = new LineParser(tokens.slice(0, behind), line, 0).header();
     if (behind === tokens.length) return { parameters };
     const body = this.parsed(line, tokens.slice(behind), 0);
     if (!["assign", "spread", "evaluate", "return"].includes(body.step)) this.refuse(line, 0, "found a block behind `:=`, expected it indented below");
@@ -402,12 +373,12 @@ class ListingReader {
     const length = [...line.text].length;
     if (length > MOST.characters) this.refuse(line, 0, `found ${length} characters, expected at most ${MOST.characters}`);
     if (line.text.startsWith(" ")) this.refuse(line, 0, "found an odd space, expected two for each level");
-    return this.on(line, () => tokensOf(line.text, MOST.depth));
+    return tokensOf(line, MOST.depth);
   }
 
-  /** The statement that tokens of a line make; its number is `at`. */
+  /** The statement that tokens of a line make, whose place is `at`. */
   parsed(line, tokens, at) {
-    const statement = this.on(line, () => new LineParser(tokens, at).statement());
+    const statement = new LineParser(tokens, line, at).statement();
     const depth = ({ parts, block = [] }) => 1 + Math.max(0, ...block.map(levelsOf)) + Math.max(0, ...parts.map(depth));
     const deep = [statement, ...(statement.body ?? [])].flatMap(ownExpressions).find((part) => depth(part) > MOST.depth);
     if (deep) this.refuse(line, deep.start, `found operators and brackets more than ${MOST.depth} deep`);

@@ -18,11 +18,10 @@ class Grid {
     if (typeof value !== "number") this.depth = Math.max(this.depth, 1 + depthOf(value));
   }
 
-  grow(rows, cols) {
-    const entries = Array(rows * cols).fill(0);
-    for (let i = 0; i < this.rows; i += 1) for (let j = 0; j < this.cols; j += 1) entries[i * cols + j] = this.get(i, j);
-    Object.assign(this, { rows, cols, entries });
-  }
+  grow(rows, cols) { Object.assign(this, { rows, cols, entries: gridFrom(rows, cols, (i, j) => this.get(i, j) ?? 0).entries }); }
+
+  /** Its rows, each a list of entries. */
+  get lists() { return Array.from({ length: this.rows }, (_, i) => this.entries.slice(i * this.cols, (i + 1) * this.cols)); }
 
   transposed() { return gridOf(this.rows, gridFrom(this.cols, this.rows, (i, j) => this.get(j, i)).entries); }
 }
@@ -71,8 +70,7 @@ function inDigits(x) {
 function inText(value) {
   if (isNumber(value)) return inDigits(value);
   if (!isArrayOfNumbers(value)) return isArray(value) ? kindOf(value) : value;
-  const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols).map(inDigits).join(" ");
-  return Array.from({ length: value.rows }, (_, i) => row(i)).join("; ");
+  return value.lists.map((row) => row.map(inDigits).join(" ")).join("; ");
 }
 
 /** What a value is, in words for a message. */

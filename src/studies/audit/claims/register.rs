@@ -270,12 +270,4 @@ pub const CLAIMS: &[Claim] = &[
     },
 ];
 
-// Each claim has its row.
-const _: () = {
-    assert!(CLAIMS.len() == ClaimId::ALL.len());
-    let mut k = 0;
-    while k < CLAIMS.len() {
-        assert!(CLAIMS[k].id as usize == k);
-        k += 1;
-    }
-};
+one_row_for_each!(ClaimId, CLAIMS);

@@ -359,15 +359,7 @@ pub const FINDINGS: &[Finding] = &[
     },
 ];
 
-// Each finding has its row, in the order of the ids.
-const _: () = {
-    assert!(FINDINGS.len() == FindingId::ALL.len());
-    let mut k = 0;
-    while k < FINDINGS.len() {
-        assert!(FINDINGS[k].id as usize == k);
-        k += 1;
-    }
-};
+one_row_for_each!(FindingId, FINDINGS);
 
 /// Turns the scene about the middle between x = 0 and x = 1, so that the target lies above the stamp.
 fn turn_scene(model: &mut Model) {

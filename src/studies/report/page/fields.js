@@ -14,16 +14,6 @@ const mesh = {
 mesh.nodes = mesh.at.length / 2;
 mesh.count = mesh.triangles.length / 3;
 
-/** The smallest and the largest of many numbers. */
-function range(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const x of values) {
-    if (x < low) low = x;
-    if (x > high) high = x;
-  }
-  return [low, high];
-}
-
 /** What can be shown: its name, its unit, and where its values are: a component of a quantity of the
  * triangles, what is taken of a node's displacement, or what is known of a contact node. */
 const FIELDS = [

@@ -77,32 +77,17 @@ function draw(panel, ratio) {
 
 /** The two contact surfaces: contact nodes joined, target edges. */
 function drawSurfaces(context, { x, y }, ratio) {
-  const stroke = (edges, ink) => {
-    context.beginPath();
-    for (const [a, b] of edges) {
-      context.moveTo(x[a - 1], y[a - 1]);
-      context.lineTo(x[b - 1], y[b - 1]);
-    }
-    context.strokeStyle = colour(ink);
-    context.lineWidth = 1.2 * ratio;
-    context.stroke();
-  };
-  stroke(data.mesh.edges, "target-ink");
-  const { contact } = data.mesh;
-  stroke(contact.slice(1).map((n, k) => [contact[k], n]), "stamp-ink");
+  const [{ edges, contact }, width] = [data.mesh, 1.2 * ratio];
+  const [target, stamp] = ["target-ink", "stamp-ink"].map(colour);
+  const through = (nodes, stroke) => path(context, nodes.map((n) => [x[n - 1], y[n - 1]]), { stroke, width });
+  for (const edge of edges) through(edge, target);
+  through(contact, stamp);
 }
 
 /** The values at contact nodes, each by a disc in its colour. */
 function drawMarks(context, { x, y, marks }, ratio) {
-  context.strokeStyle = colour("ink");
-  context.lineWidth = 0.5 * ratio;
-  for (const [n, value] of marks) {
-    context.beginPath();
-    context.arc(x[n], y[n], 5 * ratio, 0, 2 * Math.PI);
-    context.fillStyle = SHADES[shadeOf(value)];
-    context.fill();
-    context.stroke();
-  }
+  const [stroke, width] = [colour("ink"), 0.5 * ratio];
+  for (const [n, value] of marks) circle(context, [x[n], y[n]], 5 * ratio, { fill: SHADES[shadeOf(value)], stroke, width });
 }
 
 /** The pixels to one of the page of a picture at rest, whose edges are then smooth. */
@@ -231,9 +216,9 @@ function watchPanel(panel) {
     zoom(Math.exp(-event.deltaY / 500), pointAt(panel, event.offsetX, event.offsetY));
   }, { passive: false });
   canvas.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: [-40, 0], ArrowRight: [40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] }[event.key];
+    const by = ARROWS[event.key];
     const grown = { "+": 1.25, "=": 1.25, "-": 0.8 }[event.key];
-    if (by) pan(...by);
+    if (by) pan(40 * by[0], -40 * by[1]);
     else if (grown) zoom(grown, [view.cx, view.cy]);
     else if (event.key === "Enter") probe(panel, view.cx, view.cy);
     else return;

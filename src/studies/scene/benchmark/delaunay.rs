@@ -18,6 +18,8 @@ use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
 };
 
+use engine::contact::search::is_inside;
+
 /// Nodes and triangles that fill a polygon.
 pub struct Patch {
     /// The corners of the polygon in their order, then the nodes inside it, length.
@@ -85,12 +87,9 @@ fn may_stand(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     !sides(polygon).any(in_circle) && contains(polygon, [x, y])
 }
 
-/// Whether a point lies inside a polygon: a ray from it towards +x crosses an odd number of sides.
-pub fn contains(polygon: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let crosses = |[a, b]: &[[f64; 2]; 2]| {
-        (a[1] > y) != (b[1] > y) && x < a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]))
-    };
-    sides(polygon).filter(crosses).count() % 2 == 1
+/// Whether a point lies inside a polygon.
+pub fn contains(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
+    is_inside(sides(polygon), p)
 }
 
 fn sides(polygon: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {

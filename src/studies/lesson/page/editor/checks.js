@@ -41,16 +41,8 @@ function likelyCauses({ message, fileLine, column }, text) {
   return causes.filter(([is]) => is).slice(0, 2).map(([, words]) => words());
 }
 
-/** How many characters must change to make one name of another. */
-function changesBetween(a, b) {
-  let row = Array.from({ length: b.length + 1 }, (_, j) => j);
-  for (let i = 1; i <= a.length; i += 1) {
-    const last = row;
-    row = [i];
-    for (let j = 1; j <= b.length; j += 1) row.push(Math.min(last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] === b[j - 1] ? 0 : 1)));
-  }
-  return row.at(-1);
-}
+/** How many characters of one name must change to make another of it. */
+const changesBetween = (a, b) => Math.max(a.length, b.length) - commonPlaces(a, b).size;
 
 /** The name that is most like one, if any is. */
 function nearest(name, names) {

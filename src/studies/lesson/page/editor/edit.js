@@ -5,15 +5,16 @@
 /** A listing as text, as it was given: two spaces a level. */
 const textOf = (place) => linesAt(place).map(({ level, text }) => "  ".repeat(level) + text).join("\n");
 
-/** The places of the lines that are as printed: a longest common subsequence of both. */
-function placesAsPrinted(lines, printed) {
-  const longest = Array.from({ length: lines.length + 1 }, () => Array(printed.length + 1).fill(0));
-  for (let i = lines.length - 1; i >= 0; i -= 1) {
-    for (let j = printed.length - 1; j >= 0; j -= 1) longest[i][j] = lines[i] === printed[j] ? 1 + longest[i + 1][j + 1] : Math.max(longest[i + 1][j], longest[i][j + 1]);
+/** The places in `one` of what `other` has in the same order: of lines, those that are as printed; of letters, those of
+ * another name. It is a longest common subsequence. */
+function commonPlaces(one, other) {
+  const longest = Array.from({ length: one.length + 1 }, () => Array(other.length + 1).fill(0));
+  for (let i = one.length - 1; i >= 0; i -= 1) {
+    for (let j = other.length - 1; j >= 0; j -= 1) longest[i][j] = one[i] === other[j] ? 1 + longest[i + 1][j + 1] : Math.max(longest[i + 1][j], longest[i][j + 1]);
   }
   const same = new Set();
-  for (let [i, j] = [0, 0]; i < lines.length && j < printed.length; ) {
-    if (lines[i] === printed[j]) same.add(i), i++, j++;
+  for (let [i, j] = [0, 0]; i < one.length && j < other.length; ) {
+    if (one[i] === other[j]) same.add(i), i++, j++;
     else if (longest[i + 1][j] >= longest[i][j + 1]) i += 1;
     else j += 1;
   }

@@ -106,7 +106,7 @@ function magnification(steps, size) {
 function drawShape(mesh, { steps, at }) {
   const canvas = byId("shape");
   const points = Array.from({ length: mesh.count }, (_, k) => mesh.at(k + 1));
-  const times = magnification(steps, Math.max(...[0, 1].map((j) => extentOf(points.map((p) => p[j]))).map(([low, high]) => high - low)));
+  const times = magnification(steps, Math.max(...[0, 1].map((j) => range(points.map((p) => p[j]))).map(([low, high]) => high - low)));
   const moved = (u) => (n) => mesh.at(n).map((x, d) => x + times * (u?.[2 * n - 2 + d] ?? 0));
   const { context, width, height } = prepared(canvas, Math.max(220, Math.min(420, canvas.clientWidth * 0.7)));
   const corners = steps.flatMap(({ u }) => points.map((_, k) => moved(u)(k + 1)));
@@ -127,12 +127,11 @@ function drawShape(mesh, { steps, at }) {
 function statesTable(mesh, { steps, errors, at }) {
   const nodes = mesh.contact.length <= 12 ? mesh.contact : mesh.contact.filter((n) => steps.some(({ inContact }) => inContact.includes(n)));
   const now = (k) => (k === at - 1 ? "written" : undefined);
-  const row = (head, cells) => make("tr", {}, make("th", { scope: "row" }, head), ...cells.map((text, k) => make("td", { class: now(k) }, text)));
+  const row = (head, cells) => [head, ...cells.map((text, k) => make("td", { class: now(k) }, text))];
   const rows = nodes.map((n) => row(mesh.name(n), steps.map(({ inContact }) => (inContact.includes(n) ? "●" : "○"))));
   const share = (error) => (error === undefined ? "–" : short(Number((100 * error).toPrecision(3))));
-  const head = make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("node")), ...steps.map((_, k) => make("th", { scope: "col", "aria-current": k === at - 1 ? "step" : undefined }, String(k + 1)))));
-  const caption = make("caption", {}, t("By iteration: ● in contact, ○ not in contact"));
-  return make("table", {}, caption, head, make("tbody", {}, ...rows, row(t("error, %"), errors.map(share))));
+  const heads = steps.map((_, k) => make("th", { scope: "col", "aria-current": k === at - 1 ? "step" : undefined }, String(k + 1)));
+  return tableFrom(t("By iteration: ● in contact, ○ not in contact"), [t("node"), ...heads], [...rows, row(t("error, %"), errors.map(share))]);
 }
 
 /** Draws the errors over the iterations. */

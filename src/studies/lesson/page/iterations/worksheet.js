@@ -4,18 +4,13 @@ const words = (text) => new Set(text.split(/\s+/).filter(Boolean));
 const KNOWN = { functions: words(data.known.functions), units: words(data.known.units) };
 
 /** The tables of a mesh (listings/READING.md, section 8); `at(n)` is where node n stands. */
-function tablesOf({ z, thickness, rows, triangles, contact, edges, restrained, nodes }, at, c_tll) {
-  const numbers = nodes.map((_, k) => k + 1);
-  const elem = Array.from({ length: Math.max(...rows.map(([number]) => number)) }, () => Array(8).fill(0));
-  for (const [number, kind, physical, geometric, own] of rows) {
-    [number, kind, 2, physical, geometric, ...own].forEach((x, j) => (elem[number - 1][j] = x));
-  }
+function tablesOf({ z, thickness, elem, E, ν, triangles, contact, edges, restrained, nodes }, at, c_tll) {
   const corners = triangles.map(([own]) => own.map(at));
   const column = (list) => list.map((x) => [x]);
   return {
-    node: numbers.map((n) => [n, ...at(n), z]),
+    node: nodes.map((_, k) => [k + 1, ...at(k + 1), z]),
     elem,
-    EL: rows.filter(([, kind]) => kind === 2).map(([number]) => elem[number - 1]),
+    EL: elem.filter(([, kind]) => kind === 2),
     trg: column(edges.map(([number]) => number)),
     cnt: column(contact),
     c_tll,
@@ -25,8 +20,8 @@ function tablesOf({ z, thickness, rows, triangles, contact, edges, restrained, n
     S: column(restrained.flat().map(Number)),
     Ae: column(corners.map((p) => areaOf(p) * thickness)),
     B: column(corners.map(strainMatrix)),
-    E: column(triangles.map(([, , e]) => e)),
-    ν: column(triangles.map(([, , , nu]) => nu)),
+    E: column(E),
+    ν: column(ν),
   };
 }
 

@@ -7,7 +7,7 @@ function withReversed(own, turned) {
   return {
     ...own,
     edges: own.edges.map(([number, nodes]) => [number, ends(number, nodes)]),
-    rows: own.rows.map(([number, kind, physical, geometric, nodes]) => [number, kind, physical, geometric, ends(number, nodes)]),
+    elem: own.elem.map((row) => [...row.slice(0, 5), ...ends(row[0], row.slice(5, 7)), row[7]]),
   };
 }
 
@@ -62,11 +62,9 @@ function contactNodes(mesh, pairs) {
   });
 }
 
-const extentOf = (values) => [Math.min(...values), Math.max(...values)];
-
 /** A view: where a point of the scene is drawn, in pixels. */
 function viewOf(points, width, height, margin, magnify) {
-  const [[left, right], [low, high]] = [0, 1].map((j) => extentOf(points.map((p) => p[j])));
+  const [[left, right], [low, high]] = [0, 1].map((j) => range(points.map((p) => p[j])));
   const span = Math.max(right - left, high - low) || 1;
   const fit = (size, room) => room / Math.max(size, 1e-9 * span);
   const [across, up] = [fit(right - left, width - 2 * margin), fit(high - low, height - 2 * margin)];
@@ -77,31 +75,6 @@ function viewOf(points, width, height, margin, magnify) {
   const to = ([x, y]) => [width / 2 + (x - cx) * sx, height / 2 - (y - cy) * sy];
   const from = ([x, y]) => [cx + (x - width / 2) / sx, cy - (y - height / 2) / sy];
   return { to, from, factor, sy };
-}
-
-/** Draws a path through points. @param {any} context @param {any[]} points @param {any} style */
-function path(context, points, { close = false, ...style }) {
-  context.beginPath();
-  points.forEach((point) => context.lineTo(...point));
-  if (close) context.closePath();
-  inked(context, style);
-}
-
-/** Draws a circle. @param {any} context @param {any[]} middle @param {number} radius @param {any} style */
-function circle(context, middle, radius, style) {
-  context.beginPath();
-  context.arc(...middle, radius, 0, 2 * Math.PI);
-  inked(context, style);
-}
-
-/** Fills and strokes the path that was begun. @param {any} context @param {any} style */
-function inked(context, { fill = null, stroke = null, width = 1, dash = [], alpha = 1 }) {
-  Object.assign(context, { globalAlpha: alpha, fillStyle: fill, strokeStyle: stroke, lineWidth: width });
-  context.setLineDash(dash);
-  if (fill) context.fill();
-  if (stroke) context.stroke();
-  context.setLineDash([]);
-  context.globalAlpha = 1;
 }
 
 function arrow(context, from, to, stroke) {
@@ -170,9 +143,9 @@ function fromTarget(mesh, n) {
 /** The contact nodes that are drawn, those that were chosen, and the target edges beside them. */
 function zoneOf(mesh, chosen) {
   const nodes = chosen.length ? mesh.contact.filter((n) => chosen.includes(n)) : mesh.contact;
-  const [left, right] = extentOf(nodes.map((n) => mesh.at(n)[0]));
+  const [left, right] = range(nodes.map((n) => mesh.at(n)[0]));
   const isNear = ([, ends]) => {
-    const [from, to] = extentOf(ends.map((n) => mesh.at(n)[0]));
+    const [from, to] = range(ends.map((n) => mesh.at(n)[0]));
     return to >= left - (right - left) && from <= right + (right - left);
   };
   return { nodes, edges: chosen.length ? mesh.edges.filter(isNear) : mesh.edges };
@@ -270,7 +243,7 @@ function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const { context, width, height } = prepared(canvas, 170, page.width);
   const known = contactNodes(mesh, pairs).filter((n) => zone.nodes.includes(n.node) && n.ct > 0 && n.yt !== undefined);
   const most = Math.max(tolerance, ...known.map(({ yt }) => Math.abs(yt)));
-  const [left, right] = extentOf(zone.nodes.map((n) => mesh.at(n)[0]));
+  const [left, right] = range(zone.nodes.map((n) => mesh.at(n)[0]));
   const sx = (width - 120) / (right - left || 1);
   const factor = roundAtMost((height / 2 - 28) / (most || 1) / sx);
   const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];

@@ -5,7 +5,7 @@
 function showLines(machine, before, runTo) {
   const list = byId("listing");
   const words = ({ level, text }) => `${level} ${text}`;
-  const same = placesAsPrinted(machine.lines.map(words), before.map(words));
+  const same = commonPlaces(machine.lines.map(words), before.map(words));
   const changed = run().programs ? t("changed:") : t("not as printed:");
   list.replaceChildren(
     ...machine.lines.map((line, place) => {

@@ -4,8 +4,7 @@
 function shown(value) {
   if (isNumber(value)) return value;
   if (!isArrayOfNumbers(value) || value.entries.length > 36) return interpreted(kindOf(value)).replaceAll(" x ", " × ");
-  const row = (i) => value.entries.slice(i * value.cols, (i + 1) * value.cols);
-  return value.cols === 1 ? value.entries : Array.from({ length: value.rows }, (_, i) => row(i));
+  return value.cols === 1 ? value.entries : value.lists;
 }
 
 /** A step: its line's place, what decided it, what it wrote, and what it read, each value once. */

@@ -140,7 +140,7 @@ class MatrixMap {
 
 /** The way of an arrow key, right and down, which is then taken; nothing of another key. */
 function byArrow(event) {
-  const by = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+  const by = ARROWS[event.key];
   if (!by) return null;
   event.preventDefault();
   event.stopPropagation();

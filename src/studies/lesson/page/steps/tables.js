@@ -29,14 +29,11 @@ function fill(cell, machine, marked) {
 const valueCell = (value) => (value === undefined ? make("td", {}, "·") : make("td", { "data-exact": exact(value) }, brief(value)));
 
 /** A table of entries with a heading a column; each row has its heading and its names. */
-function table(caption, heads, rows) {
+function entriesTable(caption, heads, rows) {
   const cell = (name) => make("td", { "data-name": name, "aria-describedby": "meaning" });
-  const body = rows.map(([head, names]) =>
-    make("tr", {}, make("th", { scope: "row", "data-name": head === names[0] ? head : undefined }, head), ...names.map(cell)),
-  );
-  const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col", "data-name": meaningOf(text) && text }, text)));
-  const result = make("table", {}, make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...body));
-  const box = make("div", { class: "scroll" }, result);
+  const body = rows.map(([head, names]) => [make("th", { scope: "row", "data-name": head === names[0] ? head : undefined }, head), ...names.map(cell)]);
+  const head = heads.map((text) => make("th", { scope: "col", "data-name": meaningOf(text) && text }, text));
+  const box = make("div", { class: "scroll" }, tableFrom(caption, head, body));
   roving(box, "td", () => heads.length - 1);
   return box;
 }
@@ -47,7 +44,7 @@ function showTables(place, machine, tables, current) {
   const names = JSON.stringify(tables);
   if (place.dataset.names !== names) {
     place.dataset.names = names;
-    place.replaceChildren(...tables.map((parts) => table(...parts)));
+    place.replaceChildren(...tables.map((parts) => entriesTable(...parts)));
   }
   const marked = marks(machine);
   for (const cell of place.querySelectorAll("td")) fill(cell, machine, marked);

@@ -59,10 +59,9 @@ function drawBeside() {
   if (page.which === "Km") return byId("both").replaceChildren();
   const names = ["ct", "yt", "dy"];
   const both = (name) => [machine, beside].map((machine) => valueCell(machine.get(name)));
-  const rows = mesh.contact.map((n, k) => make("tr", {}, make("th", { scope: "row" }, mesh.name(n)), ...names.flatMap((name) => both(`${name}[${k + 1}]`))));
-  const head = headOf([t("node"), ...names.flatMap((name) => [name, `${name}*`])]);
+  const rows = mesh.contact.map((n, k) => [mesh.name(n), ...names.flatMap((name) => both(`${name}[${k + 1}]`))]);
   byId("both").replaceChildren(
-    make("table", {}, make("caption", {}, t("* of the corrected listing")), head, make("tbody", {}, ...rows)),
+    tableFrom(t("* of the corrected listing"), [t("node"), ...names.flatMap((name) => [name, `${name}*`])], rows),
     make("p", { class: "muted" }, mesh.side > 0 ? t("yt* is a gap, positive apart; the yt of line 10 is the target’s height less the node’s, and has the other sign.") : t("yt* is a gap, positive apart; so is the yt of line 10, the target’s height less the node’s, as the target lies above here.")),
   );
 }

@@ -58,16 +58,14 @@ function showChanges(run, programs) {
   if (place.hidden) return place.replaceChildren();
   const changed = changes(results(programsOf(before)), results(programs));
   const now = LISTINGS.some((name) => page.edits.has(run[name])) ? t("the edited listing") : tell(run.label);
-  const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) =>
-    make("tr", {}, make("th", { scope: "row" }, name === "stops" ? t("stops") : name), valueCell(a), valueCell(b)),
-  );
+  const rows = changed.slice(0, MOST_CHANGES).map(([name, a, b]) => [name === "stops" ? t("stops") : name, valueCell(a), valueCell(b)]);
   const entries = changed.filter(([name]) => name.startsWith("MJS")).length;
-  const head = headOf([t("name"), tell(before.label), isChanged() ? t("now") : tell(run.label)]);
+  const heads = [t("name"), tell(before.label), isChanged() ? t("now") : tell(run.label)];
   const count = [t("Values that change: {count}, of them in MJS: {entries}.", { count: changed.length, entries }), ...(changed.length > MOST_CHANGES ? [t("The first {count} are shown.", { count: MOST_CHANGES })] : [])].join(" ");
   const what = isMoved() ? t("{what} on the changed scene", { what: now }) : now;
   place.replaceChildren(
     make("h3", {}, t("At the end, {what} beside {before}", { what, before: tell(before.label) })),
-    ...(changed.length ? [make("div", { class: "scroll" }, make("table", {}, head, make("tbody", {}, ...rows))), make("p", { class: "muted" }, count)] : [make("p", {}, t("Nothing changes on this scene."))]),
+    ...(changed.length ? [make("div", { class: "scroll" }, tableFrom("", heads, rows)), make("p", { class: "muted" }, count)] : [make("p", {}, t("Nothing changes on this scene."))]),
     make("p", {}, besideRepairInWords()),
   );
   roving(place, "td", () => 2);

@@ -12,16 +12,16 @@ function openRepair(k) {
 function repairsOf({ rows, order }) {
   const cell = (text, value) => make("td", { "data-exact": value === undefined ? undefined : exact(value) }, text);
   const share = (x) => cell(x === undefined ? "–" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
-  const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }, k) => {
+  const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }) => {
     const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "–";
     const words = `${tell(fault)}${places ? ` (${places.replaceAll("-", "–")})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
     const number = make("th", { scope: "row" }, make("button", {}, String(repairs)));
-    const made = make("tr", {}, number, cell(link), share(error), share(transmitted), cell(in_contact ?? "–"), make("td", { class: "words" }, words));
-    made.addEventListener("click", ({ target }) => target.closest("a") || openRepair(k));
-    return made;
+    return [number, cell(link), share(error), share(transmitted), cell(in_contact ?? "–"), make("td", { class: "words" }, words)];
   };
-  const head = headOf([t("repairs"), t("finding repaired"), t("error in energy, %"), t("transmitted load, %"), t("in contact"), t("its fault")]);
-  const table = make("table", { id: "repairs" }, head, make("tbody", {}, ...rows.map(row)));
+  const heads = [t("repairs"), t("finding repaired"), t("error in energy, %"), t("transmitted load, %"), t("in contact"), t("its fault")];
+  const table = tableFrom("", heads, rows.map(row));
+  table.id = "repairs";
+  table.tBodies[0].addEventListener("click", ({ target }) => target.closest("a") || openRepair(target.closest("tr").sectionRowIndex));
   roving(table, "button");
   const words = t("A row opens the corrected algorithm with the faults that are left. Errors are against the solution without friction, node to segment, in the initial geometry, on the same mesh.");
   const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { class: "muted" }, t(order)));
