@@ -104,13 +104,11 @@ impl Run {
             others.iter().map(|other| (other, compare(self, other).0)).collect();
         let decided = others.iter().filter_map(|(other, differences)| {
             let status = first(self, other, differences)?.status?;
-            let (iteration, node) = (status.iteration, status.node);
-            let condition = [Some(status.words), status.line]
-                .into_iter()
-                .flatten()
-                .collect::<Vec<_>>()
-                .join("; ");
-            Some(Decision { iteration, node, condition })
+            let condition = match &status.line {
+                Some(line) => format!("{}; {line}", status.words),
+                None => status.words,
+            };
+            Some(Decision { iteration: status.iteration, node: status.node, condition })
         });
         self.decided_by_rounding = decided.collect();
         for (entry, numbers) in &mut self.numbers {
