@@ -26,7 +26,7 @@ pub struct ArithmeticArgs {
         value_parser = offered::<ScalarName>(ScalarName::ALL))]
     scalar: ScalarName,
     #[arg(long, value_name = "NAME", value_parser = offered::<Solver>(Solver::ALL), help = format!(
-        "{} [default: sparse-cholesky; sparse-lu under printed in f64 and f64-bounded]",
+        "{} [default: sparse-cholesky; sparse-lu under printed in f64]",
         Solver::help()
     ))]
     solver: Option<Solver>,
