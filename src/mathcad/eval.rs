@@ -327,6 +327,8 @@ impl Run<'_, '_, '_> {
     fn value_of(&mut self, expr: &Expr) -> Fallible<Value> {
         let parts = expr.parts.as_slice();
         match &expr.kind {
+            // By itself: to clone a value asks whether it is shared.
+            Kind::Literal(Value::Number(x)) => Ok(Value::Number(*x)),
             Kind::Literal(value) => Ok(value.clone()),
             Kind::Name(name) => self.read(*name, None),
             Kind::Group => self.eval(&parts[0]),
@@ -354,6 +356,7 @@ impl Run<'_, '_, '_> {
     }
 
     /// Returns what an operator makes of its operands.
+    #[inline]
     fn applied(&mut self, operator: Operator, expr: &Expr) -> Fallible<Value> {
         let operands = expr.parts.as_slice();
         match operator {
