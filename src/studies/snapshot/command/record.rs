@@ -19,8 +19,8 @@ use commands::{MethodArgs, offered, print_report, waiting};
 #[command(after_help = "\
 Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
 discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
-numbers, each array with what rounding does to it, measured by three runs on inputs changed in the
-last digit. A snapshot of a scene that fails as
+numbers, each array with what rounding does to it, as runs on inputs changed in the last digit show.
+A snapshot of a scene that fails as
 printed is a snapshot like any other. An existing snapshot is not replaced: see
 snapshot accept.
 
