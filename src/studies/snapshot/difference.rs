@@ -142,8 +142,8 @@ fn unit(was: &Numbers, is: &Numbers) -> Option<Kind> {
     (was.unit != is.unit).then(|| Kind::Unit { was: was.unit.clone(), is: is.unit.clone() })
 }
 
-/// Returns how two arrays differ; None where they do not. What rounding does is measured in the new run: what an old
-/// file says of it lets nothing pass.
+/// Returns how two arrays differ; None where they do not. What rounding does is the less of what either run says, so
+/// that one file's word alone lets nothing pass; it is that of the new run where the old one does not know.
 fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     if was.values == is.values {
         return None;
@@ -154,7 +154,7 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
         return Some(Kind::Shape { was: old.len(), is: new.len(), at: elsewhere });
     }
     let largest = was.largest();
-    let rounding = is.rounding();
+    let rounding = is.rounding().map(|new| was.rounding().map_or(new, |old| old.min(new)));
     let limit = |value: f64| match was.tolerance {
         Some(tolerance) => tolerance.limit(value, largest, rounding.unwrap_or(0.0)),
         None => rounding.unwrap_or(UNMEASURED * largest),
@@ -182,6 +182,6 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
 }
 
 /// Returns the first iteration of which something differs; None where nothing does.
-pub fn first_iteration(differences: &[Difference]) -> Option<usize> {
-    differences.iter().filter_map(|d| d.entry.iteration).min()
+pub fn first_iteration<'d>(differences: impl IntoIterator<Item = &'d Difference>) -> Option<usize> {
+    differences.into_iter().filter_map(|d| d.entry.iteration).min()
 }

@@ -179,13 +179,12 @@ impl Numbers {
                 .filter(|x| x.is_finite())
                 .fold(0.0, f64::max)
         };
-        let least = ROUNDED * self.largest();
-        self.bound = others.map(away).reduce(f64::max).map(|most| most.max(least));
+        self.bound = others.map(away).reduce(f64::max);
     }
 
     /// Returns the largest difference that rounding may make, where that was measured.
     pub fn rounding(&self) -> Option<f64> {
-        let measured = self.bound.map(|bound| MARGIN * bound);
+        let measured = self.bound.map(|bound| MARGIN * bound.max(ROUNDED * self.largest()));
         measured.or((self.floor > 0.0).then(|| self.floor.max(UNMEASURED * self.largest())))
     }
 

@@ -113,7 +113,10 @@ impl Run {
         self.decided_by_rounding = decided.collect();
         for (entry, numbers) in &mut self.numbers {
             let finds_the_same = |differences: &[Difference]| match entry.iteration {
-                Some(k) => first_iteration(differences).is_none_or(|first| k < first),
+                Some(k) => {
+                    let found = differences.iter().filter(|difference| difference.is_discrete());
+                    first_iteration(found).is_none_or(|first| k < first)
+                }
                 None => !differences.iter().any(Difference::is_of_contact),
             };
             let same = others.iter().filter(|(_, differences)| finds_the_same(differences));
