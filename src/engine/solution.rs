@@ -13,7 +13,7 @@ use super::range::inside_out;
 use super::request::Request;
 use base::choices;
 use base::exit::ExitStatus;
-use mathcad::array::{Column, Table, rows};
+use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use paper::mirror::Pairs;
 use problem::element::State;
@@ -96,12 +96,6 @@ impl FoundPairs {
             masters: (1..=nodes).map(row).filter(is_written).collect(),
             nodes,
         }
-    }
-
-    /// Returns the place, from 0, of the first contact node whose edge or status is another one.
-    pub fn first_difference(&self, other: &FoundPairs) -> Option<usize> {
-        let found = |pairs: &FoundPairs, i1: usize| (pairs.ct[i1], pairs.dy[i1]);
-        (1..=rows(&self.dy)).find(|i1| found(self, *i1) != found(other, *i1)).map(|i1| i1 - 1)
     }
 
     /// Returns `k_cnt`, R x 4.

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::Status;
 use crate::distance::over;
+use crate::error::Error;
 use crate::linear::{Arithmetic, ScalarName};
 use crate::{Detail, Request, Solution, Step, check, last_under_each_load, solve};
 use numbers::finite;
@@ -87,29 +88,27 @@ pub enum When {
     Iteration(usize),
 }
 
+impl When {
+    /// Returns what tells it from the other times of a run.
+    fn key(self) -> u64 {
+        match self {
+            When::Load(load) => load.to_bits(),
+            When::Iteration(k) => k as u64,
+        }
+    }
+}
+
 /// Repeats a run with changed inputs; None in exact numbers, which are not rounded.
 pub fn perturbed(solution: &Solution) -> Option<Perturbed> {
     if solution.request.arithmetic.scalar.is_exact() {
         return None;
     }
-    let requests = perturbed_requests(&solution.request);
-    let mut found = Perturbed {
-        runs: requests.len() as u64,
-        in_double_doubles: requests.len() > RUNS,
-        other_steps: 0,
-        failures: Vec::new(),
-        contact: None,
-        displacement: None,
-        stress: None,
-    };
-    let solved: Vec<_> = requests.par_iter().map(|request| solve(request, &mut |_| ())).collect();
-    for solved in solved {
-        match solved {
-            Ok(other) => found.add(solution, &other),
-            Err(why) => found.failures.push(why.to_string()),
-        }
-    }
-    Some(found)
+    Some(Perturbed::of_runs(solution, &runs(&solution.request)))
+}
+
+/// Runs what [`perturbed_requests`] asks for.
+fn runs(request: &Request) -> Vec<Result<Solution, Error>> {
+    perturbed_requests(request).par_iter().map(|request| solve(request, &mut |_| ())).collect()
 }
 
 /// Returns requests that mean the same: coordinates, loads and moduli differ in their last digits, and in two
@@ -136,6 +135,25 @@ impl Perturbed {
         !(same && is_small(self.displacement) && is_small(self.stress))
     }
 
+    fn of_runs(solution: &Solution, runs: &[Result<Solution, Error>]) -> Self {
+        let mut found = Perturbed {
+            runs: runs.len() as u64,
+            in_double_doubles: runs.len() > RUNS,
+            other_steps: 0,
+            failures: Vec::new(),
+            contact: None,
+            displacement: None,
+            stress: None,
+        };
+        for run in runs {
+            match run {
+                Ok(other) => found.add(solution, other),
+                Err(why) => found.failures.push(why.to_string()),
+            }
+        }
+        found
+    }
+
     fn add(&mut self, solution: &Solution, other: &Solution) {
         let stress =
             |run: &Solution| run.elements.iter().map(|state| state.von_mises_stress).collect();
@@ -148,11 +166,11 @@ impl Perturbed {
         self.displacement = larger(self.displacement, moved);
         let (ends, others) = (ends(solution), ends(other));
         self.other_steps += u64::from(ends.len() != others.len());
+        let others: HashMap<u64, Vec<Status>> =
+            others.into_iter().map(|(when, statuses)| (when.key(), statuses)).collect();
         for (when, statuses) in ends {
             // Loads between the steps, where a node closes, are other ones.
-            let Some((_, others)) = others.iter().find(|(other, _)| *other == when) else {
-                continue;
-            };
+            let Some(others) = others.get(&when.key()) else { continue };
             let differ: Vec<usize> =
                 (0..statuses.len()).filter(|i| statuses[*i] != others[*i]).collect();
             let Some(first) = differ.first() else { continue };
@@ -196,20 +214,21 @@ pub enum Certainty {
 /// Returns the solution itself where rounding decides nothing in it, else that of the same request in
 /// double-doubles, and which of the two it is. Under `unilateral` the solution stays as it is.
 pub fn certain(solution: Solution) -> (Solution, Certainty) {
-    let own = solution.request.arithmetic;
-    if solution.request.variant == Variant::Unilateral {
+    let request = &solution.request;
+    if request.variant == Variant::Unilateral {
         return (solution, Certainty::Unchecked);
     }
-    if !perturbed(&solution).is_some_and(|found| found.decides()) {
+    if request.arithmetic.scalar.is_exact() {
         return (solution, Certainty::Certain);
     }
-    if own.scalar == ScalarName::F64x2 {
-        return (solution, Certainty::Decided);
+    let mut runs = runs(request);
+    let found = Perturbed::of_runs(&solution, &runs);
+    if !found.decides() {
+        return (solution, Certainty::Certain);
     }
-    let finer = solution.request.clone().arithmetic(in_double_doubles(own));
-    match solve(&finer, &mut |_| ()) {
-        Ok(again) => (again, Certainty::InDoubleDouble),
-        Err(_) => (solution, Certainty::Decided),
+    match runs.pop().filter(|_| found.in_double_doubles) {
+        Some(Ok(again)) => (again, Certainty::InDoubleDouble),
+        Some(Err(_)) | None => (solution, Certainty::Decided),
     }
 }
 
@@ -218,14 +237,11 @@ pub fn certain(solution: Solution) -> (Solution, Certainty) {
 pub fn perturbed_requests(request: &Request) -> Vec<Request> {
     let own = request.arithmetic;
     let changed = (0..RUNS as u64).map(|seed| changed(request, seed, 1.0));
-    let finer = request.clone().arithmetic(in_double_doubles(own));
+    // Double-doubles, by their own solver.
+    let finer = Arithmetic { scalar: ScalarName::F64x2, solver: None, ..own };
+    let finer = request.clone().arithmetic(finer);
     let is_finer = own.scalar.properties().digits < ScalarName::F64x2.properties().digits;
     changed.chain(Some(finer).filter(|finer| is_finer && check(finer).is_ok())).collect()
-}
-
-/// Returns double-doubles, by their own solver.
-fn in_double_doubles(own: Arithmetic) -> Arithmetic {
-    Arithmetic { scalar: ScalarName::F64x2, solver: None, ..own }
 }
 
 /// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.
