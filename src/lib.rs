@@ -4,7 +4,7 @@
 //! ```text
 //!  Scene (open a file, or build one in code) --> Request (what is asked) --> solve --> Solution
 //!                                                                              |
-//!                               ResultFile (written, read back) <--------------+--> compare
+//!                                                ResultFile (result.json) <---+--> compare
 //! ```
 //!
 //! The reference solution of a scene of your own, which is a file with its mesh beside it

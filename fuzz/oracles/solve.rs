@@ -49,14 +49,11 @@ fn of_draws(u: &mut Unstructured) -> Result<Option<Request>> {
     scene.ok().map(|scene| drawn::request(u, &scene)).transpose()
 }
 
-/// The result and its tables have no number without a value, and the result reads back the same.
+/// The result and its tables have no number without a value.
 fn is_written(solution: &Solution) {
     let assessment = Assessment::new(solution);
     let plan = Plan::new(&solution.request).expect("what ran can be planned");
-    let text = ResultFile::new(solution, &assessment, Some(&plan)).to_json();
-    sound::document(&text);
-    let read = ResultFile::from_json(&text).expect("what was written");
-    assert_eq!(read.to_json(), text);
+    sound::document(&ResultFile::new(solution, &assessment, Some(&plan), false).to_json());
     sound::text(&tables::solution(solution, &assessment).text(usize::MAX));
     sound::text(&tables::error_estimates(solution, &assessment).text(usize::MAX));
     sound::text(&tables::distance(solution, &assessment).text(usize::MAX));

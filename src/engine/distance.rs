@@ -1,29 +1,27 @@
 //! The distance of a run from another solution on the same mesh: the reference solution, or the
 //! equilibrium under the scene's own friction.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::Serialize;
 
 use super::quantities::summaries;
 use super::solution::{Solution, max_displacement};
 use super::stiffness::Stiffness;
 
 /// The differences between a run and the solution compared with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Distance {
     /// The largest difference of a node's displacement, length.
     pub displacement: f64,
     /// That difference over the largest displacement of the solution compared with.
-    #[serde(deserialize_with = "or_nan")]
     pub displacement_relative: f64,
     /// sqrt((u − u*)ᵀ K (u − u*)) over sqrt(u*ᵀ K u*), where u* is the solution compared with.
-    #[serde(deserialize_with = "or_nan")]
     pub energy_relative: f64,
     /// The largest stresses of each body, in the model's order.
     pub bodies: Vec<BodyDistance>,
 }
 
 /// A body's largest von Mises stress beside that of the solution compared with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyDistance {
     /// The name of the body.
     pub name: String,
@@ -32,7 +30,6 @@ pub struct BodyDistance {
     /// The largest von Mises stress of the solution compared with.
     pub reference: f64,
     /// The difference of the two over that of the solution compared with.
-    #[serde(deserialize_with = "or_nan")]
     pub relative: f64,
 }
 
@@ -64,9 +61,4 @@ pub fn distance(solution: &Solution, reference: &Solution) -> Distance {
 /// Returns a difference over a scale, where 0 over 0 is 0.
 pub fn over(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale }
-}
-
-/// Reads a float, and NaN from null: JSON has no number that is not finite.
-fn or_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::linear::ScalarName;
 use base::error::InputError;
@@ -105,7 +105,7 @@ pub struct NoEquilibrium {
 }
 
 /// Why a search for an equilibrium ends without one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
     /// It is proved that there is none.

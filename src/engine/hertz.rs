@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::contact::{Pairing, Surfaces, arcs};
 use super::solution::Solution;
@@ -32,7 +32,7 @@ const ALONE: f64 = 1e-3;
 const FEWEST: usize = 3;
 
 /// Hertz's contact of two cylinders along a line.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Hertz {
     /// The relative radius of the two surfaces, length.
     pub radius: f64,

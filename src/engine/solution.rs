@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dashu_ratio::RBig;
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::contact::{ContactNode, InsideNode, Pairing, ROUNDING_OF_A_FORCE, Status, Watched};
 use super::elimination::Constraint;
@@ -144,7 +144,7 @@ impl Unilateral {
 }
 
 /// The path of the load at the end of which a solution under friction stands.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Path {
     /// The number of equal steps of a stage's load.
     pub steps: usize,
@@ -160,7 +160,7 @@ pub struct Path {
 }
 
 /// How a path starts, before any load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
     /// Restraints, and the contact nodes that touch the target, hold the bodies.
@@ -199,7 +199,7 @@ choices! {
 }
 
 /// How near the status of a node is to another one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NearestDecision {
     /// The contact node.
     pub node: NodeId,
@@ -210,7 +210,7 @@ pub struct NearestDecision {
 }
 
 /// An equilibrium beside the one that was found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OtherEquilibrium {
     /// The part of the path at the end of the step that could end in it; whole numbers end stages.
     pub load: f64,
@@ -223,7 +223,7 @@ pub struct OtherEquilibrium {
 }
 
 /// What is known of other equilibria under the same load.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Uniqueness {
     /// No other equilibrium exists: the problem is convex and contact holds the bodies.
@@ -237,7 +237,7 @@ pub enum Uniqueness {
     /// convex.
     Unknown {
         /// A node that can move without work as long as the normals of contact stay as they are.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         node: Option<NodeId>,
     },
     /// Other contact states were tried, each in the shape to which its step led.
@@ -325,7 +325,7 @@ impl Step {
 }
 
 /// The return of an earlier contact state.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Cycle {
     /// The number of steps since the state last occurred; 1 means that it did not change.
     pub length: usize,
@@ -363,7 +363,7 @@ pub struct Solution {
 
 /// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups, or beyond
 /// the end of the other one. What was found is then an equilibrium of bodies that pass through each other there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overlap {
     /// How many they are: those deeper than rounding and than the height of the arcs over the edges there.
     pub nodes: usize,
@@ -386,36 +386,36 @@ impl Overlap {
 }
 
 /// What `unilateral` knows of the equilibrium that it found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Equilibrium {
     /// The path of the load; None without friction, where it has no effect.
     pub path: Option<Path>,
     /// What is known of other equilibria.
     pub uniqueness: Uniqueness,
     /// The decision of its contact state that is nearest to another one; None where none is known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<NearestDecision>,
     /// Under node to segment, which watches contact nodes alone, the target node that lies deepest
     /// inside the contact surface, and its depth, length; None where none lies deeper than a
     /// thousandth of the model's size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub unseen: Option<(NodeId, f64)>,
     /// The contact node that lies deepest inside the target's body in the shape reached though it faces an edge of the
     /// target, and its distance from the body's outline, length; None where none lies deeper than a thousandth of the
     /// model's size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
     /// The height of the arcs over the edges of curved surfaces in contact, and how far the gaps there differ before
     /// any load, from each other and overlaps from none, length; with no node in contact, that of all that face the target,
     /// and the smallest gap left. None where the height is a small part of this.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape
     /// reached, length; 0 in the initial geometry.
     pub shape_change: f64,
     /// The largest force of the springs on which it was found, over the largest of the loads and of those
     /// of contact; None where it was found without springs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub springs: Option<f64>,
 }
 

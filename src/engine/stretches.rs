@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::contact::{ROUNDING_OF_A_FORCE, rounding};
 use super::quantities::ContactNode;
@@ -12,18 +12,18 @@ use numbers::joined::joined;
 use problem::model::{Model, NodeId};
 
 /// What contact passes to the target.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Resultant {
     /// The force on the target along x and y, force.
     pub force: [f64; 2],
     /// The point of its line of action next to where contact presses on average, in the undeformed shape, length;
     /// None where it vanishes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub through: Option<[f64; 2]>,
 }
 
 /// Nodes in contact that follow each other along the outline of one body, and face one other body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stretch {
     /// The names of the contact body and of the target's.
     pub bodies: [String; 2],

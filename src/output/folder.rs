@@ -131,8 +131,7 @@ pub fn result(
     plan: Option<&Plan>,
     wanted: FolderOptions,
 ) -> String {
-    let result = ResultFile::new(solution, assessment, plan);
-    let result = if wanted.fields { result.with_fields(solution, assessment) } else { result };
+    let result = ResultFile::new(solution, assessment, plan, wanted.fields);
     result.to_json()
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::numbers::reason;
@@ -12,20 +12,20 @@ use paper::door::Call;
 use problem::scene::{Scene, Units};
 
 /// What a document says of itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Head {
     /// The version of the format.
     pub format: u32,
     /// The version of the program.
-    pub version: String,
+    pub version: &'static str,
     /// The names of the units of the scene that it is on, each empty where the scene names none; absent without one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<Units>,
     /// The SHA-256 of the scene, as a snapshot has it; absent for half a scene, which no file describes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub scene_sha256: Option<String>,
     /// The SHA-256 of its mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_sha256: Option<String>,
 }
 
@@ -35,7 +35,7 @@ impl Head {
         let hashes = scene.and_then(Scene::hashes).cloned();
         let [scene_sha256, mesh_sha256] = hashes.map_or([None, None], |hashes| hashes.map(Some));
         let units = scene.map(|scene| scene.units.clone());
-        Head { format: FORMAT, version: VERSION.into(), units, scene_sha256, mesh_sha256 }
+        Head { format: FORMAT, version: VERSION, units, scene_sha256, mesh_sha256 }
     }
 }
 
@@ -50,7 +50,13 @@ struct Document<Own> {
 
 /// Returns a document around a command's own value, with the scene that it is on, and why fields are null.
 pub fn document(scene: Option<&Scene>, own: &impl Serialize) -> Value {
-    explained(&Document { head: Head::new(scene), own })
+    let mut document = value(&Document { head: Head::new(scene), own });
+    let mut nulls = BTreeMap::new();
+    explain(&document, "", &mut nulls);
+    if !nulls.is_empty() {
+        document["nulls"] = value(&nulls);
+    }
+    document
 }
 
 /// Writes such a document on one line. Floats read back to the same bits; what is not finite is null.
@@ -79,22 +85,6 @@ fn visible(json: String) -> String {
 
 fn value(document: &impl Serialize) -> Value {
     serde_json::to_value(document).expect("a document has string keys only")
-}
-
-/// Returns a document with the reasons of its nulls by the names of their fields, where it has any.
-fn explained(document: &impl Serialize) -> Value {
-    let mut document = value(document);
-    let mut nulls = BTreeMap::new();
-    explain(&document, "", &mut nulls);
-    if !nulls.is_empty() {
-        document["nulls"] = value(&nulls);
-    }
-    document
-}
-
-/// Writes a document over several lines, with the reasons of its nulls.
-pub fn pretty_explained(document: &impl Serialize) -> String {
-    pretty(&explained(document))
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for

@@ -1,6 +1,6 @@
 //! How the bodies lie before any load: apart, touching, or in each other.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::outline::{FacedPoint, Outline};
 use super::overlap::PlacedTriangles;
@@ -21,7 +21,7 @@ const TOUCHING: f64 = 1e-9;
 const FAR: f64 = 0.1;
 
 /// What is unusual about the gaps before any load.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum InitialGaps {
     /// Contact nodes lie inside the target: an interference fit, or a mistake of the drawing.

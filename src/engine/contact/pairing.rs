@@ -14,7 +14,7 @@
 use std::fmt;
 
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::search::{dot, minus};
 use numbers::scalar::Scalar;
@@ -105,7 +105,7 @@ pub(super) fn unit<T: Scalar>(v: [T; 2]) -> [T; 2] {
 }
 
 /// The status of a contact node under `unilateral`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// It is not in contact.
@@ -118,7 +118,7 @@ pub enum Status {
 }
 
 /// The sense in which a node slides along the tangent, which is the normal turned left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Sense {
     /// Along the tangent.
     #[serde(rename = "slip+")]

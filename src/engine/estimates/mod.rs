@@ -12,7 +12,7 @@ mod perturbed;
 mod recovery;
 mod singular;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::solution::{Solution, max_displacement};
 use discretisation::Discretisation;
@@ -36,10 +36,10 @@ pub struct Estimates {
 
 /// How far the mesh leaves the numbers of a run from the truth; nothing where that is not known. What it does to
 /// one displacement or stress is not estimated: `trade --only mesh` measures it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorEstimates {
     /// The node at which the largest displacement has no limit as the mesh is refined, and why.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement_no_limit: Option<(NodeId, Cause)>,
     /// The error of the mesh in the energy norm, relative to the norm of the solution.
     pub mesh_energy_relative: Option<f64>,
@@ -48,19 +48,19 @@ pub struct ErrorEstimates {
 }
 
 /// How far a body's largest von Mises stress may be from the truth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyEstimates {
     /// The name of the body.
     pub name: String,
     /// Its largest von Mises stress.
     pub von_mises_stress: f64,
     /// A point of the body where the stress has no limit as the mesh is refined.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub no_limit: Option<NoLimit>,
 }
 
 /// A point of a body where the stress grows without limit as the mesh is refined.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NoLimit {
     /// The node that stands there; of contact, that of the contact surface.
     pub node: NodeId,

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use fastrand::Rng;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::contact::Status;
 use crate::distance::over;
@@ -45,20 +45,20 @@ const NOTICEABLE: f64 = 1e-6;
 const SMALL: f64 = 1e-3;
 
 /// What changes of the input in the last digits did to a solution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Perturbed {
     /// The number of runs.
     pub runs: u64,
     /// Whether one of them is in double-doubles.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub in_double_doubles: bool,
     /// Why runs ended without a result.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<String>,
     /// The number of runs whose load took other steps, as where a step finds no equilibrium.
     pub other_steps: u64,
     /// The first change of who is in contact; nothing where there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactChange>,
     /// The largest change of a displacement component, over the largest; nothing where no run has a result.
     pub displacement: Option<f64>,
@@ -67,7 +67,7 @@ pub struct Perturbed {
 }
 
 /// A change of the contact state.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactChange {
     /// The first node that has another status.
     pub node: NodeId,
@@ -79,7 +79,7 @@ pub struct ContactChange {
 }
 
 /// A time at which who is in contact is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum When {
     /// After a part of the load's path, under `unilateral`.

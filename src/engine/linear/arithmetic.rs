@@ -1,6 +1,6 @@
 //! The scalar and the solver that are asked for.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use base::choices;
 use base::error::{InputError, Result};
@@ -71,7 +71,7 @@ impl ScalarName {
 }
 
 /// In which numbers, and by which solver, a run computes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Arithmetic {
     /// The number type.
     pub scalar: ScalarName,

@@ -19,7 +19,7 @@
 mod places;
 mod value;
 
-use serde::{Deserialize, Serialize};
+use serde::{Serialize, Serializer};
 
 use crate::contact::{ContactPlace, Status};
 use crate::solution::{Cycle, Solution};
@@ -74,7 +74,7 @@ macro_rules! quantities {
         }
     ) => {
         $(#[$doc])*
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Debug, PartialEq, Serialize)]
         pub struct $name {
             $(#[doc = $meaning] $(#[serde(rename = $file)])? $(#[$meta])* pub $field: $type),+
         }
@@ -105,11 +105,11 @@ quantities! {
             "The number of contact nodes in contact.";
         dy: Vec<u8> = at.step.statuses().into_iter().map(u8::from).collect(), "" ["dy"] None,
             "Which entries of the contact surface are in contact: 1 or 0 for each.";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         load: Option<f64> = at.step.unilateral().map(|own| own.load), "load" [] One,
             "Under `unilateral`, the part of the path of the load that is applied; whole numbers \
              end stages.";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         statuses: Option<Vec<Status>> = at.step.unilateral().map(|own| own.statuses.clone()),
             "" [] None,
             "Under `unilateral`, the status of each entry of the contact surface.";
@@ -194,7 +194,7 @@ quantities! {
             "The von Mises stress.";
         von_mises_strain: f64 = at.state.von_mises_strain, "von Mises strain" ["ε_v"] One,
             "The von Mises strain.";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         mesh_error: Option<f64> = at.mesh_error, "mesh error" [] One,
             "The estimated error that the mesh causes, in the energy norm, over that norm for a \
              mean triangle; absent where errors are not estimated.";
@@ -207,7 +207,7 @@ quantities! {
         node: NodeId = at.pairing.node, "node" [] None, "The node of the contact surface.";
         arc: f64 = at.arc, "arc" ["s"] Length,
             "The distance from the first contact node along the undeformed contact surface.";
-        #[serde(with = "as_number")]
+        #[serde(serialize_with = "as_number")]
         in_contact in files "dy": bool = at.in_contact, "in contact" ["dy"] None,
             "Whether it is in contact by the variant's own rule: 1 or 0.";
         gap: f64 = at.gap, "gap" ["g"] Length,
@@ -224,23 +224,16 @@ quantities! {
         friction_needed: Option<f64> = at.friction_needed(), "friction needed" ["|τ|/p"] One,
             "The coefficient of friction that keeps the node from sliding; null where the force \
              does not press by more than rounding.";
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         status: Option<Status> = at.status, "contact status" [] None,
             "Open, stick or slip, under `unilateral`.";
     }
 }
 
-/// Writes and reads `dy` in files as 1 or 0.
-mod as_number {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u8(u8::from(*value))
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<bool, D::Error> {
-        Ok(u8::deserialize(deserializer)? == 1)
-    }
+/// Writes `dy` as 1 or 0.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn as_number<S: Serializer>(value: &bool, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_u8(u8::from(*value))
 }
 
 impl<T> Quantity<T> {

@@ -4,9 +4,6 @@
 
 use nalgebra::DVector;
 
-/// The largest number of a node or a triangle: each degree of freedom fits in 32 bits.
-const MOST: usize = 1 << 31;
-
 /// Declares an identifier that counts from 0.
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -60,16 +57,6 @@ macro_rules! numbered {
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 self.number().serialize(serializer)
-            }
-        }
-
-        impl<'de> serde::Deserialize<'de> for $name {
-            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                match usize::deserialize(deserializer)? {
-                    0 => Err(serde::de::Error::custom("numbers count from 1")),
-                    number if number > MOST => Err(serde::de::Error::custom("no mesh is so large")),
-                    number => Ok($name::from_number(number)),
-                }
             }
         }
     };

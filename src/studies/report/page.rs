@@ -97,7 +97,7 @@ fn mesh(model: &Model) -> Value {
 /// Returns a run under a name, with these tables of its result.
 fn run(name: &str, run: &Run, tables: &[(&str, &str)], known: &Value) -> Value {
     let solution = run.solution;
-    let result = json!(ResultFile::new(solution, &run.assessment, None));
+    let result = json!(ResultFile::new(solution, &run.assessment, None, false));
     let tables =
         tables.iter().map(|(table, place)| (*table, rows(&result[*table], &known[*place])));
     json!({
