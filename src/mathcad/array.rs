@@ -5,8 +5,8 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::{DMatrix, DVector};
 
-use super::square::SparseSquare;
 use numbers::scalar::{Scalar, Subscript};
+use numbers::square::SparseSquare;
 
 /// A matrix whose rows and columns count from 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]

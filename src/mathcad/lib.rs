@@ -17,7 +17,7 @@
 //! |---|---|
 //! | [`settings`] | the worksheet's settings, and limits against hostile listings |
 //! | [`failure`] | what can go wrong |
-//! | `square`, `sparse`, [`mod@array`], [`value`] | sparse matrices and their factors, the mirror's arrays with `ORIGIN = 1`, a listing's values |
+//! | [`mod@array`], [`value`] | the mirror's arrays with `ORIGIN = 1`, a listing's values |
 //! | `syntax`, `lexer`, `parser`, [`listing`] | from text to syntax tree |
 //! | [`edit`], [`mod@file`] | the alternative readings of a listing; files of several listings |
 //! | [`observe`] | watching a run: traces and coverage |
@@ -44,8 +44,6 @@ pub mod observe;
 pub mod run;
 pub mod settings;
 pub mod sheet;
-#[cfg(feature = "sparse")]
-pub mod sparse;
 pub mod value;
 #[cfg(feature = "files")]
 pub mod worksheet;
@@ -58,7 +56,6 @@ mod function;
 mod lexer;
 mod matrices;
 mod parser;
-mod square;
 mod state;
 pub mod syntax;
 pub mod unsupported;
@@ -74,6 +71,5 @@ pub use observe::Recorder;
 pub use run::{Runner, evaluate};
 pub use settings::{Conjunction, Limits, Settings};
 pub use sheet::Sheet;
-pub use square::SparseSquare;
 pub use state::Ended;
 pub use value::{Array, Value};

@@ -167,6 +167,7 @@ impl Listing {
     }
 
     /// Returns whether the program calls a function of that name.
+    #[cfg(feature = "files")]
     pub(super) fn calls(&self, name: &str) -> bool {
         let (slot, mut is_called) = (self.names.find(name), false);
         let mut used = |used, how| is_called |= how == Use::Called && Some(used) == slot;

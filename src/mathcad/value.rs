@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::array::{Column, Table};
 use super::failure::Cause;
 use numbers::scalar::Scalar;
+use numbers::square::SparseSquare;
 
 /// A value of a listing. Copying one is cheap: arrays are shared until a copy is written to.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,15 +141,19 @@ impl<T: Clone + Default> Grid<T> {
 }
 
 impl Array {
-    /// Returns the entries that are not 0 row by row, each with row and column from 0.
-    pub fn filled(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+    /// Takes the entries of a square array, zeros left out.
+    pub fn sparse(&self) -> SparseSquare {
         /// So many entries are compared at once: of the CPU time of `audit strand` 2.2 s in place of 3.0 go into this.
         const AT_ONCE: usize = 16;
+        assert_eq!(self.rows(), self.cols(), "a square array");
+        let mut matrix = SparseSquare::zeros(self.rows());
         let parts = self.blocks.iter().flat_map(|block| block.chunks(AT_ONCE)).enumerate();
         let parts = parts.filter(|(_, part)| part.iter().fold(false, |any, x| any | (*x != 0.0)));
         let entries = parts.flat_map(|(k, part)| (k * AT_ONCE..).zip(part.iter().copied()));
-        let filled = entries.filter(|(_, x)| *x != 0.0);
-        filled.map(|(k, x)| (k / self.cols, k % self.cols, x))
+        for (k, value) in entries.filter(|(_, x)| *x != 0.0) {
+            matrix[(k / self.cols, k % self.cols)] = value;
+        }
+        matrix
     }
 }
 

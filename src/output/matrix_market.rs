@@ -2,7 +2,7 @@
 
 use base::files::PER_CENT;
 use base::plain::on_a_line;
-use mathcad::SparseSquare;
+use numbers::square::SparseSquare;
 
 /// Writes the entries of `matrix` that are not zero, row by row, with 17 significant digits;
 /// `comment` becomes one line.

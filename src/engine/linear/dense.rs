@@ -8,8 +8,8 @@ use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::{Llt, Solve};
 use faer::perm::Perm;
 use faer::{Accum, MatMut, Par, Side};
-use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
+use numbers::square::SparseSquare;
 
 use super::cholesky::is_large;
 use super::factors::{

@@ -17,8 +17,8 @@ use super::ldlt::Ldlt;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
 use super::symmetric::SparseSymmetric;
-use mathcad::SparseSquare;
 use numbers::scalar::{Exact, F64x2, Scalar, scope};
+use numbers::square::SparseSquare;
 
 /// A solution of linear equations.
 #[derive(Clone, Debug)]

@@ -3,9 +3,9 @@
 use super::rounding;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers;
-use mathcad::SparseSquare;
-use mathcad::sparse::factored;
 use nalgebra::DVector;
+use numbers::sparse_lu::factored;
+use numbers::square::SparseSquare;
 
 use super::dense::DenseLu;
 use super::factors::{Factors, Lu, Singular, backward_error, largest, solve};

@@ -9,9 +9,9 @@ use engine::linear::{
     inverse_norm, solve_dense,
 };
 use engine::{self, Request, Solution, Step};
-use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
 use numbers::scalar::{Exact, F64x2, Scalar, scope};
+use numbers::square::SparseSquare;
 use paper::door;
 use problem::model::NodeId;
 use problem::modelling::Variant;

@@ -5,9 +5,9 @@ use engine::linear::{
     DenseLu, Factors, Lu, Precision, Singular, Solver, SparseCholesky, SparseSymmetric,
 };
 use fastrand::Rng;
-use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
 use numbers::scalar::{F64x2, Scalar};
+use numbers::square::SparseSquare;
 
 /// A chain of springs of stiffness 1 between `n` nodes, the first tied to the ground by a
 /// spring of stiffness `ground`.

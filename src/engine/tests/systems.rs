@@ -8,9 +8,9 @@ use engine::linear::{
     Arithmetic, Factors, Precision, ScalarName, Schur, Singular, Solver, SparseCholesky, SparseLu,
     SparseSymmetric, inverse_norm, solve_dense,
 };
-use mathcad::SparseSquare;
 use nalgebra::{DMatrix, DVector};
 use numbers::scalar::{F64x2, Scalar};
+use numbers::square::SparseSquare;
 
 /// Makes a vector of its entries.
 macro_rules! dvector {

@@ -8,7 +8,8 @@ use super::evidence::{NoFigures, Outcome, differ};
 use super::findings::ROUNDING;
 use engine::error::Error;
 use engine::{Detail, max_displacement, over};
-use mathcad::{Failure, Settings, SparseSquare};
+use mathcad::{Failure, Settings};
+use numbers::square::SparseSquare;
 use paper::door::{self, Call};
 use paper::listings::{self, Which};
 use paper::mirror::{Ambiguity, Change, Pairs, READINGS, Reading, Trial, Value};
@@ -106,7 +107,7 @@ fn executed(case: &Case, settings: &Settings) -> Result<Initial, Box<Failure>> {
     };
     let listing = Which::Km.under(&reading);
     let (matrix, _) = listings::km(&listing, settings, sheet, &pairs.k_cnt, None)?;
-    Ok(Initial { pairs, matrix: SparseSquare::from_array(&matrix) })
+    Ok(Initial { pairs, matrix: matrix.sparse() })
 }
 
 impl Effect {

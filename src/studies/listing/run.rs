@@ -9,7 +9,7 @@ use base::limits;
 use base::plain::shown;
 use engine::Request;
 use engine::error::Result;
-use mathcad::SparseSquare;
+use numbers::square::SparseSquare;
 use output::{json, matrix_market, tables};
 use paper::door::{Call, check_restraints, node_n};
 use paper::edited::{Edited, Interpreter};

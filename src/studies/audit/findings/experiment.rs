@@ -4,7 +4,7 @@
 use super::Evidence;
 use crate::audit::Case;
 use crate::audit::evidence::Outcome;
-use mathcad::SparseSquare;
+use numbers::square::SparseSquare;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::element::area;

@@ -4,8 +4,7 @@ use std::ops::{Index, IndexMut};
 
 use nalgebra::{DMatrix, DVector};
 
-use super::value::Array;
-use numbers::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// A square matrix, counted from 0: of each column the entries that were written, rows ascending.
 #[derive(Clone, Debug)]
@@ -95,15 +94,6 @@ impl<T: Scalar> IndexMut<(usize, usize)> for SparseSquare<T> {
 }
 
 impl SparseSquare {
-    /// Takes the entries of a square array, zeros left out.
-    pub fn from_array(array: &Array) -> Self {
-        let n = array.rows();
-        assert_eq!(n, array.cols(), "a square array");
-        let mut matrix = Self::zeros(n);
-        array.filled().for_each(|(i, j, value)| matrix.columns[j].push((i, value)));
-        matrix
-    }
-
     /// Returns the largest size of an entry.
     pub fn amax(&self) -> f64 {
         self.entries().fold(0.0, |most, (_, _, value)| most.max(value.abs()))
