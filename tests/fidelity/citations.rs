@@ -138,9 +138,7 @@ fn faults(text: &Text, sections: &BTreeSet<usize>, ids: &BTreeSet<String>) -> Ve
             fault(format!("READING.md has no section {section}"));
         }
         for path in paths(line) {
-            // Commands of cases write pages of their own.
-            let is_written = text.path.starts_with("tests/program/cases") && !path.contains('/');
-            let named = path.ends_with(".md") && path != ".md" && !is_written
+            let named = path.ends_with(".md") && path != ".md"
                 || FOLDERS.iter().any(|folder| path.starts_with(folder));
             if named && !exists(text, path) {
                 fault(format!("names {path}, which is not there"));

@@ -6,11 +6,11 @@ mod common {
 
     pub mod conforming;
     pub mod program;
+    pub mod same_text;
     pub mod tools;
 }
 
 mod accuracy;
-mod cases;
 mod claims;
 mod cli;
 mod conclusion;
