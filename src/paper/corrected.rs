@@ -1,6 +1,7 @@
 //! The corrected algorithm: the programs of `listings/corrected/`, executed by the interpreter.
 
 use std::collections::HashSet;
+use std::ops::RangeInclusive;
 use std::rc::Rc;
 
 use super::door;
@@ -216,18 +217,66 @@ pub fn iterate(
     Worksheet::new(model, bound).iterate(edits, steps)
 }
 
+/// Lines of a program that read nothing which iterations change: their value is computed once.
+///
+/// `audit golden/strand` takes 39 s of CPU time so, 9 s more where each iteration searches again, and 31 s more where
+/// it assembles the bodies again.
+struct Once {
+    program: Program,
+    /// What their value is called.
+    name: &'static str,
+    /// Their printed numbers.
+    lines: RangeInclusive<usize>,
+    /// The edit by which they are a program of their own.
+    alone: &'static str,
+    /// The edit by which their value stands in their place.
+    replaced: &'static str,
+}
+
+const ONCE: [Once; 2] = [
+    Once {
+        program: Program::CCnt,
+        name: "found",
+        lines: 2..=19,
+        alone: "c_cnt line 1:\n 1  found() :=\nc_cnt lines 20-46:\n20    (ct   kt   at)\n",
+        replaced: "c_cnt lines 2-19:\n 2    (ct   kt   at) ← found\n",
+    },
+    Once {
+        program: Program::Km,
+        name: "bodies",
+        lines: 2..=13,
+        alone: "Km line 1:\n 1  bodies() :=\nKm lines 14-28:\n",
+        replaced: "Km lines 2-13:\n 2    MJS ← bodies\n",
+    },
+];
+
+impl Once {
+    fn lines_of(&self, listing: &Listing) -> Vec<Line> {
+        let lines = listing.lines().iter();
+        lines.filter(|line| self.lines.contains(&line.printed)).cloned().collect()
+    }
+
+    /// Returns the lines' value; None where they fail, as the whole program does then and says why, or read what
+    /// iterations change.
+    fn value(&self, edits: &[&str], sheet: &Sheet) -> Option<Value> {
+        let alone = edited(self.program, &[&[self.alone], edits].concat())?;
+        Some(alone.runner_in(sheet, &Settings::default(), &limits()).call(&[]).ok()?.value)
+    }
+
+    /// Returns the program with the value in place of the lines; None where it reads what else they compute.
+    fn program(&self, edits: &[&str], whole: &Listing) -> Option<Listing> {
+        let replaced = edited(self.program, &[&[self.replaced], edits].concat())?;
+        let reads = replaced.free_names();
+        let is_known = |name: &&str| *name == self.name || whole.free_names().contains(name);
+        reads.iter().all(is_known).then_some(replaced)
+    }
+}
+
 /// A model as the programs read it.
 pub struct Worksheet<'m> {
     model: &'m Model,
     sheet: Sheet,
 }
-
-/// The edit by which the first lines of `Km`, which read no contact pair, are a program of their own. Executed once
-/// in all iterations of all runs they take `audit golden/strand` 55 s of CPU time in place of 86 s.
-const BODIES: &str = "Km line 1:\n 1  bodies() :=\nKm lines 14-28:\n";
-
-/// The edit by which its value stands in their place.
-const ASSEMBLED: &str = "Km lines 2-13:\n 2    MJS ← bodies\n";
 
 impl<'m> Worksheet<'m> {
     /// Makes the worksheet above the programs: the scene's tables, its load, and D.
@@ -241,11 +290,10 @@ impl<'m> Worksheet<'m> {
         sheet.define("both", bound.both());
         let d = Listing::parse("D", elasticity(model.plane)).expect("the text is sound");
         sheet.define_program(Rc::new(d));
-        let bodies = program(Program::Km, &[BODIES]);
-        let bodies = bodies.runner_in(&sheet, &Settings::default(), &limits()).call(&[]);
-        // Where it fails `Km` does too, and says why.
-        if let Ok(bodies) = bodies {
-            sheet.define("bodies", bodies.value);
+        for once in ONCE {
+            if let Some(value) = once.value(&[], &sheet) {
+                sheet.define(once.name, value);
+            }
         }
         Worksheet { model, sheet }
     }
@@ -260,23 +308,18 @@ impl<'m> Worksheet<'m> {
     pub fn iterate(&self, edits: &[&str], steps: usize) -> Result<Ending, Box<Failure>> {
         let mut sheet = self.sheet.clone();
         for other in Program::ALL.iter().filter(|other| **other != Program::Iterate) {
-            let is_km = *other == Program::Km;
-            let listing = if is_km { self.km(edits) } else { program(*other, edits) };
+            let mut listing = program(*other, edits);
+            for once in ONCE.iter().filter(|once| once.program == *other) {
+                if once.lines_of(&listing) != once.lines_of(&other.listing()) {
+                    let Some(value) = once.value(edits, &sheet) else { continue };
+                    sheet.define(once.name, value);
+                }
+                let shorter = once.program(edits, &listing).filter(|_| sheet.has(once.name));
+                listing = shorter.unwrap_or(listing);
+            }
             sheet.define_program(Rc::new(listing));
         }
         ending(self.model, &sheet, &program(Program::Iterate, edits), steps)
-    }
-
-    /// Returns `Km`, which takes the matrix of the bodies as it is assembled, unless edits change how.
-    fn km(&self, edits: &[&str]) -> Listing {
-        let assembly = |km: &Listing| -> Vec<Line> {
-            km.lines().iter().filter(|line| (2..=13).contains(&line.printed)).cloned().collect()
-        };
-        let km = program(Program::Km, edits);
-        if !self.sheet.has("bodies") || assembly(&km) != assembly(&Program::Km.listing()) {
-            return km;
-        }
-        program(Program::Km, &[&[ASSEMBLED], edits].concat())
     }
 }
 
@@ -315,9 +358,12 @@ fn ending(
 
 /// Returns a program with what concerns it of the edits.
 pub fn program(program: Program, edits: &[&str]) -> Listing {
+    edited(program, edits).expect("the edits fit the texts")
+}
+
+/// Returns the same; None where an edit does not fit what those behind it leave.
+fn edited(program: Program, edits: &[&str]) -> Option<Listing> {
     let parse = |edit: &&str| Edit::parse(edit).expect("the edits in listings are sound");
-    let own = edits.iter().rev().map(|edit| parse(edit).of(program.name()));
-    own.fold(program.listing(), |listing, edit| {
-        edit.apply(&listing).expect("the edits fit the texts")
-    })
+    let mut own = edits.iter().rev().map(|edit| parse(edit).of(program.name()));
+    own.try_fold(program.listing(), |listing, edit| edit.apply(&listing).ok())
 }

@@ -51,6 +51,9 @@ const PAGES: [Page; 26] = pages! {
     "published" "golden/tables/benchmarks.md",
 };
 
+/// The front page, with whose answer the list of pages begins.
+const FRONT: Page = Page { name: "", path: "README.md", text: include_str!("../../README.md") };
+
 /// The page that is made from the program's own tables.
 const OPTIONS: &str = "options";
 
@@ -68,7 +71,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let Some(name) = &args.page else { return print_fitted(&list()) };
+    let Some(name) = &args.page else { return print_fitted(&(answer() + &list())) };
     match PAGES.iter().find(|page| page.name == name) {
         Some(page) => print_fitted(&page.shown()),
         None => print_fitted(&options()),
@@ -77,6 +80,13 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn names() -> impl Iterator<Item = &'static str> {
     PAGES.iter().map(|page| page.name).chain([OPTIONS])
+}
+
+/// Returns what the front page says of the paper.
+fn answer() -> String {
+    let front = FRONT.shown();
+    let (_, answer) = front.split_once("## The answer\n\n").expect("the front page has an answer");
+    answer.split_once("\n## ").expect("and goes on").0.to_owned() + "\n"
 }
 
 /// Returns each page's name with its heading.

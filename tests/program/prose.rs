@@ -3,7 +3,6 @@
 //! - A number stands in a table that a test made and that the page names, or in a phrase of `GIVEN`.
 //! - A command in a block of shell or in `code` is one that the program has, with options that its
 //!   help has.
-//! - README.md has the table of variants.
 //!
 //! That the files exist which a page names is checked by `tests/fidelity/citations.rs`.
 
@@ -11,11 +10,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use plane_contact::exit::ExitStatus;
-
-use crate::common::golden_file::assert_file;
 use crate::common::program::run;
-use crate::tables::markdown;
 
 /// Phrases with numbers that no table has, each with the reason.
 const GIVEN: &[(&str, &str)] = &[
@@ -161,31 +156,6 @@ fn every_number_of_a_page_stands_in_a_table_that_it_names() {
         wrong.extend(unheld.into_iter().map(|number| format!("{name}: {number}")));
     }
     assert!(wrong.is_empty(), "no table has\n{}", wrong.join("\n"));
-}
-
-#[test]
-fn the_front_page_has_the_table_of_variants() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let [readme, table] = ["README.md", "golden/tables/variants.md"]
-        .map(|file| fs::read_to_string(root.join(file)).expect(file));
-    for row in table.lines().filter(|line| line.starts_with('|')) {
-        assert!(readme.contains(row), "README.md does not have {row}");
-    }
-}
-
-/// The rows of the table of exit statuses.
-fn exit_statuses() -> impl Iterator<Item = String> {
-    ExitStatus::ALL.iter().map(|status| format!("{} | {}", status.number(), status.explained()))
-}
-
-#[test]
-fn the_front_page_has_the_exit_statuses() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = fs::read_to_string(&file).expect("README.md");
-    let (before, rest) = readme.split_once("## Exit status\n").expect("a heading");
-    let (_, after) = rest.split_once("\n## ").expect("another heading");
-    let table = markdown("status | meaning", exit_statuses());
-    assert_file(&file, &format!("{before}## Exit status\n\n{table}\n## {after}"));
 }
 
 /// The commands of a page, in blocks of shell and in `code`, as words.
