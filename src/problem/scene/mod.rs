@@ -48,7 +48,7 @@ pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags
 pub use scene_file::SceneFile;
 pub use surface::Surface;
 
-use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
+use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
 use base::error::{InputError, Result};
 use base::limits::check_steps;
@@ -197,13 +197,8 @@ impl Scene {
         let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
-        let supports =
-            support::supports(&mesh, &physical, &sides, &dropped, &description.restraints)?;
-        let mut restraints = vec![model::Restraint::Free; 2 * mesh.nodes.len()];
-        let fixed = supports.iter().flat_map(|support| &support.holds).filter_map(Hold::dof);
-        fixed
-            .chain(dropped.iter().flat_map(|n| n.dofs()))
-            .for_each(|dof| restraints[dof.index()] = model::Restraint::Fixed);
+        let (restraints, holds) =
+            support::holds(&mesh, &physical, &sides, &dropped, &description.restraints)?;
         let mut model = Model {
             plane: description.plane,
             thickness: description.thickness,
@@ -218,11 +213,11 @@ impl Scene {
             rows: rows(&mesh),
             triangles,
             sides,
+            holds,
             restraints,
-            supports,
             dropped,
         };
-        check::supports(&mesh, &model)?;
+        check::holds(&mesh, &model)?;
         let slits = slit::slits(&mesh, &model);
         check::restrained_bodies(&model).map_err(|why| why.hinting(slits.as_deref()))?;
         fold::check(&mesh, &model)?;
@@ -231,7 +226,7 @@ impl Scene {
         let notes = slits.iter().cloned().chain(slit::loose_edges(&mesh, &model));
         let notes = notes.chain(wide_tolerance(&model)).chain(first::fine_contact(&model));
         let notes = notes.chain(units::misfit(&description.units));
-        let notes = notes.chain(support::narrow(&mesh, &model.supports)).chain(in_vain);
+        let notes = notes.chain(support::narrow(&mesh, &model)).chain(in_vain);
         let notes = notes.chain(first::not_facing(&mesh, &physical, &description));
         let notes = notes.chain(physical.without_triangles());
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();

@@ -12,8 +12,8 @@ use nalgebra::DVector;
 use super::Scene;
 use super::derived::Derived;
 use crate::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Hold, Model, NodeId, Restraint, Row,
-    Sides, Support, Triangle, TriangleId, unordered,
+    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Model, NodeId, Row, Sides, Triangle,
+    TriangleId, unordered,
 };
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
@@ -125,13 +125,9 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
     let target: HashSet<[NodeId; 2]> =
         model.target_edges().map(|edge| unordered(edge.nodes)).collect();
     // Restraints and loads.
-    let of = |dof: Dof| model.restraints[dof.index()];
     let same_restraints = |n: NodeId| {
-        let mut pairs = n.dofs().into_iter().zip(image(n).dofs());
-        pairs.all(|(one, other)| match (of(one), of(other)) {
-            (Restraint::Free, Restraint::Free) | (Restraint::Fixed, Restraint::Fixed) => true,
-            (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
-        })
+        let [[x, y], [mx, my]] = [n, image(n)].map(|n| n.dofs().map(|dof| model.holds.given(dof)));
+        model.holds.oblique(n).is_none() && x == mx.map(|u| -u) && y == my
     };
     let same_load = |load: &DVector<f64>| {
         let near = LOAD * load.amax();
@@ -144,7 +140,6 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
         && model.triangles.iter().all(|t| triangles.contains(&key(t.nodes.map(image), t)))
         && contact.iter().all(|n| contact.contains(&image(*n)))
         && target.iter().all(|edge| target.contains(&unordered(edge.map(image))))
-        && model.oblique().next().is_none()
         && model.node_ids().all(same_restraints)
         && model.stages.iter().all(same_load);
     is_symmetric.then_some(images)
@@ -169,10 +164,9 @@ fn restricted(line: &Line, nodes: &[NodeId], triangles: &[TriangleId]) -> Model 
         .collect();
     let dofs = || nodes.iter().flat_map(|n| n.dofs());
     let on_line = |dof: Dof| line.side(dof.node()) == 0;
-    let restraint = |dof: Dof| match whole.restraints[dof.index()] {
-        Restraint::Free if dof.direction() == 0 && on_line(dof) => Restraint::Fixed,
-        own => own,
-    };
+    let mut holds = whole.holds.renumbered(nodes.len(), |node| number(&node));
+    let along = nodes.iter().filter(|node| line.side(**node) == 0);
+    holds.fix(along.map(|node| numbers[node].x()));
     let own_part = |load: &DVector<f64>| {
         let half = |dof: Dof| match (on_line(dof), dof.direction()) {
             (true, 0) => 0.0,
@@ -180,11 +174,6 @@ fn restricted(line: &Line, nodes: &[NodeId], triangles: &[TriangleId]) -> Model 
             (false, _) => load[dof.index()],
         };
         DVector::from_iterator(2 * nodes.len(), dofs().map(half))
-    };
-    let support = |support: &Support| {
-        let own = |hold: &Hold| Some(Hold { node: number(&hold.node)?, ..*hold });
-        let holds = support.holds.iter().filter_map(own).collect();
-        Support { name: support.name.clone(), holds }
     };
     let triangle_number = |id: &TriangleId| triangles.binary_search(id).ok().map(TriangleId::new);
     let body = |body: &Body| Body {
@@ -211,8 +200,8 @@ fn restricted(line: &Line, nodes: &[NodeId], triangles: &[TriangleId]) -> Model 
             .map(|id| whole.edge(*id))
             .map(|edge| Edge { nodes: edge.nodes.map(|node| numbers[&node]), ..*edge })
             .collect(),
-        restraints: dofs().map(restraint).collect(),
-        supports: whole.supports.iter().map(support).collect(),
+        holds,
+        restraints: whole.restraints.clone(),
         forces: NodeId::all(nodes.len())
             .map(|node| Force::Node(node, node.components(&load)))
             .collect(),

@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 use problem::element::Plane;
-use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, Restraint, TriangleId, freedom};
+use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
 use serde_json::{Value, json};
 use testing::embedded::scene_json;
@@ -102,11 +102,11 @@ fn what_restraints_leave_free() {
     for (restraints, expected) in cases {
         // The scene is sound; the restraints are changed afterwards.
         let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
-        model.all_dofs().for_each(|dof| model.restrain(dof, Restraint::Free));
+        model.holds.release(model.all_dofs());
         for (node, axes) in restraints {
             for axis in *axes {
                 let [x, y] = NodeId::from_number(*node).dofs();
-                model.restrain(if *axis == X { x } else { y }, Restraint::Fixed);
+                model.holds.fix([if *axis == X { x } else { y }]);
             }
         }
         // Sizes and places change nothing.
@@ -125,10 +125,8 @@ fn what_restraints_leave_free() {
 #[test]
 fn restraints_beside_each_other_leave_a_body_free_to_turn() {
     let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
-    for dof in model.all_dofs() {
-        let is_fixed = [0, 1, 3].contains(&dof.index());
-        model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
-    }
+    model.holds.release(model.all_dofs());
+    model.holds.fix([0, 1, 3].map(Dof::new));
     let mut found = |apart: f64| {
         model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
         freedom(&model, &model.bodies[0].nodes, &[])

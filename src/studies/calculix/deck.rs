@@ -6,9 +6,8 @@ use super::contact::{Contact, Equation, Pair};
 use base::error::{InputError, Result};
 use base::files::DECK;
 use base::plain::on_a_line;
-use engine::support_constraints;
 use problem::element::Plane;
-use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
+use problem::model::{Dof, Material, Model, NodeId, unordered};
 use problem::modelling::Friction;
 
 /// ccx reads no more characters of a field.
@@ -26,7 +25,7 @@ const STICK_SLOPE: f64 = 0.1;
 /// # Errors
 /// The surfaces of a pair bound no triangle.
 pub fn deck(title: &str, model: &Model, contact: &Contact) -> Result<String> {
-    let held = Equation::of_constraints(model, &support_constraints(model, 1.0));
+    let held: Vec<Equation> = oblique(model).collect();
     let (touch, cards, step) = match contact {
         Contact::Equations(equations, friction) => {
             let load = friction.iter().fold(model.load.clone(), |load, friction| load + friction);
@@ -57,12 +56,18 @@ fn nodes(model: &Model) -> String {
 
 /// The restrained degrees of freedom.
 fn boundary(model: &Model) -> String {
-    let restraints = model.all_dofs().zip(model.restraints());
-    let fixed = restraints.filter_map(|(dof, restraint)| match restraint {
-        Restraint::Free => None,
-        Restraint::Fixed => Some(format!("{},{}\n", node_and_direction(dof), dof.direction() + 1)),
-    });
-    String::from("*BOUNDARY\n") + &fixed.collect::<String>()
+    let at = |u: f64| if u == 0.0 { String::new() } else { format!(",{}", field(u)) };
+    let line = |dof: Dof| {
+        let given = model.holds.given(dof)?;
+        Some(format!("{},{}{}\n", node_and_direction(dof), dof.direction() + 1, at(given)))
+    };
+    String::from("*BOUNDARY\n") + &model.all_dofs().filter_map(line).collect::<String>()
+}
+
+/// The equations of nodes that are held along a direction that is no axis.
+fn oblique(model: &Model) -> impl Iterator<Item = Equation> {
+    let holds = model.node_ids().filter_map(|node| model.holds.oblique(node));
+    holds.flat_map(|hold| Equation::of_constraint(model, &hold.into()))
 }
 
 /// The triangles of each material, in the order in which the materials come.
