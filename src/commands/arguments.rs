@@ -185,10 +185,10 @@ impl SceneArgs {
     /// # Errors
     /// A value is out of its range, or the scene has no contact that has a tolerance.
     pub fn change(&self, scene: Scene) -> Result<Scene> {
-        let Some((description, mesh)) = scene.source().filter(|_| !self.names().is_empty()) else {
+        if self.names().is_empty() {
             return Ok(scene);
-        };
-        let (mut description, mesh) = (description.clone(), mesh.clone());
+        }
+        let (mut description, mesh) = (scene.source().0.clone(), scene.source().1.clone());
         let at = |option: &'static str| move |why| InputError { place: option.into(), ..why };
         if let Some(tolerance) = self.c_tll {
             check_tolerance(tolerance).map_err(at("--c-tll"))?;

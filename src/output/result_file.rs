@@ -18,9 +18,8 @@ use engine::{
 use numbers::scalar::rational;
 use paper::listings::Which;
 use paper::mirror::Reading;
-use problem::model::NodeId;
+use problem::model::{Material, NodeId};
 use problem::modelling::{ContactModel, Variant};
-use problem::scene::Material;
 use problem::scene::sha256;
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
@@ -193,7 +192,7 @@ impl ResultFile {
             arithmetic: Arithmetic { solver: Some(request.solver()), ..request.arithmetic },
             thickness: solution.model.thickness,
             c_tll: solution.model.has_contact().then_some(solution.model.contact.tolerance),
-            materials: materials(solution),
+            materials: solution.model.materials(),
             plan: plan.map(plan::line),
             load: solution.model.total_load(),
             dropped: solution.model.dropped.clone(),
@@ -274,16 +273,4 @@ impl ResultFile {
         }
         Ok(result)
     }
-}
-
-/// Returns the materials of a model, each once, in the order of its triangles.
-fn materials(solution: &Solution) -> Vec<Material> {
-    let mut materials: Vec<Material> = Vec::new();
-    for triangle in &solution.model.triangles {
-        let material = Material { e: triangle.material.e, nu: triangle.material.nu };
-        if !materials.contains(&material) {
-            materials.push(material);
-        }
-    }
-    materials
 }

@@ -77,7 +77,7 @@ fn numbers_that_no_mesh_has_are_refused() {
 fn fields_of_a_large_mesh_are_elsewhere_unless_asked_for() {
     let mut scene = Scene::open("two-blocks").expect("an embedded scene");
     while scene.model.triangles.len() <= MOST_TRIANGLES {
-        scene = scene.refined().expect("a finer mesh").expect("it was built from a mesh").scene;
+        scene = scene.refined().expect("a finer mesh").scene;
     }
     let solution = solve(&Request::new(&scene), &mut |_| ()).expect("it is solved");
     assert!(solution.elements.len() > MOST_TRIANGLES);

@@ -10,8 +10,10 @@ mod holds;
 mod ids;
 mod sides;
 
-use serde::Serialize;
 use std::collections::{BTreeSet, HashSet};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
 
@@ -30,9 +32,11 @@ use numbers::scalar::Scalar;
 pub(crate) const CANCELLED: f64 = 1e-13;
 
 /// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Material {
     /// The elastic modulus, stress.
+    #[serde(rename = "E")]
     pub e: f64,
     /// Poisson's ratio, which has no unit.
     pub nu: f64,
@@ -171,6 +175,17 @@ impl Model {
     /// Returns a triangle.
     pub fn triangle(&self, id: TriangleId) -> &Triangle {
         &self.triangles[id.index()]
+    }
+
+    /// Returns the materials, each once, in the order of the triangles.
+    pub fn materials(&self) -> Vec<Material> {
+        let mut found = Vec::new();
+        for Triangle { material, .. } in &self.triangles {
+            if !found.contains(material) {
+                found.push(*material);
+            }
+        }
+        found
     }
 
     /// Returns an edge.

@@ -7,7 +7,7 @@ use base::error::{InputError, Result};
 use base::files::DECK;
 use base::plain::on_a_line;
 use problem::element::Plane;
-use problem::model::{Dof, Material, Model, NodeId, unordered};
+use problem::model::{Dof, Model, NodeId, unordered};
 use problem::modelling::Friction;
 
 /// ccx reads no more characters of a field.
@@ -77,7 +77,7 @@ fn elements(model: &Model) -> String {
         Plane::Stress => "CPS3",
     };
     let mut text = String::new();
-    for (k, material) in materials(model).into_iter().enumerate() {
+    for (k, material) in model.materials().into_iter().enumerate() {
         let name = format!("MATERIAL{}", k + 1);
         text += &format!("*ELEMENT, TYPE={kind}, ELSET={name}\n");
         let all = model.triangle_ids().zip(&model.triangles);
@@ -91,17 +91,6 @@ fn elements(model: &Model) -> String {
         text += &(field(model.thickness) + "\n");
     }
     text
-}
-
-/// The distinct materials in order of appearance.
-fn materials(model: &Model) -> Vec<Material> {
-    let mut found = Vec::new();
-    for material in model.triangles.iter().map(|triangle| triangle.material) {
-        if !found.contains(&material) {
-            found.push(material);
-        }
-    }
-    found
 }
 
 /// The equations. ccx knows homogeneous ones only: a constant is the prescribed displacement, in x,
@@ -176,7 +165,7 @@ fn step(model: &Model, load: &DVector<f64>, increments: &str) -> String {
     let loads = loads
         .map(|(dof, force)| format!("*CLOAD\n{},{}\n", node_and_direction(dof), field(*force)));
     let stresses =
-        (1..=materials(model).len()).map(|k| format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n"));
+        (1..=model.materials().len()).map(|k| format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n"));
     format!(
         "*STEP\n*STATIC\n{increments}{}*NODE PRINT, NSET=NODES\nU\n{}*END STEP\n",
         loads.collect::<String>(),
