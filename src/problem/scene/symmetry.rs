@@ -4,14 +4,14 @@
 //! lie across the line. Then the solution is symmetric too, the line moves only along itself, and
 //! the half right of it, restrained in x on the line, has the same solution.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use nalgebra::DVector;
 
 use super::derived::Derived;
 use super::description::{Axis, Description, LoadKind, Restraint};
-use super::groups::{GroupRef, Groups};
-use super::mesh::{Element, KINDS, Mesh, Node};
+use super::groups::Groups;
+use super::mesh::{Element, KINDS, Mesh};
 use super::{Scene, Surface};
 use crate::model::{Edge, Model, NodeId, Triangle, TriangleId, unordered};
 
@@ -34,27 +34,19 @@ pub fn half(scene: &Scene) -> Option<Derived> {
     let triangles: Vec<TriangleId> = model.triangle_ids().filter(is_right).collect();
     let nodes: BTreeSet<NodeId> =
         triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
-    let numbers = nodes.iter().copied().zip(1..).collect();
-    let mesh = mesh(scene, &line, &triangles, &numbers);
-    let scene = scene.on(description(scene, &line, &mesh, &numbers), mesh, Vec::new()).ok()?;
+    let mut mesh = mesh(scene, &line, &triangles, &nodes);
+    let mut description = description(scene, &line, &mesh, &nodes);
+    mesh.adapt(&mut description).ok()?;
+    let scene = scene.on(description, mesh, Vec::new()).ok()?;
     Some(Derived { scene, nodes: nodes.into_iter().map(|node| [node; 2]).collect(), triangles })
 }
 
-/// The numbers of the nodes of a half.
-type Numbers = BTreeMap<NodeId, usize>;
-
-/// Returns the mesh of a half: a part of the scene's, and edges along the line.
-fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], numbers: &Numbers) -> Mesh {
+/// Returns the mesh of a half with its `nodes`, under the scene's numbers: a part of the scene's, and edges along the
+/// line.
+fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], nodes: &BTreeSet<NodeId>) -> Mesh {
     let (_, whole) = scene.source();
-    let node = |(node, number): (&NodeId, &usize)| Node {
-        number: *number,
-        xyz: whole.nodes[node.index()].xyz,
-    };
-    let own = whole.elements.iter().filter_map(|element| {
-        let number = |n: &usize| numbers.get(&NodeId::from_number(*n)).copied();
-        let nodes = element.nodes.iter().map(number).collect::<Option<_>>()?;
-        Some(Element { nodes, ..element.clone() })
-    });
+    let is_inside = |n: &usize| nodes.contains(&NodeId::from_number(*n));
+    let own = whole.elements.iter().filter(|element| element.nodes.iter().all(is_inside));
     let sides = triangles.iter().flat_map(|id| {
         let [a, b, c] = scene.model.triangle(*id).nodes;
         [[a, b], [b, c], [c, a]]
@@ -66,52 +58,51 @@ fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], numbers: &Numbers)
         kind: KINDS[1].number,
         physical: [LINE].into(),
         geometric: LINE,
-        nodes: side.iter().map(|node| numbers[node]).collect(),
+        nodes: side.map(NodeId::number)[..].into(),
     });
     Mesh {
         names: whole.names.clone(),
-        nodes: numbers.iter().map(node).collect(),
-        elements: own.chain(along).collect(),
+        nodes: nodes.iter().map(|node| whole.nodes[node.index()].clone()).collect(),
+        elements: own.cloned().chain(along).collect(),
         ..Mesh::default()
     }
 }
 
 /// Describes a half on its mesh: the line is restrained in x, and has half of the forces on its nodes.
-fn description(scene: &Scene, line: &Line, mesh: &Mesh, numbers: &Numbers) -> Description {
+fn description(scene: &Scene, line: &Line, mesh: &Mesh, nodes: &BTreeSet<NodeId>) -> Description {
     let (model, groups) = (&*scene.model, Groups::new(mesh));
-    let number = |node: &NodeId| numbers.get(node).copied();
     let mut own = scene.source().0.clone();
     own.materials.0.retain(|(group, _)| groups.places(2, group, "materials").is_ok());
-    let restraint = |(restraint, held): (Restraint, BTreeSet<NodeId>)| match &restraint.on {
-        Some(on) => groups.nodes(on, "restraints").is_ok().then_some(restraint),
-        None => {
-            let node = Some(held.iter().find_map(number)?);
-            Some(Restraint { node, at: None, ..restraint })
-        }
-    };
+    let held = own.restraints.into_iter().zip(model.held_nodes());
+    let held = held.filter(|(restraint, held)| match &restraint.on {
+        Some(on) => groups.nodes(on, "restraints").is_ok(),
+        None => held.iter().any(|node| nodes.contains(node)),
+    });
     let of_line = |on, node| Restraint { on, node, fix: vec![Axis::X], ..Restraint::default() };
-    let along = (of_line(Some(GroupRef::Tag(LINE)), None), BTreeSet::new());
-    let held = own.restraints.into_iter().zip(model.held_nodes()).chain([along]);
-    let on_line = numbers.iter().filter(|(node, _)| line.side(**node) == 0);
-    let alone = on_line.map(|(_, number)| of_line(None, Some(*number)));
-    own.restraints = held.filter_map(restraint).chain(alone).collect();
+    let on_line = nodes.iter().filter(|node| line.side(**node) == 0);
+    // A finer mesh has more nodes along the edges; no edge may be there.
+    let edges = groups.places(1, &LINE.into(), "restraints").ok();
+    let along = edges.map(|_| of_line(Some(LINE.into()), None)).into_iter();
+    let along = along.chain(on_line.map(|node| of_line(None, Some(node.number()))));
+    own.restraints = held.map(|(restraint, _)| restraint).chain(along).collect();
     own.loads.retain_mut(|load| match &mut load.kind {
         LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
             groups.places(1, on, "loads").is_ok()
         }
         LoadKind::Force { node, force: [x, y] } => {
-            let whole = NodeId::from_number(*node);
-            if line.side(whole) == 0 {
+            let node = NodeId::from_number(*node);
+            if line.side(node) == 0 {
                 (*x, *y) = (0.0, 0.5 * *y);
             }
-            number(&whole).map(|number| *node = number).is_some()
+            nodes.contains(&node)
         }
     });
     if let Some(contact) = &mut own.contact {
-        let is_inside = |edge: &&Edge| edge.nodes.iter().all(|node| numbers.contains_key(node));
-        let target = model.target_edges().filter(is_inside).map(|edge| edge.number);
-        contact.contact = Surface::Numbers(model.contact.nodes.iter().filter_map(number).collect());
-        contact.target = Surface::Numbers(target.collect());
+        let on_contact = model.contact.nodes.iter().filter(|node| nodes.contains(node));
+        let is_inside = |edge: &&Edge| edge.nodes.iter().all(|node| nodes.contains(node));
+        let on_target = model.target_edges().filter(is_inside);
+        contact.contact = Surface::Numbers(on_contact.map(|node| node.number()).collect());
+        contact.target = Surface::Numbers(on_target.map(|edge| edge.number).collect());
     }
     own
 }
