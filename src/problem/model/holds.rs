@@ -45,9 +45,15 @@ pub struct Holds {
 }
 
 impl Holds {
-    /// Collects what holds some of so many nodes.
+    /// Collects what holds some of so many nodes: of each the first two.
     pub fn new(nodes: usize, mut all: Vec<Hold>) -> Self {
         all.sort_by_key(|hold| hold.node);
+        let mut before = [None; 2];
+        all.retain(|hold| {
+            let is_third = before == [Some(hold.node); 2];
+            before = [before[1], Some(hold.node)];
+            !is_third
+        });
         let start = |node: usize| all.partition_point(|hold| hold.node.index() < node) as u32;
         let starts = (0..=nodes).map(start).collect();
         Holds { all, starts }

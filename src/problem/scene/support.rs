@@ -6,7 +6,7 @@
 //!   -----+-----o____  edges
 //! ```
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::description::{Axis, Restraint};
 use super::groups::{GroupRef, Groups};
@@ -39,7 +39,7 @@ pub fn holds(
     dropped: &[NodeId],
     restraints: &[Restraint],
 ) -> Result<(Vec<String>, Holds)> {
-    let mut held = Held { mesh, of_node: BTreeMap::new() };
+    let mut held = Held { mesh, of_node: HashMap::new() };
     // Many restraints may name one group, which has many nodes.
     let mut done = HashSet::new();
     let mut names = Vec::with_capacity(restraints.len());
@@ -57,9 +57,10 @@ pub fn holds(
         }
         names.push(name);
     }
-    dropped.iter().for_each(|node| held.fix(*node));
     let all = held.of_node.into_values().flatten().collect();
-    Ok((names, Holds::new(mesh.nodes.len(), all)))
+    let mut holds = Holds::new(mesh.nodes.len(), all);
+    holds.fix(dropped.iter().flat_map(|node| node.dofs()));
+    Ok((names, holds))
 }
 
 /// Names the first node that two restraints hold along directions that are nearly one, as where a smooth curve is in
@@ -263,22 +264,10 @@ fn unit([x, y]: [f64; 2]) -> Option<[f64; 2]> {
 struct Held<'a> {
     mesh: &'a Mesh,
     /// Those of each node, at most two.
-    of_node: BTreeMap<NodeId, Vec<Hold>>,
+    of_node: HashMap<NodeId, Vec<Hold>>,
 }
 
 impl Held<'_> {
-    /// Holds a node along what is left of both axes.
-    fn fix(&mut self, node: NodeId) {
-        let own = self.of_node.entry(node).or_default();
-        let left = match own[..] {
-            [] => vec![[1.0, 0.0], [0.0, 1.0]],
-            [Hold { direction: [x, y], .. }] => vec![[-y, x]],
-            _ => Vec::new(),
-        };
-        let hold = |direction| Hold { node, direction, displacement: 0.0, restraint: None };
-        own.extend(left.into_iter().map(hold));
-    }
-
     /// Keeps what a restraint holds where those before it do not.
     ///
     /// # Errors
