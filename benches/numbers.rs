@@ -19,7 +19,6 @@ use plane_contact::paper::door;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::{Km, Reading, c_cnt};
 use plane_contact::problem::element::Plane;
-use plane_contact::problem::model::Restraint;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::{Request, solve};
@@ -297,11 +296,10 @@ fn alone(scene: &str) -> [f64; 3] {
 fn factors_of(scene: &str) -> [f64; 3] {
     let model = Scene::open(scene).expect("it is sound").model;
     // The cylinder is held by its contact nodes, all of them.
-    let mut restraints = model.restraints().to_vec();
-    let dofs = model.contact.nodes.iter().flat_map(|node| node.dofs());
-    dofs.for_each(|dof| restraints[dof.index()] = Restraint::Fixed);
+    let mut holds = model.holds.clone();
+    holds.fix(model.contact.nodes.iter().flat_map(|node| node.dofs()));
     let stiffness = Stiffness::new(&model, |x| x);
-    let matrix = stiffness.reduced(&Elimination::new(&restraints, &[]));
+    let matrix = stiffness.reduced(&Elimination::new(&holds, &[]));
     let n = matrix.size();
     let start = Instant::now();
     let factors = SparseCholesky::new(matrix).expect("the bodies are held");

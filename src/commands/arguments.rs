@@ -9,7 +9,7 @@ use base::files;
 use base::plain::{shown, six_digits};
 use engine::Request;
 use engine::error::Result;
-use engine::linear::{Arithmetic, Inputs, ScalarName, Solver};
+use engine::linear::{Inputs, ScalarName, Solver};
 use engine::options::Options;
 use output::json;
 use output::model::Report;
@@ -18,31 +18,6 @@ use problem::modelling::{
     Coupling, Friction, Geometry, StatusRule, Variant, check_iterations, check_tolerance,
 };
 use problem::scene::{Scene, SceneBuilder};
-
-/// The numbers and the solver of a run.
-#[derive(Clone, Copy, clap::Args)]
-pub struct ArithmeticArgs {
-    #[arg(long, value_name = "NAME", default_value = "f64", help = ScalarName::help(),
-        value_parser = offered::<ScalarName>(ScalarName::ALL))]
-    scalar: ScalarName,
-    #[arg(long, value_name = "NAME", value_parser = offered::<Solver>(Solver::ALL), help = format!(
-        "{} [default: sparse-cholesky; sparse-lu under printed in f64]",
-        Solver::help()
-    ))]
-    solver: Option<Solver>,
-    #[arg(long, value_name = "NAME", default_value = "binary", value_parser = offered::<Inputs>(Inputs::ALL), help = format!(
-        "What the numbers of the scene stand for. {}",
-        Inputs::help()
-    ))]
-    inputs: Inputs,
-}
-
-impl From<ArithmeticArgs> for Arithmetic {
-    fn from(args: ArithmeticArgs) -> Self {
-        let ArithmeticArgs { scalar, solver, inputs } = args;
-        Arithmetic { scalar, solver, inputs }
-    }
-}
 
 /// The option of the commands that execute or mirror a listing.
 #[derive(clap::Args)]
@@ -70,12 +45,12 @@ impl RunArgs {
     /// Returns what is asked of a scene.
     ///
     /// # Errors
-    /// Those of [`ModelArgs::request`].
+    /// Those of [`Options::request`].
     pub fn request(&self, scene: &Scene) -> Result<Request> {
         if self.reference {
             return Ok(Request::new(scene).reading(self.method.reading.reading).reference());
         }
-        self.method.request(scene, self.variant)
+        Ok(self.method.options(self.variant).request(scene)?)
     }
 }
 
@@ -84,20 +59,32 @@ impl RunArgs {
 pub struct MethodArgs {
     #[command(flatten)]
     model: ModelArgs,
-    #[command(flatten)]
-    arithmetic: ArithmeticArgs,
+    #[arg(long, value_name = "NAME", default_value = "f64", help = ScalarName::help(),
+        value_parser = offered::<ScalarName>(ScalarName::ALL))]
+    scalar: ScalarName,
+    #[arg(long, value_name = "NAME", value_parser = offered::<Solver>(Solver::ALL), help = format!(
+        "{} [default: sparse-cholesky; sparse-lu under printed in f64]",
+        Solver::help()
+    ))]
+    solver: Option<Solver>,
+    #[arg(long, value_name = "NAME", default_value = "binary", value_parser = offered::<Inputs>(Inputs::ALL), help = format!(
+        "What the numbers of the scene stand for. {}",
+        Inputs::help()
+    ))]
+    inputs: Inputs,
     #[command(flatten)]
     reading: ReadingArg,
 }
 
 impl MethodArgs {
     /// Returns what is asked of a variant of a scene, of the scene's own where none is given.
-    ///
-    /// # Errors
-    /// Those of [`ModelArgs::request`].
-    pub fn request(&self, scene: &Scene, variant: Option<Variant>) -> Result<Request> {
-        let request = self.model.request(scene, variant, &self.reading)?;
-        Ok(request.arithmetic(self.arithmetic.into()))
+    pub fn options(&self, variant: Option<Variant>) -> Options {
+        Options {
+            scalar: Some(self.scalar),
+            solver: self.solver,
+            inputs: Some(self.inputs),
+            ..self.model.options(variant, &self.reading)
+        }
     }
 }
 
@@ -128,18 +115,10 @@ pub struct ModelArgs {
 }
 
 impl ModelArgs {
-    /// Asks for what is given, and for the rest what `scene` has.
-    ///
-    /// # Errors
-    /// Neither says anything of friction, which is part of what `unilateral` solves.
-    pub fn request(
-        &self,
-        scene: &Scene,
-        variant: Option<Variant>,
-        reading: &ReadingArg,
-    ) -> Result<Request> {
-        let options = Options {
-            variant: Some(variant.unwrap_or(scene.variant)),
+    /// Returns what is given.
+    pub fn options(&self, variant: Option<Variant>, reading: &ReadingArg) -> Options {
+        Options {
+            variant,
             reading: reading.reading,
             coupling: self.coupling,
             friction: self.friction,
@@ -147,20 +126,7 @@ impl ModelArgs {
             load_steps: self.load_steps.map(|n| n as usize),
             status: self.status,
             ..Options::default()
-        };
-        Ok(options.request(scene)?)
-    }
-}
-
-impl ModelArgs {
-    /// Asks for the equilibrium: `unilateral` with mortar where no coupling is given, and the rest as
-    /// [`request`](Self::request) does.
-    ///
-    /// # Errors
-    /// Nothing is said of friction.
-    pub fn equilibrium(&self, scene: &Scene, reading: &ReadingArg) -> Result<Request> {
-        let request = self.request(scene, Some(Variant::Unilateral), reading)?;
-        Ok(if self.coupling.is_some() { request } else { request.equilibrium() })
+        }
     }
 }
 
@@ -185,10 +151,10 @@ impl SceneArgs {
     /// # Errors
     /// A value is out of its range, or the scene has no contact that has a tolerance.
     pub fn change(&self, scene: Scene) -> Result<Scene> {
-        let Some((description, mesh)) = scene.source().filter(|_| !self.names().is_empty()) else {
+        if self.names().is_empty() {
             return Ok(scene);
-        };
-        let (mut description, mesh) = (description.clone(), mesh.clone());
+        }
+        let (mut description, mesh) = (scene.source().0.clone(), scene.source().1.clone());
         let at = |option: &'static str| move |why| InputError { place: option.into(), ..why };
         if let Some(tolerance) = self.c_tll {
             check_tolerance(tolerance).map_err(at("--c-tll"))?;

@@ -20,7 +20,7 @@ use smallvec::{SmallVec, smallvec};
 use crate::linear::negligible;
 use numbers::scalar::Scalar;
 use paper::door::NodeToSegment;
-use problem::model::{Dof, Hold, Model, NodeId, Restraint, crossing};
+use problem::model::{Dof, Hold, Holds, NodeId};
 
 /// The constraint that binds the displacements of a contact node to the target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -71,22 +71,11 @@ impl<T: Scalar> Constraint<T> {
     }
 }
 
-/// Returns the constraints of what no degree of freedom alone holds ([`Model::oblique`]), at a part of their
-/// displacements.
-pub fn support_constraints(model: &Model, part: f64) -> Vec<Constraint> {
-    let mut of_node: BTreeMap<NodeId, Vec<&Hold>> = BTreeMap::new();
-    model.oblique().for_each(|(_, hold)| of_node.entry(hold.node).or_default().push(hold));
-    let constraint = |(node, holds): (NodeId, Vec<&Hold>)| {
-        let motion = match holds[..] {
-            [a, b] => {
-                let given = [a, b].map(|hold| part * hold.displacement);
-                Motion::Both(crossing([a.direction, b.direction], given).expect("they are two"))
-            }
-            _ => Motion::Along(holds[0].direction, part * holds[0].displacement),
-        };
-        Constraint { node, masters: Vec::new(), motion }
-    };
-    of_node.into_iter().map(constraint).collect()
+impl From<&Hold> for Constraint {
+    fn from(hold: &Hold) -> Self {
+        let motion = Motion::Along(hold.direction, hold.displacement);
+        Constraint { node: hold.node, masters: Vec::new(), motion }
+    }
 }
 
 impl<T: Scalar> From<NodeToSegment<T>> for Constraint<T> {
@@ -110,36 +99,37 @@ pub struct Elimination<T = f64> {
 
 impl<T: Scalar> Elimination<T> {
     /// Builds T and s under `constraints`, among them eq. (1). A component of a contact node that is
-    /// restrained stays so and is not constrained; `restraints` are by degree of freedom.
-    pub fn new(restraints: &[Restraint], constraints: &[Constraint<T>]) -> Self {
-        let mut t = Elimination::unbound(restraints, constraints.iter());
-        constraints.iter().for_each(|constraint| t.bind(constraint, restraints));
+    /// restrained stays so and is not constrained.
+    pub fn new(holds: &Holds, constraints: &[Constraint<T>]) -> Self {
+        let mut t = Elimination::unbound(holds, 1.0, constraints.iter());
+        constraints.iter().for_each(|constraint| t.bind(constraint, holds));
         t
     }
 
     /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be
-    /// by the motion of target nodes. Where nothing can move, the constraint is left out.
-    pub fn closing(restraints: &[Restraint], constraints: &[Constraint<T>]) -> Self {
-        let is_restrained =
-            |c: &&Constraint<T>| c.node.dofs().iter().any(|d| !restraints[d.index()].is_free());
-        let (fixed, free): (Vec<_>, Vec<_>) = constraints.iter().partition(is_restrained);
-        let mut t = Elimination::unbound(restraints, free.iter().copied());
+    /// by the motion of target nodes. Where nothing can move, the constraint is left out. Restraints displace nodes
+    /// by a `part` of what they do at last.
+    pub fn closing(holds: &Holds, part: f64, constraints: &[Constraint<T>]) -> Self {
+        let is_held = |c: &&Constraint<T>| !holds.of(c.node).is_empty();
+        let (fixed, free): (Vec<_>, Vec<_>) = constraints.iter().partition(is_held);
+        let mut t = Elimination::unbound(holds, part, free.iter().copied());
         let mut eliminated = Vec::new();
         for (direction, shift, constraint) in fixed.iter().flat_map(|c| c.equations()) {
             eliminated.extend(t.eliminate(constraint, direction, shift));
         }
         t.remove(&eliminated);
-        free.iter().for_each(|constraint| t.bind(constraint, restraints));
+        free.iter().for_each(|constraint| t.bind(constraint, holds));
         t
     }
 
     /// Builds T without constraints; the equations of the nodes of `bound` are left out.
     fn unbound<'a>(
-        restraints: &[Restraint],
+        holds: &Holds,
+        part: f64,
         bound: impl Iterator<Item = &'a Constraint<T>>,
     ) -> Self {
-        let size = restraints.len();
-        let mut constrained = vec![false; size / 2];
+        let size = 2 * holds.nodes();
+        let mut constrained = vec![false; holds.nodes()];
         for Constraint { node, .. } in bound {
             // Bound twice, it would leave an empty column: a false singular matrix.
             let before = std::mem::replace(&mut constrained[node.index()], true);
@@ -150,11 +140,17 @@ impl<T: Scalar> Elimination<T> {
             shift: DVector::from_element(size, T::zero()),
             free: Vec::new(),
         };
-        for dof in Dof::all(size).filter(|dof| !constrained[dof.node().index()]) {
-            match restraints[dof.index()] {
-                Restraint::Free => t.rows[dof.index()] = smallvec![(t.add(dof), T::one())],
-                // Neither an entry nor a shift: the displacement is 0.
-                Restraint::Fixed => (),
+        for node in NodeId::all(holds.nodes()).filter(|node| !constrained[node.index()]) {
+            if let Some(hold) = holds.oblique(node) {
+                let hold = Hold { displacement: part * hold.displacement, ..*hold };
+                t.bind(&Constraint::from(&hold).map(T::from_f64), holds);
+                continue;
+            }
+            for dof in node.dofs() {
+                match holds.given(dof) {
+                    None => t.rows[dof.index()] = smallvec![(t.add(dof), T::one())],
+                    Some(given) => t.shift[dof.index()] = T::from_f64(part * given),
+                }
             }
         }
         t
@@ -208,11 +204,11 @@ impl<T: Scalar> Elimination<T> {
     }
 
     /// Binds a node whose own equations are left out.
-    fn bind(&mut self, constraint: &Constraint<T>, restraints: &[Restraint]) {
+    fn bind(&mut self, constraint: &Constraint<T>, holds: &Holds) {
         let [x, y] = constraint.node.dofs();
         match constraint.motion {
             Motion::Both(shift) => {
-                for dof in [x, y].into_iter().filter(|dof| restraints[dof.index()].is_free()) {
+                for dof in [x, y].into_iter().filter(|dof| holds.given(*dof).is_none()) {
                     let mut normal = [T::zero(), T::zero()];
                     normal[dof.direction()] = T::one();
                     self.rows[dof.index()] = self.target_motion(constraint, normal, T::one());

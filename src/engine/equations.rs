@@ -18,7 +18,7 @@ use numbers::square::SparseSquare;
 use paper::door;
 use paper::edited::Interpreter;
 use paper::mirror::{self, Pairs, Schedule, Worksheet};
-use problem::model::{Dof, Model, Restraint};
+use problem::model::{Dof, Model, NodeId};
 use problem::modelling::{Coupling, Variant};
 
 /// The source of the matrix of an iteration.
@@ -41,9 +41,9 @@ pub(super) struct Equations<'a, T> {
     pub interpreter: Option<&'a Interpreter>,
     /// The stiffness, triangle by triangle.
     pub stiffness: Stiffness<T>,
-    /// Whether the run takes each degree of freedom as restrained.
-    restraints: Vec<Restraint>,
-    /// Whether each of them is one of the body to which contact passes its force.
+    /// The model as the run restrains it.
+    restrained: Arc<Model>,
+    /// Whether each degree of freedom is a restrained one of the body to which contact passes its force.
     supports: Vec<bool>,
     /// The whole load by degree of freedom, force.
     load: DVector<T>,
@@ -82,10 +82,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             Schedule::Total => T::one(),
             Schedule::Stepped => T::from_number(request.iterations),
         };
-        let (load, restraints) = (model.load_in(number), restraints(model, request));
-        let f = DVector::from_fn(load.len(), |e, _| {
-            if restraints[e].is_free() { load[e] / share } else { T::zero() }
-        });
+        let (load, restrained) = (model.load_in(number), restrained(model, request));
+        let f = restrained.free_part(&load.map(|f| f / share));
         let assembly = if request.variant == Variant::Printed {
             Assembly::Printed
         } else if takes_sparse(request.solver()) {
@@ -104,8 +102,8 @@ impl<'a, T: Precision> Equations<'a, T> {
             assembly,
             interpreter,
             stiffness,
-            supports: supports(model, &restraints),
-            restraints,
+            supports: supports(&restrained),
+            restrained,
             load,
             f,
             share,
@@ -160,7 +158,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         k: usize,
         solve: impl Fn(&Elimination<T>, &DVector<T>) -> Result<Result<Solved<T>, Singular>, Error>,
     ) -> Result<Increment<T>, Error> {
-        let t = Elimination::new(self.model.restraints(), constraints);
+        let t = Elimination::new(&self.model.holds, constraints);
         let solved = T::sweep(|| {
             let solved = solve(&t, &t.load(&self.f))?;
             solved.map_err(|why| self.singular(why, pairs, k, |column| t.dof(column)))
@@ -176,7 +174,7 @@ impl<'a, T: Precision> Equations<'a, T> {
     /// Returns the forces of the restraints by degree of freedom, force, from the [`Self::reaction`] and from
     /// what contact adds to it there.
     pub fn reactions(&self, reaction: &DVector<f64>, passed: &DVector<T>) -> DVector<f64> {
-        reactions(self.model, &self.restraints, reaction + passed.map(T::to_f64))
+        reactions(&self.restrained, reaction + passed.map(T::to_f64))
     }
 
     fn solved(&self, residual: f64, u: DVector<T>, constraints: &[Constraint<T>]) -> Increment<T> {
@@ -185,8 +183,8 @@ impl<'a, T: Precision> Equations<'a, T> {
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
-        let support = support(self.model, &self.restraints, constraints, &force, &load);
-        let passed = passed(&self.restraints, constraints, &force);
+        let support = support(&self.restrained, constraints, &force, &load);
+        let passed = passed(&self.restrained, constraints, &force);
         Increment { residual, support, passed, u }
     }
 
@@ -238,10 +236,15 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 }
 
-/// Returns what holds each degree of freedom: the model's restraints, or under reading
-/// R2 = printed, where `Km` reads the restraint of y in place of that of x, those of `Km`.
-fn restraints(model: &Model, request: &Request) -> Vec<Restraint> {
-    let by_km = request.variant == Variant::Printed && request.reading.r2.takes_y_for_x();
-    let read = |dof: Dof| if by_km { dof.node().y() } else { dof };
-    model.all_dofs().map(|dof| model.restraints()[read(dof).index()]).collect()
+/// Returns the model with its own restraints, or under reading R2 = printed, where `Km` reads the restraint of y in
+/// place of that of x, with those of `Km`.
+fn restrained(model: &Arc<Model>, request: &Request) -> Arc<Model> {
+    if request.variant != Variant::Printed || !request.reading.r2.takes_y_for_x() {
+        return Arc::clone(model);
+    }
+    let mut own = Model::clone(model);
+    own.holds.release(model.all_dofs());
+    let held = model.node_ids().filter(|node| model.is_restrained(node.y()));
+    own.holds.fix(held.flat_map(NodeId::dofs));
+    Arc::new(own)
 }

@@ -29,7 +29,7 @@ mod unilateral;
 
 pub use assessment::{Assessment, SolutionDistance};
 pub use distance::{BodyDistance, Distance, distance, over};
-pub use elimination::{Constraint, Elimination, Motion, support_constraints};
+pub use elimination::{Constraint, Elimination, Motion};
 pub use hertz::Hertz;
 pub use quantities::{
     BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,

@@ -1,14 +1,12 @@
 //! The force that contact passes from one body to the other, from what holds the body that receives
 //! it: the forces on its restraints, some of them through constraints, and its own load.
 
-use std::collections::{BTreeSet, HashMap};
-
 use nalgebra::DVector;
 
 use super::contact::ROUNDING_OF_A_FORCE;
 use super::elimination::{Constraint, Motion, sum};
 use numbers::scalar::Scalar;
-use problem::model::{Dof, Hold, Model, NodeId, Restraint, Support};
+use problem::model::{Dof, Hold, Model, NodeId};
 
 /// Returns the bodies on either side of contact, by their indices: those of the contact surface and those of the target.
 /// A body that has both, as one in a stack, is on neither side where others are left. None without contact.
@@ -42,23 +40,21 @@ fn is_loaded(model: &Model, bodies: &[usize]) -> bool {
 }
 
 /// Returns the sum of the receivers' reactions and of their own load, force: what contact passes to them,
-/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom; `restraints` are those
-/// of the run.
+/// with the opposite sign. `force` is K·u − F and `load` is F, by degree of freedom.
 pub fn support<T: Scalar>(
     model: &Model,
-    restraints: &[Restraint],
     constraints: &[Constraint<T>],
     force: &DVector<T>,
     load: &DVector<T>,
 ) -> [T; 2] {
-    let mut total = support_force(model, restraints, force, load);
+    let mut total = support_force(model, force, load);
     let receivers = receivers(model);
     for constraint in constraints {
-        let passed = constraint_force(constraint, restraints, force);
+        let passed = constraint_force(model, constraint, force);
         for direction in [0, 1] {
             let to_restrained = constraint.masters.iter().filter(|(master, _)| {
                 receivers.iter().any(|b| model.bodies[*b].has(*master))
-                    && !restraints[master.dofs()[direction].index()].is_free()
+                    && model.is_restrained(master.dofs()[direction])
             });
             total[direction] += sum(to_restrained.map(|(_, w)| *w)) * passed[direction];
         }
@@ -69,16 +65,16 @@ pub fn support<T: Scalar>(
 /// Returns what contact adds to the forces on the restraints of both bodies, by degree of freedom, force: a
 /// restrained target node passes its part of a contact node's force on.
 pub fn passed<T: Scalar>(
-    restraints: &[Restraint],
+    model: &Model,
     constraints: &[Constraint<T>],
     force: &DVector<T>,
 ) -> DVector<T> {
-    let mut all = DVector::from_element(restraints.len(), T::zero());
+    let mut all = DVector::from_element(model.dofs(), T::zero());
     for constraint in constraints {
-        let own = constraint_force(constraint, restraints, force);
+        let own = constraint_force(model, constraint, force);
         let masters = constraint.masters.iter();
         for (dof, weight) in masters.flat_map(|(node, w)| node.dofs().map(|dof| (dof, *w))) {
-            if !restraints[dof.index()].is_free() {
+            if model.is_restrained(dof) {
                 all[dof.index()] += weight * own[dof.direction()];
             }
         }
@@ -87,31 +83,28 @@ pub fn passed<T: Scalar>(
 }
 
 /// Returns the forces of the restraints alone by degree of freedom, force, from the forces on them.
-pub fn reactions(model: &Model, restraints: &[Restraint], mut force: DVector<f64>) -> DVector<f64> {
-    let mut held: Vec<bool> = restraints.iter().map(|restraint| !restraint.is_free()).collect();
-    oblique(model, restraints).for_each(|dof| held[dof.index()] = true);
-    model.dropped.iter().flat_map(|node| node.dofs()).for_each(|dof| held[dof.index()] = false);
-    force.iter_mut().zip(held).filter(|(_, held)| !held).for_each(|(force, _)| *force = 0.0);
+pub fn reactions(model: &Model, mut force: DVector<f64>) -> DVector<f64> {
+    let takes = |dof: Dof| model.holds.takes(dof) && !model.is_dropped(dof.node());
+    model.all_dofs().filter(|dof| !takes(*dof)).for_each(|dof| force[dof.index()] = 0.0);
     force
 }
 
 /// Returns the sum of the forces of each restraint of the scene along x and y, force.
-pub fn reactions_of_supports(model: &Model, reactions: &DVector<f64>) -> Vec<[f64; 2]> {
-    let mut of_node: HashMap<NodeId, Vec<[f64; 2]>> = HashMap::new();
-    let holds = model.supports.iter().flat_map(|support| &support.holds);
-    holds.for_each(|hold| of_node.entry(hold.node).or_default().push(hold.direction));
+pub fn reactions_of_restraints(model: &Model, reactions: &DVector<f64>) -> Vec<[f64; 2]> {
     // The force on a node that is held along two directions is one along each of them.
     let along = |hold: &Hold| {
         let (force, [x, y]) = (hold.node.components(reactions), hold.direction);
-        let other = of_node[&hold.node].iter().find(|other| **other != hold.direction);
-        let normal = other.map_or([x, y], |other| [-other[1], other[0]]);
+        let other = model.holds.of(hold.node).iter().find(|other| other.direction != [x, y]);
+        let normal = other.map_or([x, y], |Hold { direction: [x, y], .. }| [-y, *x]);
         let size = (normal[0] * force[0] + normal[1] * force[1]) / (normal[0] * x + normal[1] * y);
         [size * x, size * y]
     };
-    let sum = |support: &Support| {
-        support.holds.iter().map(along).fold([0.0; 2], |[x, y], of| [x + of[0], y + of[1]])
-    };
-    model.supports.iter().map(sum).collect()
+    let mut sums = vec![[0.0; 2]; model.restraints.len()];
+    for (k, hold) in model.holds.iter().filter_map(|hold| Some((hold.restraint?, hold))) {
+        let ([x, y], own) = (along(hold), &mut sums[k]);
+        *own = [own[0] + x, own[1] + y];
+    }
+    sums
 }
 
 /// Returns which part of the load a force along it, as `transmitted_force` has it, is. None where that says nothing:
@@ -138,14 +131,14 @@ pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
 
 /// Returns the contact force on a constrained node, force.
 fn constraint_force<T: Scalar>(
+    model: &Model,
     constraint: &Constraint<T>,
-    restraints: &[Restraint],
     force: &DVector<T>,
 ) -> [T; 2] {
-    let free = constraint.node.dofs().map(|dof| restraints[dof.index()].is_free());
+    let held = model.restraints_of(constraint.node);
     let force = constraint.node.components(force);
     match constraint.motion {
-        Motion::Both(_) => [0, 1].map(|d| if free[d] { force[d] } else { T::zero() }),
+        Motion::Both(_) => [0, 1].map(|d| if held[d] { T::zero() } else { force[d] }),
         Motion::Along(normal, _) => {
             let along = normal[0] * force[0] + normal[1] * force[1];
             normal.map(|n| n * along)
@@ -156,41 +149,26 @@ fn constraint_force<T: Scalar>(
 /// Returns the sum of `force` over the restraints of the receivers, and of `load` over all of them, force.
 pub(super) fn support_force<T: Scalar>(
     model: &Model,
-    restraints: &[Restraint],
     force: &DVector<T>,
     load: &DVector<T>,
 ) -> [T; 2] {
     let mut total = [T::zero(), T::zero()];
     let receivers = receivers(model);
     for dof in dofs(model, &receivers) {
-        if !restraints[dof.index()].is_free() {
+        if model.holds.takes(dof) {
             total[dof.direction()] += force[dof.index()];
         }
         if !load[dof.index()].is_zero() {
             total[dof.direction()] += load[dof.index()];
         }
     }
-    for dof in oblique(model, restraints)
-        .filter(|dof| receivers.iter().any(|b| model.bodies[*b].has(dof.node())))
-    {
-        total[dof.direction()] += force[dof.index()];
-    }
     total
 }
 
-/// Returns the degrees of freedom of the nodes that are held along no axis, or displaced, without those that
-/// `restraints` hold.
-fn oblique<'a>(model: &'a Model, restraints: &'a [Restraint]) -> impl Iterator<Item = Dof> + 'a {
-    let nodes: BTreeSet<NodeId> = model.oblique().map(|(_, hold)| hold.node).collect();
-    nodes.into_iter().flat_map(NodeId::dofs).filter(|dof| restraints[dof.index()].is_free())
-}
-
 /// Returns whether each degree of freedom is one of the receivers that the run restrains.
-pub(super) fn supports(model: &Model, restraints: &[Restraint]) -> Vec<bool> {
+pub(super) fn supports(model: &Model) -> Vec<bool> {
     let mut supports = vec![false; model.dofs()];
-    dofs(model, &receivers(model))
-        .for_each(|dof| supports[dof.index()] = !restraints[dof.index()].is_free());
-    oblique(model, restraints).for_each(|dof| supports[dof.index()] = true);
+    dofs(model, &receivers(model)).for_each(|dof| supports[dof.index()] = model.holds.takes(dof));
     supports
 }
 

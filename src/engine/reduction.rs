@@ -15,7 +15,7 @@ use super::elimination::{Constraint, Elimination};
 use super::refinement::{corrected, refine};
 use super::stiffness::Stiffness;
 use crate::linear::{DenseCholesky, EliminatedLoad, Factors, Schur, backward_error};
-use problem::model::{Dof, Model, NodeId, Restraint};
+use problem::model::{Dof, Holds, Model, NodeId};
 
 /// The number of nodes that are kept at most, or so much of the square root of the number of equations,
 /// which is what a line across the mesh has.
@@ -26,16 +26,16 @@ const ENOUGH: f64 = 32.0 * f64::EPSILON;
 
 /// The stiffness reduced to some nodes.
 pub struct Reduction {
-    /// The degree of freedom of each free equation of the bodies, and whether each one is.
-    free: Vec<Dof>,
-    is_free: Vec<bool>,
+    /// The equations of the bodies.
+    t: Elimination,
     schur: Schur,
     /// The kept nodes, ascending, and the degrees of freedom of those that are not restrained.
     nodes: Vec<NodeId>,
     kept: Vec<Dof>,
     /// S by the degrees of freedom of the kept nodes, x and y of each in turn, 0 at restrained ones.
     stiffness: DMatrix<f64>,
-    restraints: Vec<Restraint>,
+    /// What holds the kept nodes, by their places.
+    holds: Holds,
     /// The largest row sum of |S|, force/length.
     norm: f64,
     /// That of K.
@@ -45,6 +45,8 @@ pub struct Reduction {
 /// A load from which all but the kept equations are eliminated.
 pub struct ReducedLoad {
     all: EliminatedLoad,
+    /// What restraints displace, by degree of freedom, length.
+    shift: DVector<f64>,
     /// What is left of it, by the degrees of freedom of the kept nodes, force.
     kept: DVector<f64>,
 }
@@ -58,26 +60,18 @@ pub struct ReducedState<'a> {
 
 impl Reduction {
     /// Reduces the stiffness of a model to the nodes of its surfaces, or those about the least gaps of
-    /// `pairings`; None where these do not hold what is left, without contact, and where a restraint follows no
-    /// axis or displaces its node, as inner nodes that are held stay where they are here.
+    /// `pairings`; None where these do not hold what is left, and without contact.
     pub fn new(stiffness: &Stiffness, model: &Model, pairings: &[Option<Pairing>]) -> Option<Self> {
         let nodes = nodes(model, pairings);
         let mut place = vec![None; model.nodes.len()];
         nodes.iter().enumerate().for_each(|(k, node)| place[node.index()] = Some(k));
-        // What is restrained inside adds nothing to the load: its displacement is 0.
-        let is_free = model.restraints().iter().map(|restraint| match restraint {
-            Restraint::Free => true,
-            Restraint::Fixed => false,
-        });
-        let is_free: Vec<bool> = is_free.collect();
-        let free: Vec<Dof> = model.all_dofs().filter(|dof| is_free[dof.index()]).collect();
-        let is_kept = |e: &usize| place[free[*e].node().index()].is_some();
-        let last: Vec<usize> = (0..free.len()).filter(is_kept).collect();
-        if last.is_empty() || model.oblique().next().is_some() {
+        let t = Elimination::new(&model.holds, &[]);
+        let is_kept = |e: &usize| place[t.dof(*e).node().index()].is_some();
+        let last: Vec<usize> = (0..t.size()).filter(is_kept).collect();
+        if last.is_empty() {
             return None;
         }
-        let kept: Vec<Dof> = last.iter().map(|e| free[*e]).collect();
-        let t = Elimination::new(model.restraints(), &[]);
+        let kept: Vec<Dof> = last.iter().map(|e| t.dof(*e)).collect();
         let matrix = stiffness.reduced(&t);
         let whole_norm = matrix.norm();
         let schur = Schur::new(matrix, last)?;
@@ -91,38 +85,31 @@ impl Reduction {
         for (j, column) in own.iter().zip(schur.complement().column_iter()) {
             own.iter().zip(&column).for_each(|(i, s)| reduced[(*i, *j)] = *s);
         }
-        let mut restraints = vec![Restraint::Fixed; size];
-        own.iter().for_each(|k| restraints[*k] = Restraint::Free);
+        let number = |node: NodeId| place[node.index()].map(NodeId::new);
+        let holds = model.holds.renumbered(nodes.len(), number);
         let norm = reduced.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
-        Some(Reduction {
-            free,
-            is_free,
-            schur,
-            nodes,
-            kept,
-            stiffness: reduced,
-            restraints,
-            norm,
-            whole_norm,
-        })
+        Some(Reduction { t, schur, nodes, kept, stiffness: reduced, holds, norm, whole_norm })
     }
 
-    /// Eliminates all but the kept equations from a load by degree of freedom, force.
-    pub fn eliminated(&self, load: &DVector<f64>) -> ReducedLoad {
-        let load = self.free.iter().map(|dof| load[dof.index()]);
-        let all = self.schur.eliminate(&DVector::from_iterator(self.free.len(), load));
+    /// Eliminates all but the kept equations from a load by degree of freedom, force, where restraints displace
+    /// nodes by a `part` of what they do at last.
+    pub fn eliminated(&self, stiffness: &Stiffness, load: &DVector<f64>, part: f64) -> ReducedLoad {
+        let shift = self.t.shift() * part;
+        ReducedLoad { shift: shift.clone(), ..self.unshifted(&(load - stiffness.times(&shift))) }
+    }
+
+    /// Eliminates all but the kept equations from a load by degree of freedom, force, where nothing is displaced.
+    fn unshifted(&self, load: &DVector<f64>) -> ReducedLoad {
+        let all = self.schur.eliminate(&self.t.load(load));
         let kept = self.own(self.kept.iter().zip(&all.last).map(|(dof, f)| (*dof, *f)));
-        ReducedLoad { all, kept }
+        ReducedLoad { all, shift: DVector::zeros(load.len()), kept }
     }
 
     /// Returns the displacements by degree of freedom under a load, length, from those of the kept nodes.
     fn expand(&self, load: &ReducedLoad, kept: &DVector<f64>) -> DVector<f64> {
         let last = self.kept.iter().map(|dof| kept[self.place(*dof)]);
         let last = DVector::from_iterator(self.kept.len(), last);
-        let mut u = DVector::zeros(self.is_free.len());
-        let all = self.schur.expand(&load.all, &last);
-        self.free.iter().zip(&all).for_each(|(dof, x)| u[dof.index()] = *x);
-        u
+        self.t.motion(&self.schur.expand(&load.all, &last)) + &load.shift
     }
 
     /// Returns the part of a vector by degree of freedom on the kept nodes, 0 at restrained ones.
@@ -132,13 +119,13 @@ impl Reduction {
 
     /// Returns the vector by degree of freedom with a part on the kept nodes, 0 elsewhere.
     fn whole(&self, part: &DVector<f64>) -> DVector<f64> {
-        let mut all = DVector::zeros(self.is_free.len());
+        let mut all = DVector::zeros(self.t.shift().len());
         self.kept.iter().for_each(|dof| all[dof.index()] = part[self.place(*dof)]);
         all
     }
 
     fn own(&self, values: impl Iterator<Item = (Dof, f64)>) -> DVector<f64> {
-        let mut own = DVector::zeros(self.restraints.len());
+        let mut own = DVector::zeros(self.stiffness.nrows());
         values.for_each(|(dof, value)| own[self.place(dof)] = value);
         own
     }
@@ -166,7 +153,7 @@ impl<'a> ReducedState<'a> {
     /// constraint binds a node that is not kept.
     pub fn new(reduction: &'a Reduction, constraints: &[Constraint]) -> Option<Self> {
         let own = constraints.iter().map(|constraint| reduction.renumbered(constraint));
-        let t = Elimination::closing(&reduction.restraints, &own.collect::<Option<Vec<_>>>()?);
+        let t = Elimination::closing(&reduction.holds, 1.0, &own.collect::<Option<Vec<_>>>()?);
         let factors = DenseCholesky::new(&t.matrix(&reduction.stiffness))?;
         Some(ReducedState { reduction, t, factors })
     }
@@ -188,8 +175,8 @@ impl<'a> ReducedState<'a> {
         (residual <= ENOUGH).then_some((u, residual))
     }
 
-    /// Returns the same refined until they solve the whole equations, under a `load` by degree of freedom, 0
-    /// at restrained ones, force; and the relative residual of these. None where they do not come there.
+    /// Returns the same refined until they solve the whole equations, under a `load` by degree of freedom,
+    /// force; and the relative residual of these. None where they do not come there.
     pub fn refined(
         &self,
         stiffness: &Stiffness,
@@ -198,18 +185,18 @@ impl<'a> ReducedState<'a> {
     ) -> Option<(DVector<f64>, f64)> {
         let reduction = self.reduction;
         let (u, _) = self.displacements(reduced, more)?;
+        let given = reduction.t.load(load);
         let rest = |u: &DVector<f64>| {
-            let mut rest = load - stiffness.times(u);
-            (0..rest.len()).filter(|e| !reduction.is_free[*e]).for_each(|e| rest[e] = 0.0);
+            let rest = load - stiffness.times(u);
             // The forces that keep constraints do no work.
             let left = self.t.load(&reduction.part(&rest));
             let mut inside = rest.clone();
             reduction.kept.iter().for_each(|dof| inside[dof.index()] = 0.0);
-            let left = DVector::from_vec(vec![left.amax(), inside.amax()]);
-            (rest, backward_error(&left, reduction.whole_norm, u, load))
+            let left = DVector::from_vec(vec![left.amax(), reduction.t.load(&inside).amax()]);
+            (rest, backward_error(&left, reduction.whole_norm, u, &given))
         };
         let correction = |rest: &DVector<f64>| {
-            let rest = reduction.eliminated(rest);
+            let rest = reduction.unshifted(rest);
             let q = self.factors.solve(&self.t.load(&rest.kept));
             reduction.expand(&rest, &self.t.motion(&q))
         };

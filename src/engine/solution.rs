@@ -520,7 +520,7 @@ impl Solution {
 
     /// Returns whether a restraint displaces a node.
     pub fn is_displaced(&self) -> bool {
-        self.model.oblique().any(|(_, hold)| hold.displacement != 0.0)
+        self.model.holds.displace()
     }
 
     /// Returns whether no node is in contact at the end, though the scene has contact.

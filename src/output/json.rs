@@ -32,7 +32,7 @@ pub struct Head {
 impl Head {
     /// Returns what a document says of itself, and of the scene that it is on.
     pub fn new(scene: Option<&Scene>) -> Self {
-        let hashes = scene.and_then(Scene::hashes).cloned();
+        let hashes = scene.map(Scene::hashes).cloned();
         let [scene_sha256, mesh_sha256] = hashes.map_or([None, None], |hashes| hashes.map(Some));
         let units = scene.map(|scene| scene.units.clone());
         Head { format: FORMAT, version: VERSION, units, scene_sha256, mesh_sha256 }

@@ -16,9 +16,9 @@ use engine::{
 use numbers::scalar::rational;
 use paper::listings::Which;
 use paper::mirror::Reading;
-use problem::model::{NodeId, Triangle};
+use problem::model::{Material, NodeId, Triangle};
 use problem::modelling::{ContactModel, Variant};
-use problem::scene::{Material, Scene, sha256};
+use problem::scene::{Scene, sha256};
 
 /// The most triangles whose mesh has its `u` and `elements` in `result.json` without being asked.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -173,7 +173,7 @@ impl<'a> ResultFile<'a> {
             .map(|edited| EditedListing { listing: edited.which, sha256: sha256(&edited.text) });
         let has_fields = all_fields || solution.elements.len() <= MOST_TRIANGLES;
         let pairs = solution.digits.as_ref().map(|digits| digits.as_chunks().0.iter());
-        let materials = materials(solution);
+        let materials = solution.model.materials();
         ResultFile {
             of: scene,
             transmits_nothing: solution.transmits_nothing(),
@@ -231,25 +231,12 @@ impl<'a> ResultFile<'a> {
     }
 }
 
-/// Returns the materials of a model, each once, in the order of its triangles.
-fn materials(solution: &Solution) -> Vec<Material> {
-    let mut materials: Vec<Material> = Vec::new();
-    for triangle in &solution.model.triangles {
-        let material = Material { e: triangle.material.e, nu: triangle.material.nu };
-        if !materials.contains(&material) {
-            materials.push(material);
-        }
-    }
-    materials
-}
-
 /// Returns the values of each triangle of a solution that has these materials.
 fn rows(solution: &Solution, assessment: &Assessment, materials: &[Material]) -> Vec<ElementRow> {
     let values = TriangleValues::all(solution, assessment.mesh_error().as_deref());
     let rows = values.into_iter().zip(&solution.model.triangles).zip(1..);
     let row = |((values, triangle), n): ((TriangleValues, &Triangle), usize)| {
-        let own =
-            |other: &Material| (other.e, other.nu) == (triangle.material.e, triangle.material.nu);
+        let own = |other: &Material| *other == triangle.material;
         let material = materials.iter().position(own).expect("every triangle has one of them") + 1;
         ElementRow { n, nodes: triangle.nodes, material, values }
     };

@@ -54,7 +54,7 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     let contact = ContactNode::QUANTITIES.iter();
     let contact = contact.filter_map(|q| contact_array(q, &solution.contact, count, units));
     let points: Vec<Array> = at_nodes.chain(contact).collect();
-    let [scene_sha256, mesh_sha256] = scene.hashes().cloned().unwrap_or_default();
+    let [scene_sha256, mesh_sha256] = scene.hashes().clone();
     let mut about: Vec<About> = vec![
         ("program", format!("plane-contact {VERSION}")),
         ("scene", scene.name.clone()),

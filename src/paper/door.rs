@@ -20,7 +20,7 @@ use mathcad::array::{Column, Table};
 use numbers::scalar::Scalar;
 use numbers::square::SparseSquare;
 use problem::element;
-use problem::model::{EdgeId, Element, Model, NodeId, Restraint, Row, TriangleId};
+use problem::model::{EdgeId, Element, Model, NodeId, Row, TriangleId};
 use problem::units::length_in_metres;
 
 /// The column of `EL` and `elem` where the nodes start.
@@ -67,11 +67,13 @@ fn units_of_a_metre(unit: &str) -> Result<f64, InputError> {
 /// # Errors
 /// Names a restraint that holds a node along another direction, or displaces it.
 pub fn check_restraints(model: &Model) -> Result<(), InputError> {
-    let Some((name, hold)) = model.oblique().next() else { return Ok(()) };
+    let mut others = model.holds.iter().filter(|hold| hold.dof().is_none());
+    let Some(hold) = others.next() else { return Ok(()) };
     let ([x, y], by) = (hold.direction.map(six_digits), six_digits(hold.displacement));
     let what = format!(
-        "restraint {name:?} holds node {} along [{x}, {y}] at {by}; Km restrains by S, which is 1 or 0 for x and \
+        "restraint {:?} holds node {} along [{x}, {y}] at {by}; Km restrains by S, which is 1 or 0 for x and \
          for y (lines 7 and 8), so that it holds nodes along these at 0 alone",
+        model.restraint_of(hold),
         hold.node
     );
     let fix = "ask for unilateral, or restrain x and y";
@@ -91,10 +93,6 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
     let of = |f: &dyn Fn(TriangleId) -> f64| {
         Column::from_vec(model.triangle_ids().map(|id| number(f(id))).collect())
     };
-    let s = |restraint: &Restraint| match restraint {
-        Restraint::Free => 0,
-        Restraint::Fixed => 1,
-    };
     Worksheet {
         node: node_n(model, &model.nodes).map(&number),
         EL: Table::from_fn(triangles.len(), 8, |n, j| elem[(triangles[n - 1], j)]),
@@ -103,7 +101,7 @@ pub fn worksheet<T: Scalar>(model: &Model, number: impl Fn(f64) -> T) -> Workshe
         cnt: Column::from_vec(contact.collect()),
         c_tll: number(model.contact.tolerance),
         ind_1: IND_1,
-        S: Column::from_vec(model.restraints().iter().map(s).collect()),
+        S: Column::from_vec(model.all_dofs().map(|dof| model.is_restrained(dof).into()).collect()),
         Ae: Column::from_vec(corners.iter().map(|p| element::area(p) * thickness).collect()),
         B: Column::from_vec(corners.iter().map(element::B).collect()),
         E: of(&|id| model.triangle(id).material.e),

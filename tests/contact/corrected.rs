@@ -11,7 +11,7 @@ use plane_contact::engine::{Request, Stiffness, solve};
 use plane_contact::paper::corrected::{Bound, FAULTS, Fault, iterate};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::mirror::Reading;
-use plane_contact::problem::model::{Model, NodeId, Restraint};
+use plane_contact::problem::model::{Dof, Model, NodeId};
 use plane_contact::problem::modelling::{Coupling, Friction, Geometry, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::audit::Case;
@@ -91,7 +91,7 @@ fn assert_conditions(what: &str, model: &Model) {
     let u = DVector::from_vec(ending.u);
     let of = |node: NodeId| [u[2 * node.index()], u[2 * node.index() + 1]];
     let mut free = model.clone();
-    free.all_dofs().for_each(|dof| free.restrain(dof, Restraint::Free));
+    free.holds.release(model.all_dofs());
     let stiffness = Call::without_contact(&free).km(&Reading::default()).unwrap().dense();
     let mut force = &stiffness * &u - &model.load;
     let size = model.load.amax();
@@ -112,7 +112,7 @@ fn assert_conditions(what: &str, model: &Model) {
         // restraint holds the node, it is not known from the node's equation: nothing is asked there.
         for k in 0..2 {
             let dof = 2 * pairing.node.index() + k;
-            let is_free = model.restraints()[dof].is_free();
+            let is_free = !model.is_restrained(Dof::new(dof));
             let contact = if is_free { force[dof] } else { f64::NAN };
             for (master, weight) in pairing.masters.iter().filter(|(_, weight)| *weight != 0.0) {
                 force[2 * master.index() + k] += weight * contact;
@@ -120,8 +120,8 @@ fn assert_conditions(what: &str, model: &Model) {
             force[dof] = 0.0;
         }
     }
-    let asked =
-        (0..force.len()).filter(|dof| model.restraints()[*dof].is_free() && !force[*dof].is_nan());
+    let asked = (0..force.len())
+        .filter(|dof| !model.is_restrained(Dof::new(*dof)) && !force[*dof].is_nan());
     let left = asked.map(|dof| force[dof].abs()).fold(0.0, f64::max);
     assert_near(what, left, 0.0, size, &CORRECTED_CONDITIONS);
 }
@@ -273,9 +273,7 @@ fn on_a_target_that_is_held_the_load_passes() {
     let mut scene = Scene::open("two-blocks").unwrap();
     let model = Arc::make_mut(&mut scene.model);
     let target: Vec<_> = model.target_edges().flat_map(|edge| edge.nodes).collect();
-    for dof in target.iter().flat_map(|node| node.dofs()) {
-        model.restrain(dof, Restraint::Fixed);
-    }
+    model.holds.fix(target.iter().flat_map(|node| node.dofs()));
     let prices = prices::on(&Case::new(scene), &|| ()).expect("prices");
     let run = prices[0].outcome.as_ref().expect("a result");
     assert!(!run.passes_nothing);

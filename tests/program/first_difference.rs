@@ -21,7 +21,7 @@ const KINDS: usize = 7;
 
 /// Draws a change of one kind; None where the changed scene is none.
 fn change(kind: usize, scene: &Scene, rng: &mut Rng) -> Option<Change> {
-    let (description, mesh) = scene.source().expect("an embedded scene has a source");
+    let (description, mesh) = scene.source();
     let mut builder = SceneBuilder {
         name: scene.name.clone(),
         mesh: mesh.clone(),
@@ -155,7 +155,7 @@ fn a_hundred_seeded_changes_are_named() {
 
 /// The same scene with its contact surface as a list of nodes.
 fn with_lists(scene: &Scene) -> Scene {
-    let (description, mesh) = scene.source().expect("an embedded scene has a source");
+    let (description, mesh) = scene.source();
     let mut description = description.clone();
     let nodes = scene.model.contact.nodes.iter().map(|node| node.number()).collect();
     description.contact.as_mut().expect("contact").contact = Surface::Numbers(nodes);

@@ -362,7 +362,7 @@ fn slits_are_named() {
     assert!(said.contains("node 14 is on the side between 2 and 10"), "{said}");
     let mut cut = scene_json("fig1");
     push(&mut cut["elem"], json!([19, 1, 2, 30, 30, 1, 3]));
-    let finer = build(&cut).expect("a scene").refined().expect("a scene").expect("a whole scene");
+    let finer = build(&cut).expect("a scene").refined().expect("a scene");
     assert_eq!(finer.scene.adapted().len(), 1, "{:?}", finer.scene.adapted());
     let loose =
         changed(|s| push(&mut s["elem"], json!([19, 1, 2, 30, 30, 1, 3]))).expect("a scene");

@@ -229,7 +229,7 @@ fn mesh_errors() {
         let mut meshes: Vec<Derived> = Vec::new();
         for _ in 0..3 {
             let last = meshes.last().map_or(&scene, |finer| &finer.scene);
-            meshes.push(last.refined().expect("a sound scene").expect("a whole scene"));
+            meshes.push(last.refined().expect("a sound scene"));
         }
         Coupling::ALL
             .iter()

@@ -176,7 +176,7 @@ fn lame_converges_with_order_1_in_the_energy_norm() {
 fn a_finer_scene_keeps_its_nodes_area_load_and_surfaces() {
     for name in ["fig1", "two-blocks", "strand"] {
         let scene = open(name);
-        let finer = scene.refined().unwrap().expect("a whole scene").scene;
+        let finer = scene.refined().unwrap().scene;
         let [before, after] = [&scene.model, &finer.model];
         assert_eq!(after.triangles.len(), 4 * before.triangles.len());
         assert_eq!(after.contact.target.len(), 2 * before.contact.target.len(), "{name}");
@@ -314,9 +314,12 @@ fn half_a_scene_has_no_dropped_node() {
 }
 
 #[test]
-fn half_a_scene_is_not_refined() {
-    let half = half(&square(0.0, |_| ()).unwrap()).unwrap();
-    assert!(half.scene.refined().unwrap().is_none());
+fn half_a_scene_is_refined_as_the_whole() {
+    let whole = square(0.0, |_| ()).unwrap();
+    let of_half = half(&whole).unwrap().scene.refined().unwrap().scene;
+    let half_of = half(&whole.refined().unwrap().scene).unwrap().scene;
+    assert_eq!(of_half.model.free_dofs(), half_of.model.free_dofs());
+    assert_eq!(of_half.model.triangles.len(), half_of.model.triangles.len());
 }
 
 #[test]

@@ -110,10 +110,9 @@ impl Estimates {
 /// from which all are measured, or the node under a force where it moves most.
 fn unlimited(solution: &Solution, points: &[Singular]) -> Option<(NodeId, Cause)> {
     let most = max_displacement(&solution.u);
-    let held = solution.model.held_directions();
     let counts = |point: &&Singular| {
         let [x, y] = point.node.components(&solution.u);
-        let is_held = held[point.node.index()] > 0;
+        let is_held = !solution.model.holds.of(point.node).is_empty();
         point.cause == Cause::Force && (is_held || is_as_large(x.hypot(y), most, most))
     };
     points.iter().find(counts).map(|point| (point.node, point.cause))

@@ -121,8 +121,8 @@ fn turns(model: &Model) -> Turns {
 /// Returns the nodes of the outline where two sides meet at an angle beyond the widest one at which the
 /// stress has a limit.
 fn corners(model: &Model, turns: &Turns) -> Vec<NodeId> {
-    let held = model.held_directions();
-    let is_fixed = |side: TriangleSide| side.nodes.iter().all(|node| held[node.index()] == 2);
+    let is_fixed =
+        |side: TriangleSide| side.nodes.iter().all(|node| model.holds.of(*node).len() == 2);
     let is_corner = |turn: &Turn| {
         let [coming, after] = turn.sides;
         let kappa = kappa(model.plane, model.triangle(coming.triangle).material.nu);
@@ -161,10 +161,7 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     }
     let force = Stiffness::new(model, |x| x).times(&solution.u);
     let idle = IDLE * force.amax();
-    let mut held: Vec<bool> = model.all_dofs().map(|dof| model.is_restrained(dof)).collect();
-    let oblique = model.oblique().flat_map(|(_, hold)| hold.node.dofs());
-    oblique.for_each(|dof| held[dof.index()] = true);
-    let kind = |dof: Dof| match (held[dof.index()], applied[dof.index()] != 0.0) {
+    let kind = |dof: Dof| match (model.holds.takes(dof), applied[dof.index()] != 0.0) {
         (true, _) => Kind::Held,
         (false, true) => Kind::Loaded,
         (false, false) => Kind::Free,
@@ -190,7 +187,7 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
 /// node that which carries most of it, and where both bodies end in corners of unlike materials the target's.
 fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
     let (model, last) = (&*solution.model, solution.last());
-    let (nodes, held) = (&model.contact.nodes, model.held_directions());
+    let nodes = &model.contact.nodes;
     let closed = last.statuses();
     let sticks = |k: usize| match &last.detail {
         Detail::Unilateral(own) => own.statuses[k] == Status::Stick,
@@ -202,7 +199,7 @@ fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
         let constraint = last.constraints.iter().find(|constraint| constraint.node == nodes[k])?;
         let unlike = || {
             // A corner that a restraint holds may be one of symmetry.
-            let own = turns.get(&nodes[k]).filter(|_| held[nodes[k].index()] == 0)?;
+            let own = turns.get(&nodes[k]).filter(|_| model.holds.of(nodes[k]).is_empty())?;
             let mut masters = constraint.masters.iter().map(|(master, _)| *master);
             masters.find(|master| {
                 turns.get(master).is_some_and(|other| are_unlike_corners(model, [own, other]))

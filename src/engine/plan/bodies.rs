@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::locking;
 use base::choices;
-use problem::model::{Body, Bounds, Dof, Model};
+use problem::model::{Body, Bounds, Model};
 use problem::modelling::Variant;
 
 choices! {
@@ -51,12 +51,12 @@ pub fn plan(model: &Model, variant: Variant) -> Vec<BodyPlan> {
 
 fn of_body(model: &Model, variant: Variant, body: &Body, in_contact: bool) -> BodyPlan {
     let dofs = body.nodes.iter().flat_map(|n| n.dofs());
-    let free: Vec<Dof> = dofs.filter(|dof| !model.is_restrained(*dof)).collect();
-    let oblique = model.oblique().map(|(_, hold)| hold).filter(|hold| body.has(hold.node));
-    let loaded = free.iter().any(|dof| model.load[dof.index()] != 0.0)
-        || oblique.clone().any(|hold| hold.displacement != 0.0);
-    let free = free.len() - oblique.count();
-    let idle = match (free == 0, loaded, in_contact) {
+    let mut loaded = dofs.filter(|dof| model.load[dof.index()] != 0.0);
+    let holds = body.nodes.iter().flat_map(|node| model.holds.of(*node));
+    let moves = loaded.any(|dof| !model.is_restrained(dof))
+        || holds.clone().any(|hold| hold.displacement != 0.0);
+    let free = 2 * body.nodes.len() - holds.count();
+    let idle = match (free == 0, moves, in_contact) {
         (true, ..) => Some(Idle::Restrained),
         (_, true, _) => None,
         (_, _, false) => Some(Idle::NoLoadNoContact),

@@ -161,9 +161,9 @@ quantities! {
 quantities! {
     /// What a restraint of the scene carries.
     SupportForce from at: &SupportPlace<'_> {
-        restraint: String = at.support.name.clone(), "restraint" [] None,
+        restraint: String = at.name.to_owned(), "restraint" [] None,
             "What it holds, as the scene says: the name of a group, or a node.";
-        nodes: usize = at.nodes(), "nodes" [] None,
+        nodes: usize = at.nodes, "nodes" [] None,
             "The number of nodes that it holds along a direction along which none before it does.";
         reaction: [f64; 2] = at.force, "reaction" ["R_x", "R_y"] Force,
             "The sum of its forces on these nodes along x and y.";

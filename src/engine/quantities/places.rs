@@ -1,13 +1,11 @@
 //! What quantities live on: the places of a solution whose values the table computes.
 
-use std::collections::HashSet;
-
 use super::{BodySummary, IterationRow, NodeFields, SupportForce, TriangleValues};
-use crate::reactions::{reactions_of_supports, share_of_load};
+use crate::reactions::{reactions_of_restraints, share_of_load};
 use crate::solution::{Solution, Step};
 use numbers::largest::{Largest, largest};
 use problem::element::{State, out_of_plane_strain, out_of_plane_stress};
-use problem::model::{Body, Model, Support, TriangleId};
+use problem::model::{Body, Model, TriangleId};
 
 /// An iteration of a run.
 pub(crate) struct IterationPlace<'a> {
@@ -76,23 +74,22 @@ impl BodyPlace<'_> {
 
 /// A restraint of the scene, and the sum of its forces, force.
 pub(crate) struct SupportPlace<'a> {
-    pub(super) support: &'a Support,
+    pub(super) name: &'a str,
+    /// The number of nodes that it holds.
+    pub(super) nodes: usize,
     pub(super) force: [f64; 2],
-}
-
-impl SupportPlace<'_> {
-    /// Returns the number of nodes that it holds.
-    pub(super) fn nodes(&self) -> usize {
-        self.support.holds.iter().map(|hold| hold.node).collect::<HashSet<_>>().len()
-    }
 }
 
 impl SupportForce {
     /// Returns what each restraint of a solution's scene carries.
     pub fn all(solution: &Solution) -> Vec<Self> {
-        let forces = reactions_of_supports(&solution.model, &solution.reactions);
-        let places = solution.model.supports.iter().zip(forces);
-        places.map(|(support, force)| Self::compute(&SupportPlace { support, force })).collect()
+        let model = &*solution.model;
+        let (nodes, forces) =
+            (model.held_nodes(), reactions_of_restraints(model, &solution.reactions));
+        let of_restraint = |(k, name): (usize, &String)| {
+            Self::compute(&SupportPlace { name, nodes: nodes[k].len(), force: forces[k] })
+        };
+        model.restraints.iter().enumerate().map(of_restraint).collect()
     }
 }
 

@@ -7,7 +7,7 @@ use engine::linear::SparseCholesky;
 use engine::reduction::{ReducedState, Reduction};
 use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
-use problem::model::{Model, NodeId, Restraint};
+use problem::model::{Holds, Model, NodeId};
 use problem::modelling::{ContactModel, Coupling};
 use problem::scene::Axis;
 
@@ -60,7 +60,7 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
     let state = ReducedState::new(&reduction, constraints).expect("the bodies are held");
-    let t = Elimination::closing(model.restraints(), constraints);
+    let t = Elimination::closing(&model.holds, 1.0, constraints);
     let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
         assert!(whole.amax() > 1e-3, "{what}");
@@ -80,18 +80,18 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
         let mut more = DVector::zeros(model.dofs());
         more[rub.node.dofs()[0].index()] = 1.5;
         rub.masters.iter().for_each(|(node, w)| more[node.dofs()[0].index()] = -1.5 * w);
-        let reduced = reduction.eliminated(&load);
+        let reduced = reduction.eliminated(&stiffness, &load, 1.0);
         let (own, _) = state.displacements(&reduced, &more).expect("it has its digits");
-        let f = model.free_part(&(&load + &more)) - stiffness.times(t.shift());
+        let all = &load + &more;
+        let f = &all - stiffness.times(t.shift());
         let whole = t.expand(&factors.solve(&t.load(&f)));
         near("displacement", &own, &whole);
-        let all = model.free_part(&(&load + &more));
         let (refined, residual) = state.refined(&stiffness, &all, (&reduced, &more)).expect("so");
         near("refined displacement", &refined, &whole);
         assert!(residual < 1e-14, "{residual:e}");
         let reaction = stiffness.times(&whole) - &load;
         near("force", &on_surface(&state.reaction(&own, &reduced)), &on_surface(&reaction));
-        let moved = t.motion(&factors.solve(&t.load(&model.free_part(&more))));
+        let moved = t.motion(&factors.solve(&t.load(&more)));
         let response = &state.responses(std::slice::from_ref(&more))[0];
         near("response", &on_surface(response), &on_surface(&(stiffness.times(&moved) - &more)));
     }
@@ -99,10 +99,10 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
 
 #[test]
 fn states_on_the_surfaces_are_those_of_the_whole() {
-    let (x, y) = (&[Axis::X][..], &[Axis::Y][..]);
-    // Free but for contact; guided; held; and with restrained contact nodes.
-    let held: [&[(usize, &[Axis])]; 4] =
-        [&[], &[(15, x)], &[(12, BOTH), (15, y)], &[(8, x), (11, BOTH)]];
+    let (x, y, slope) = (&[Axis::X][..], &[Axis::Y][..], [Axis::Direction([1.0, 2.0])]);
+    // Free but for contact; guided; held; with restrained contact nodes; and along a slope.
+    let held: [&[(usize, &[Axis])]; 5] =
+        [&[], &[(15, x)], &[(12, BOTH), (15, y)], &[(8, x), (11, BOTH)], &[(15, &slope)]];
     for restrained in held {
         let model = blocks(4, restrained);
         let pairings = pairings(&model);
@@ -140,5 +140,5 @@ fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {
 fn a_node_is_bound_once() {
     let node = NodeId::new(0);
     let constraint = Constraint { node, masters: Vec::new(), motion: Motion::Both([0.0; 2]) };
-    Elimination::new(&[Restraint::Free; 2], &[constraint.clone(), constraint]);
+    Elimination::new(&Holds::new(1, Vec::new()), &[constraint.clone(), constraint]);
 }

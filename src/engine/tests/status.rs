@@ -9,7 +9,7 @@ use nalgebra::DVector;
 use paper::door::{self, Call};
 use paper::mirror::{Cause, Failure, Pairs, Reading};
 use problem::element::Plane;
-use problem::model::{EdgeId, Model, Restraint};
+use problem::model::{EdgeId, Model};
 use problem::modelling::StatusRule::{Intersection, Signs};
 use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
@@ -324,9 +324,8 @@ fn what_a_restraint_shares_is_no_force_of_contact() {
     let node = model.contact.nodes[1];
     let reaction = DVector::from_element(model.dofs(), 3.0);
     let mut of = |restrained: [bool; 2], normal: [f64; 2], eliminated: bool| {
-        for (dof, is_fixed) in node.dofs().into_iter().zip(restrained) {
-            model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
-        }
+        model.holds.release(node.dofs());
+        model.holds.fix(node.dofs().into_iter().filter(|dof| restrained[dof.direction()]));
         let (edge, masters) = (EdgeId::new(0), Vec::new());
         let pairing = Pairing { node, edge, masters, normal, gap: 0.0, length: 1.0, corner: 0.0 };
         reactions(&model, &[Some(pairing), None], &reaction, eliminated)

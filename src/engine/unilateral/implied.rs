@@ -73,13 +73,13 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
     let contact = traction.nodes();
     let rest = force - load_of(&pairings, &forces, u.len());
     let unbalanced = unbalanced(reference, &inner, &rest);
-    let held = support_force(model, model.restraints(), &rest, &model.load);
+    let held = support_force(model, &rest, &model.load);
     let mut steps = reference.steps.clone();
     let last = steps.last_mut().expect("a run has a step");
     (last.target_force, last.max_displacement) =
         (transmitted_force(model, held), max_displacement(&u));
     let states = stiffness.states(&u);
-    let reactions = reactions(model, model.restraints(), rest);
+    let reactions = reactions(model, rest);
     let solution = Solution { steps, contact, reactions, ..reference.with_fields(u, states) };
     Ok(Implied { solution, unbalanced })
 }
@@ -97,8 +97,8 @@ fn unbalanced(
         x.hypot(y)
     };
     let largest = model.node_ids().map(|node| size(inner, node)).fold(0.0, f64::max);
-    let (held, surface) = (model.held_directions(), model.surface_nodes());
-    let free = model.node_ids().filter(|n| held[n.index()] == 0 && !surface.contains(n));
+    let surface = model.surface_nodes();
+    let free = model.node_ids().filter(|n| model.holds.of(*n).is_empty() && !surface.contains(n));
     let worst = free.max_by(|a, b| size(rest, *a).total_cmp(&size(rest, *b)))?;
     (largest > 0.0).then(|| (worst, size(rest, worst) / largest))
 }

@@ -37,7 +37,7 @@ impl StateSearch<'_> {
             }
             Err(Unheld { t, singular }) => {
                 let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
-                let load = t.load(&self.problem.model.free_part(&self.setting.load));
+                let load = t.load(&self.setting.load);
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(StateAttempt::Free { dof: t.dof(singular.column), motion })
             }

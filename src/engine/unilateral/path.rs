@@ -385,7 +385,7 @@ impl<'a> Run<'a> {
             request: problem.request.clone(),
             model: problem.model.clone(),
             contact: contact(problem, &config, &last),
-            reactions: reactions(problem.model, problem.model.restraints(), force),
+            reactions: reactions(problem.model, force),
             elements,
             factored,
             steps,
@@ -418,7 +418,7 @@ fn step(
     let contact = load_of(&config.pairings, &solution.forces, solution.u.len());
     let at_supports = problem.supports.iter().copied();
     let reaction = problem.stiffness.times_of(at_supports, &solution.u) - load - contact;
-    let support = support_force(problem.model, problem.model.restraints(), &reaction, load);
+    let support = support_force(problem.model, &reaction, load);
     let target_force = transmitted_force(problem.model, support);
     Step {
         k,

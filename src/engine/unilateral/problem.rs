@@ -203,7 +203,7 @@ impl<'a> Problem<'a> {
             model,
             surfaces,
             closed: CLOSED * size(model),
-            supports: stiffness.about(&supports(model, model.restraints())),
+            supports: stiffness.about(&supports(model)),
             surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
@@ -245,7 +245,9 @@ impl<'a> Problem<'a> {
         statuses: Option<&'s [Status]>,
     ) -> Setting<'s> {
         let load = self.load(part);
-        let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
+        let displaced = part.min(1.0);
+        let reduced = self.reduction.as_ref();
+        let reduced = reduced.map(|own| own.eliminated(&self.stiffness, &load, displaced));
         Setting { load, part, reduced, whole: false, before, statuses }
     }
 

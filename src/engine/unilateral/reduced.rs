@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::problem::{Problem, Setting};
-use crate::elimination::{Constraint, Elimination, support_constraints};
+use crate::elimination::{Constraint, Elimination};
 use crate::linear::{Singular, SparseCholesky};
 use crate::reduction::{ReducedLoad, ReducedState};
 use crate::refinement::refined;
@@ -56,9 +56,7 @@ impl<'a> HeldBodies<'a> {
         constraints: &[Constraint],
     ) -> Result<Self, Unheld> {
         let load = &setting.load;
-        let supports = support_constraints(problem.model, setting.part.min(1.0));
-        let all: Vec<Constraint> = constraints.iter().cloned().chain(supports).collect();
-        let t = Elimination::closing(problem.model.restraints(), &all);
+        let t = Elimination::closing(&problem.model.holds, setting.part.min(1.0), constraints);
         match SparseCholesky::new(problem.stiffness.reduced(&t)) {
             Ok(factors) => Ok(HeldBodies::Whole { problem, t, load, factors: Box::new(factors) }),
             Err(singular) => Err(Unheld { t, singular }),
@@ -73,13 +71,12 @@ impl<'a> HeldBodies<'a> {
                 if !setting.whole {
                     return state.displacements(load, more);
                 }
-                let all = problem.model.free_part(&(&setting.load + more));
+                let all = &setting.load + more;
                 state.refined(&problem.stiffness, &all, (load, more))
             }
             HeldBodies::Whole { problem, t, load, factors } => {
-                let Problem { model, stiffness, .. } = problem;
-                let load = model.free_part(&(*load + more));
-                let f = t.load(&(load - stiffness.times(t.shift())));
+                let stiffness = &problem.stiffness;
+                let f = t.load(&(*load + more - stiffness.times(t.shift())));
                 let (q, residual) = refined(stiffness, t, &**factors, &f);
                 Some((t.expand(&q), residual))
             }
@@ -105,8 +102,8 @@ impl<'a> HeldBodies<'a> {
             HeldBodies::Reduced { state, .. } => return state.responses(loads),
             HeldBodies::Whole { problem, t, factors, .. } => (problem, t, factors),
         };
-        let Problem { model, stiffness, surface_triangles, .. } = problem;
-        let f: Vec<_> = loads.iter().map(|load| t.load(&model.free_part(load))).collect();
+        let Problem { stiffness, surface_triangles, .. } = problem;
+        let f: Vec<_> = loads.iter().map(|load| t.load(load)).collect();
         let q = factors.solve_all(DMatrix::from_columns(&f));
         let of_load = |(q, load): (_, &DVector<f64>)| {
             stiffness.times_of(surface_triangles.iter().copied(), &t.motion(&q)) - load

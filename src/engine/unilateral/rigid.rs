@@ -298,13 +298,9 @@ impl<'a> RigidMotions<'a> {
         let bases = Vec::new();
         let mut motions =
             RigidMotions { model, shape, body, middle, size, restrained, bases, free: 0 };
-        let axes = model.all_dofs().filter(|dof| model.is_restrained(*dof));
-        let along_axes = axes.map(|dof| (dof.node(), axis(dof)));
-        for (node, direction) in
-            along_axes.chain(model.oblique().map(|(_, hold)| (hold.node, hold.direction)))
-        {
-            if let Some(b) = motions.body[node.index()] {
-                let row = motions.motion(b, node, direction);
+        for hold in model.holds.iter() {
+            if let Some(b) = motions.body[hold.node.index()] {
+                let row = motions.motion(b, hold.node, hold.direction);
                 motions.restrained[b] += row * row.transpose();
             }
         }

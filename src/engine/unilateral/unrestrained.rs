@@ -212,7 +212,7 @@ impl Problem<'_> {
     fn turned(&self, body: usize, centre: [f64; 2]) -> Option<&'static str> {
         let (load, body) = (self.load(1.0), &self.model.bodies[body]);
         let (mut moment, mut outwards, mut forces, mut farthest) = (0.0, 0.0, 0.0, 0.0_f64);
-        let (mut held, directions) = (0, self.model.held_directions());
+        let mut held = 0;
         for node in self.model.node_ids().filter(|node| body.has(*node)) {
             let ([x, y], [fx, fy]) = (self.model.coordinates(node), node.components(&load));
             let [rx, ry] = [x - centre[0], y - centre[1]];
@@ -220,7 +220,7 @@ impl Problem<'_> {
             outwards += rx * fx + ry * fy;
             forces += fx.hypot(fy);
             farthest = farthest.max(rx.hypot(ry));
-            held += usize::from(directions[node.index()] > 0);
+            held += usize::from(!self.model.holds.of(node).is_empty());
         }
         let rounding = forces * farthest * BALANCED;
         if moment.abs() > rounding {

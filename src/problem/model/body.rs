@@ -100,16 +100,10 @@ pub fn freedom(model: &Model, nodes: &[NodeId], pinned: &[NodeId]) -> Option<Str
         gram += motion * motion.transpose();
     };
     for &n in nodes {
-        let axes = model.restraints_of(n).into_iter().zip([[1.0, 0.0], [0.0, 1.0]]);
-        let held = axes.filter(|(restrained, _)| *restrained || pinned.contains(&n));
-        held.for_each(|(_, axis)| hold(n, axis));
-    }
-    let mut oblique = model.oblique().map(|(_, own)| own).peekable();
-    if oblique.peek().is_some() {
-        let inside: HashSet<NodeId> = nodes.iter().copied().collect();
-        oblique
-            .filter(|own| inside.contains(&own.node))
-            .for_each(|own| hold(own.node, own.direction));
+        match pinned.contains(&n) {
+            true => [[1.0, 0.0], [0.0, 1.0]].into_iter().for_each(|axis| hold(n, axis)),
+            false => model.holds.of(n).iter().for_each(|own| hold(n, own.direction)),
+        }
     }
     if gram[(0, 0)] == 0.0 {
         return Some("move in x".into());

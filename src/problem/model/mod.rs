@@ -6,21 +6,24 @@
 mod body;
 mod bounds;
 mod force;
+mod holds;
 mod ids;
 mod sides;
-mod support;
 
-use serde::Serialize;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
 
 pub use body::{Body, bodies, freedom};
 pub use bounds::Bounds;
 pub use force::Force;
+pub(crate) use holds::crossing;
+pub use holds::{Hold, Holds};
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
 pub use sides::{Sides, TriangleSide, unordered};
-pub use support::{Hold, Support, crossing};
 
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;
@@ -29,9 +32,11 @@ use numbers::scalar::Scalar;
 pub(crate) const CANCELLED: f64 = 1e-13;
 
 /// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Material {
     /// The elastic modulus, stress.
+    #[serde(rename = "E")]
     pub e: f64,
     /// Poisson's ratio, which has no unit.
     pub nu: f64,
@@ -90,25 +95,6 @@ pub enum Element {
     Triangle(TriangleId),
 }
 
-/// What holds a degree of freedom. What a member means for equations is said where it is matched.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Restraint {
-    /// Nothing: it has an equation.
-    Free,
-    /// Its displacement is 0.
-    Fixed,
-}
-
-impl Restraint {
-    /// Returns whether it leaves the degree of freedom an equation.
-    pub const fn is_free(self) -> bool {
-        match self {
-            Restraint::Free => true,
-            Restraint::Fixed => false,
-        }
-    }
-}
-
 /// The finite element model. Lengths, forces and stresses are in any consistent unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
@@ -126,10 +112,10 @@ pub struct Model {
     pub sides: Sides,
     /// The edges that the mesh names, by ascending number.
     pub edges: Vec<Edge>,
-    /// What holds each degree of freedom.
-    pub(crate) restraints: Vec<Restraint>,
-    /// The restraints of the scene, in order, each with what it alone holds.
-    pub supports: Vec<Support>,
+    /// What holds the nodes.
+    pub holds: Holds,
+    /// What each restraint of the scene holds, as the scene says: the name of a group, or a node.
+    pub restraints: Vec<String>,
     /// The nodes that belong to no triangle, ascending: no equation has them, and both of their degrees
     /// of freedom count as fixed.
     pub dropped: Vec<NodeId>,
@@ -191,6 +177,17 @@ impl Model {
         &self.triangles[id.index()]
     }
 
+    /// Returns the materials, each once, in the order of the triangles.
+    pub fn materials(&self) -> Vec<Material> {
+        let mut found = Vec::new();
+        for Triangle { material, .. } in &self.triangles {
+            if !found.contains(material) {
+                found.push(*material);
+            }
+        }
+        found
+    }
+
     /// Returns an edge.
     pub fn edge(&self, id: EdgeId) -> &Edge {
         &self.edges[id.index()]
@@ -201,25 +198,15 @@ impl Model {
         self.triangle(id).nodes.map(|node| self.coordinates(node))
     }
 
-    /// Returns what holds each degree of freedom.
-    pub fn restraints(&self) -> &[Restraint] {
-        &self.restraints
-    }
-
-    /// Sets what holds a degree of freedom.
-    pub fn restrain(&mut self, dof: Dof, restraint: Restraint) {
-        self.restraints[dof.index()] = restraint;
-    }
-
-    /// Adds a node that belongs to no triangle, with what holds both of its displacements.
-    pub fn add_node(&mut self, at: [f64; 2], restraint: Restraint) {
+    /// Adds a node that belongs to no triangle, and that nothing holds.
+    pub fn add_node(&mut self, at: [f64; 2]) {
         self.nodes.push(at);
-        self.restraints.extend([restraint; 2]);
+        self.holds.add_node();
     }
 
-    /// Returns whether a degree of freedom is restrained: it has no equation.
+    /// Returns whether a degree of freedom is restrained: its displacement is given, and it has no equation.
     pub fn is_restrained(&self, dof: Dof) -> bool {
-        !self.restraints[dof.index()].is_free()
+        self.holds.given(dof).is_some()
     }
 
     /// Returns which of a node's two displacements are restrained.
@@ -227,26 +214,22 @@ impl Model {
         node.dofs().map(|dof| self.is_restrained(dof))
     }
 
-    /// Returns what no degree of freedom alone holds, which the paper's S cannot say, each with the name of its
-    /// restraint: a direction that is no axis, or a displacement other than 0.
-    pub fn oblique(&self) -> impl Iterator<Item = (&str, &Hold)> + Clone {
-        let supports = self.supports.iter();
-        let holds = supports.flat_map(|own| own.holds.iter().map(|hold| (&*own.name, hold)));
-        holds.filter(|(_, hold)| hold.dof().is_none())
+    /// Returns the name of the restraint of a hold; empty for what no restraint of the scene gives.
+    pub fn restraint_of(&self, hold: &Hold) -> &str {
+        hold.restraint.map_or("", |k| &self.restraints[k])
     }
 
-    /// Returns the number of directions, 0 to 2, along which each node is held.
-    pub fn held_directions(&self) -> Vec<usize> {
-        let count = |node| self.restraints_of(node).into_iter().filter(|held| *held).count();
-        let mut held: Vec<usize> = self.node_ids().map(count).collect();
-        self.oblique().for_each(|(_, hold)| held[hold.node.index()] += 1);
-        held
+    /// Returns the nodes that each restraint of the scene holds.
+    pub fn held_nodes(&self) -> Vec<BTreeSet<NodeId>> {
+        let mut nodes = vec![BTreeSet::new(); self.restraints.len()];
+        let by_restraint = self.holds.iter().filter_map(|hold| Some((hold.restraint?, hold.node)));
+        by_restraint.for_each(|(k, node)| _ = nodes[k].insert(node));
+        nodes
     }
 
-    /// Returns the number of degrees of freedom that are not restrained.
+    /// Returns the number of equations: motions of nodes that nothing holds.
     pub fn free_dofs(&self) -> usize {
-        let free = self.restraints.iter().filter(|restraint| restraint.is_free()).count();
-        free - self.oblique().count()
+        self.dofs() - self.holds.iter().len()
     }
 
     /// Returns the load by degree of freedom, restrained ones included, force, computed in T from
@@ -269,8 +252,8 @@ impl Model {
 
     /// Returns a load by degree of freedom with 0 at restrained ones, force.
     pub fn free_part<T: Scalar>(&self, load: &DVector<T>) -> DVector<T> {
-        let free = |e: usize, _| if self.restraints[e].is_free() { load[e] } else { T::zero() };
-        DVector::from_fn(self.dofs(), free)
+        let free = |(dof, load): (Dof, &T)| if self.is_restrained(dof) { T::zero() } else { *load };
+        DVector::from_iterator(self.dofs(), self.all_dofs().zip(load.iter()).map(free))
     }
 
     /// Returns the sum of the loads along x and y, force; 0 where they cancel each other to rounding.

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::description::{Axis, Contact, Description, Load, LoadKind, Material, Restraint, Units};
+use super::description::{Axis, Contact, Description, Load, LoadKind, Restraint, Units};
 use super::groups::GroupRef;
 use super::mesh::Mesh;
 use super::{Scene, file, gmsh};
 use crate::element::Plane;
-use crate::model::NodeId;
+use crate::model::{Material, NodeId};
 use crate::modelling::Variant;
 use base::error::{InputError, Result};
 use base::files;

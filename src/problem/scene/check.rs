@@ -112,11 +112,11 @@ pub fn contact(
 ///
 /// # Errors
 /// Names the restraint and the node.
-pub fn supports(mesh: &Mesh, model: &Model) -> Result<()> {
+pub fn holds(mesh: &Mesh, model: &Model) -> Result<()> {
     let surfaces = model.surface_nodes();
-    let held = model.oblique().find(|(_, hold)| surfaces.contains(&hold.node));
-    held.map_or(Ok(()), |(name, hold)| {
-        let node = mesh.named(&[hold.node.number()]);
+    let mut others = model.holds.iter().filter(|hold| hold.dof().is_none());
+    others.find(|hold| surfaces.contains(&hold.node)).map_or(Ok(()), |hold| {
+        let (node, name) = (mesh.named(&[hold.node.number()]), model.restraint_of(hold));
         let what = format!(
             "node {node} is on a contact surface, and {name} holds it along no axis, or at another displacement than 0"
         );

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::groups::GroupRef;
 use super::surface::Surface;
 use crate::element::Plane;
+use crate::model::Material;
 use crate::modelling::{
     ContactModel, Coupling, Friction, Geometry, LOAD_STEPS, StatusRule, Variant, load_steps,
 };
@@ -81,6 +82,11 @@ impl Description {
         restraints.chain(loads).chain(contact).collect()
     }
 
+    /// Returns the variant that is run: a scene of one's own asks for contact as it is, not for the paper's algorithm.
+    pub(super) fn variant(&self) -> Variant {
+        self.variant.unwrap_or(Variant::Unilateral)
+    }
+
     /// Describes a plane problem with no material, thickness 1 and no load, for the contact solution.
     pub fn new(plane: Plane) -> Self {
         Description {
@@ -138,17 +144,6 @@ pub struct Units {
     pub stress: String,
     /// The unit of forces (per unit thickness where the thickness is 1), such as `N`.
     pub force: String,
-}
-
-/// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// The elastic modulus, stress.
-    #[serde(rename = "E")]
-    pub e: f64,
-    /// Poisson's ratio, which has no unit.
-    pub nu: f64,
 }
 
 /// The materials in their order in the scene file, each with its physical group of triangles.

@@ -7,11 +7,12 @@ use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
-use super::description::{Description, Material, Materials};
+use super::description::{Description, Materials};
 use super::gmsh;
 use super::groups::GroupRef;
 use super::mesh::Mesh;
 use super::surface::Surface;
+use crate::model::Material;
 use base::error::{InputError, Result};
 use base::files::{json, kind_of};
 use base::limits;

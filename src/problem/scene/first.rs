@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 use super::Scene;
 use super::check;
-use super::description::{Description, Material, Materials};
+use super::description::{Description, Materials};
 use super::file::{self, text_of};
 use super::groups::{GroupRef, Groups};
 use super::mesh::{Element, Mesh};
 use super::surface::Surface;
 use crate::element::Plane;
-use crate::model::{Bounds, Model, NodeId, Sides};
+use crate::model::{Bounds, Material, Model, NodeId, Sides};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 use numbers::joined::joined;

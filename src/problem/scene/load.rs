@@ -49,7 +49,7 @@ pub fn apply(
         forces.push(own);
     }
     // Restraints displace nodes in the first stage.
-    let displaced = model.oblique().any(|(_, hold)| hold.displacement != 0.0).then_some(1);
+    let displaced = model.holds.displace().then_some(1);
     let numbers: BTreeSet<usize> =
         loads.iter().map(|load| load.stage.unwrap_or(1)).chain(displaced).collect();
     let last = numbers.last().copied().unwrap_or(1);
@@ -92,12 +92,11 @@ fn drop_cancelled(model: &mut Model) {
 /// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the contact surfaces.
 /// `of` is the place of the load of each part.
 pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
-    let held = model.held_directions();
     let is_taken = |part: &Force| {
         let loaded = part.on_each_node(model, &|x| x).map(|force| force != 0.0);
         let takes = |node: NodeId| {
             let mut along = loaded.into_iter().zip(model.restraints_of(node));
-            held[node.index()] == 2 || along.all(|(loaded, held)| held || !loaded)
+            along.all(|(loaded, held)| held || !loaded)
         };
         loaded.contains(&true) && part.nodes().all(takes)
     };
@@ -132,17 +131,18 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
     }
     // A body that is held at all its nodes is rigid, as it is meant to be.
     let is_rigid = |node: NodeId| {
-        model.body_of(node).is_some_and(|body| body.nodes.iter().all(|n| held[n.index()] == 2))
+        model
+            .body_of(node)
+            .is_some_and(|body| body.nodes.iter().all(|n| model.holds.of(*n).len() == 2))
     };
-    for support in &model.supports {
-        let nodes: HashSet<NodeId> = support.holds.iter().map(|hold| hold.node).collect();
+    for (name, nodes) in model.restraints.iter().zip(model.held_nodes()) {
         let is_held = |edge: &&[NodeId; 2]| edge.iter().all(|end| nodes.contains(end));
         let count = surfaces.iter().filter(is_held).filter(|edge| !is_rigid(edge[0])).count();
         if count > 0 {
             notes.push(format!(
                 "The restraint of {} holds {count} of the {} edges of the contact surfaces, and may take what contact \
                  presses there",
-                support.name,
+                name,
                 surfaces.len()
             ));
         }

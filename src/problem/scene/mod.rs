@@ -35,9 +35,7 @@ use nalgebra::DVector;
 
 pub use builder::SceneBuilder;
 pub use derived::Derived;
-pub use description::{
-    Axis, Contact, Description, Load, LoadKind, Material, Materials, Restraint, Units,
-};
+pub use description::{Axis, Contact, Description, Load, LoadKind, Materials, Restraint, Units};
 pub use embedded::{Embedded, FINDING_SCENES, SCENES};
 pub use file::schema;
 pub use first::{FirstScene, first};
@@ -48,7 +46,7 @@ pub use mesh::{Element, Mesh, MeshBuilder, Node, NodeNumbers, PhysicalName, Tags
 pub use scene_file::SceneFile;
 pub use surface::Surface;
 
-use super::model::{self, Edge, EdgeId, Hold, Model, NodeId, Row, Sides, Triangle, TriangleId};
+use super::model::{self, Edge, EdgeId, Model, NodeId, Row, Sides, Triangle, TriangleId};
 use super::modelling::{ContactModel, Coupling, Variant};
 use base::error::{InputError, Result};
 use base::limits::check_steps;
@@ -74,12 +72,7 @@ pub struct Scene {
     pub variant: Variant,
     /// The model of contact beyond what the paper prints.
     pub contact: ContactModel,
-    /// Whether it is to run under `unilateral` and says nothing of friction.
-    pub(super) friction_is_missing: bool,
-    /// Whether it names neither a variant nor a coupling.
-    coupling_is_missing: bool,
-    /// The description and mesh from which it was built; None for half a scene.
-    source: Option<Arc<Source>>,
+    source: Arc<Source>,
 }
 
 /// What a scene was built from.
@@ -136,7 +129,9 @@ impl Scene {
     /// # Errors
     /// It says nothing of friction.
     pub fn check_friction(&self) -> Result<()> {
-        if !self.friction_is_missing {
+        let own = &self.source.description;
+        let says = own.contact.as_ref().is_none_or(|contact| contact.friction.is_some());
+        if says || own.variant() != Variant::Unilateral {
             return Ok(());
         }
         let what = "nothing is said of friction between the surfaces";
@@ -145,16 +140,18 @@ impl Scene {
         Err(InputError::new("contact.friction", what, fix))
     }
 
-    /// Returns the description and the mesh from which the scene was built; None for half a scene.
-    pub fn source(&self) -> Option<(&Description, &Mesh)> {
-        self.source.as_deref().map(|source| (&source.description, &source.mesh))
+    /// Returns the description and the mesh from which the scene was built.
+    pub fn source(&self) -> (&Description, &Mesh) {
+        (&self.source.description, &self.source.mesh)
     }
 
     /// Returns the coupling under a variant: of a scene that names neither mortar under `unilateral`, as contact is
     /// asked for as it is, and that of `c_cnt` under the paper's.
     pub fn coupling(&self, variant: Variant) -> Coupling {
+        let own = &self.source.description;
+        let says = own.contact.as_ref().is_none_or(|contact| contact.coupling.is_some());
         match variant {
-            Variant::Unilateral if self.coupling_is_missing => Coupling::Mortar,
+            Variant::Unilateral if own.variant.is_none() && !says => Coupling::Mortar,
             Variant::Unilateral | Variant::Printed | Variant::Tied | Variant::Stepped => {
                 self.contact.coupling
             }
@@ -164,18 +161,25 @@ impl Scene {
     /// Says what the mesh file has in another form than the mesh here, where the mesh has slits, and what looks like a
     /// mistake of units, in sentences.
     pub fn adapted(&self) -> &[String] {
-        self.source.as_deref().map_or(&[], |source| &source.notes)
+        &self.source.notes
     }
 
     /// Says where the mesh has slits, across which nothing is passed on; None where it has none.
     pub fn slits(&self) -> Option<&str> {
-        self.source.as_deref()?.slits.as_deref()
+        self.source.slits.as_deref()
     }
 
     /// Returns the SHA-256 of the description and that of the mesh, each as a snapshot has it, as JSON
-    /// without blanks; None for half a scene.
-    pub fn hashes(&self) -> Option<&[String; 2]> {
-        self.source.as_deref().map(|source| &source.hashes)
+    /// without blanks.
+    pub fn hashes(&self) -> &[String; 2] {
+        &self.source.hashes
+    }
+
+    /// Returns the scene on a mesh that was made of its own, described anew.
+    fn on(&self, description: Description, mesh: Mesh, dropped: Vec<NodeId>) -> Result<Self> {
+        let scene = Scene::assemble(&self.name, description, mesh, dropped)?;
+        let (word, contact) = (self.word.clone(), self.contact);
+        Ok(Scene { word, contact, variant: self.variant, iterations: self.iterations, ..scene })
     }
 
     fn assemble(
@@ -190,20 +194,15 @@ impl Scene {
         let kinds = &description.materials.0;
         let groups: Vec<String> = kinds.iter().map(|(group, _)| group.text()).collect();
         let mut triangles = Vec::with_capacity(materials.len());
-        triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| {
-            let Material { e, nu } = kinds[*kind as usize].1;
-            Triangle { nodes: nodes(element), material: model::Material { e, nu } }
+        triangles.extend(mesh.of_dimension(2).zip(&materials).map(|(element, kind)| Triangle {
+            nodes: nodes(element),
+            material: kinds[*kind as usize].1,
         }));
         let group = |id: TriangleId| &*groups[materials[id.index()] as usize];
         let edge = |edge: &Element| Edge { number: edge.number, nodes: nodes(edge) };
         let sides = Sides::new(triangles.iter().map(|triangle| triangle.nodes));
-        let supports =
-            support::supports(&mesh, &physical, &sides, &dropped, &description.restraints)?;
-        let mut restraints = vec![model::Restraint::Free; 2 * mesh.nodes.len()];
-        let fixed = supports.iter().flat_map(|support| &support.holds).filter_map(Hold::dof);
-        fixed
-            .chain(dropped.iter().flat_map(|n| n.dofs()))
-            .for_each(|dof| restraints[dof.index()] = model::Restraint::Fixed);
+        let (restraints, holds) =
+            support::holds(&mesh, &physical, &sides, &dropped, &description.restraints)?;
         let mut model = Model {
             plane: description.plane,
             thickness: description.thickness,
@@ -218,11 +217,11 @@ impl Scene {
             rows: rows(&mesh),
             triangles,
             sides,
+            holds,
             restraints,
-            supports,
             dropped,
         };
-        check::supports(&mesh, &model)?;
+        check::holds(&mesh, &model)?;
         let slits = slit::slits(&mesh, &model);
         check::restrained_bodies(&model).map_err(|why| why.hinting(slits.as_deref()))?;
         fold::check(&mesh, &model)?;
@@ -231,13 +230,12 @@ impl Scene {
         let notes = slits.iter().cloned().chain(slit::loose_edges(&mesh, &model));
         let notes = notes.chain(wide_tolerance(&model)).chain(first::fine_contact(&model));
         let notes = notes.chain(units::misfit(&description.units));
-        let notes = notes.chain(support::narrow(&mesh, &model.supports)).chain(in_vain);
+        let notes = notes.chain(support::narrow(&mesh, &model)).chain(in_vain);
         let notes = notes.chain(first::not_facing(&mesh, &physical, &description));
         let notes = notes.chain(physical.without_triangles());
         let notes = mesh.adapted.iter().cloned().chain(notes).collect();
         let contact = description.contact.as_ref();
-        // A scene of one's own asks for contact as it is, not for the paper's algorithm.
-        let variant = description.variant.unwrap_or(Variant::Unilateral);
+        let variant = description.variant();
         if variant != Variant::Unilateral {
             check_steps(description.iterations, mesh.nodes.len(), "iterations")?;
         }
@@ -250,17 +248,13 @@ impl Scene {
             iterations: description.iterations,
             variant,
             contact: contact.map_or(ContactModel::default(), Contact::model),
-            friction_is_missing: variant == Variant::Unilateral
-                && contact.is_some_and(|contact| contact.friction.is_none()),
-            coupling_is_missing: description.variant.is_none()
-                && contact.is_some_and(|contact| contact.coupling.is_none()),
-            source: Some(Arc::new(Source {
+            source: Arc::new(Source {
                 hashes: source_hashes(&description, &mesh),
                 notes,
                 slits,
                 description,
                 mesh,
-            })),
+            }),
         })
     }
 }

@@ -18,16 +18,14 @@ use crate::model::NodeId;
 use base::error::Result;
 
 impl Scene {
-    /// Returns the scene on a mesh of half the element size, with everything else unchanged; None
-    /// for half a scene, which has no mesh. Nodes keep their numbers, and new ones follow, each of
+    /// Returns the scene on a mesh of half the element size, with everything else unchanged. Nodes keep their numbers, and new ones follow, each of
     /// which halves an edge; triangle n (row of `EL`) becomes 4n − 3 .. 4n. A restraint or a force on
     /// a single node stays on that node.
     ///
     /// # Errors
     /// The finer scene cannot be built.
-    pub fn refined(&self) -> Result<Option<Derived>> {
-        let Some(source) = &self.source else { return Ok(None) };
-        let mesh = &source.mesh;
+    pub fn refined(&self) -> Result<Derived> {
+        let (description, mesh) = self.source();
         // Each side of an element is halved once; a point has none.
         let key = |a: usize, b: usize| [a.min(b), a.max(b)];
         let (mut parents, mut halves) = (Vec::new(), HashMap::new());
@@ -67,7 +65,7 @@ impl Scene {
             }
         }
         // The lists of contact nodes and of target edges get the new ones.
-        let mut description = source.description.clone();
+        let mut description = description.clone();
         if let Some(contact) = &mut description.contact {
             if let Surface::Numbers(nodes) = &mut contact.contact {
                 // The outline's edges between listed nodes; those that do not follow the list, as one that closes a
@@ -94,16 +92,12 @@ impl Scene {
         }
         let (names, adapted) = (mesh.names.clone(), mesh.adapted.clone());
         let finer = Mesh { nodes, elements, names, adapted, in_file: Vec::new() };
-        let mut scene =
-            Scene::assemble(&self.name, description, finer, self.model.dropped.clone())?;
-        (scene.variant, scene.contact) = (self.variant, self.contact);
-        scene.word.clone_from(&self.word);
-        scene.iterations = self.iterations;
+        let scene = self.on(description, finer, self.model.dropped.clone())?;
         let parents = parents.into_iter().map(|ends| ends.map(NodeId::from_number));
-        Ok(Some(Derived {
+        Ok(Derived {
             scene,
             nodes: self.model.node_ids().map(|node| [node; 2]).chain(parents).collect(),
             triangles: self.model.triangle_ids().flat_map(|id| [id; 4]).collect(),
-        }))
+        })
     }
 }

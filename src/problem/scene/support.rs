@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::description::{Axis, Restraint};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::model::{Bounds, Hold, NodeId, Sides, Support, crossing};
+use crate::model::{Bounds, Hold, Holds, Model, NodeId, Sides, crossing};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
@@ -26,57 +26,52 @@ const CORNER: f64 = 0.866;
 /// How far a node may be from the coordinates that name it, over the larger side of the mesh.
 const NEAR: f64 = 1e-6;
 
-/// Returns what each restraint holds, in order, and no restraint before it does.
+/// Returns the names of what restraints hold, and what each holds and no restraint before it does; what belongs to
+/// no triangle is held along both axes.
 ///
 /// # Errors
 /// A restraint names no place or several, or a node or a group that does not exist; a direction or a displacement
 /// is missing or no number; two restraints displace a node along one direction by different amounts.
-pub fn supports(
+pub fn holds(
     mesh: &Mesh,
     groups: &Groups,
     sides: &Sides,
     dropped: &[NodeId],
     restraints: &[Restraint],
-) -> Result<Vec<Support>> {
+) -> Result<(Vec<String>, Holds)> {
     let mut held = Held { mesh, of_node: HashMap::new() };
     // Many restraints may name one group, which has many nodes.
     let mut done = HashSet::new();
-    let mut supports = Vec::with_capacity(restraints.len());
+    let mut names = Vec::with_capacity(restraints.len());
     for (k, restraint) in restraints.iter().enumerate() {
         let place = format!("restraints[{k}]");
         let displacements = displacements(restraint, &place)?;
         let (name, site) = site((mesh, dropped), groups, restraint, &place)?;
-        let mut holds = Vec::new();
         for (axis, displacement) in restraint.fix.iter().zip(displacements) {
             if !done.insert(format!("{name} {axis:?} {displacement:e}")) {
                 continue;
             }
             for (node, direction) in directions(mesh, groups, sides, &site, *axis, &place)? {
-                let hold = Hold { node, direction, displacement };
-                if held.is_new(&hold, k)? {
-                    holds.push(hold);
-                }
+                held.add(Hold { node, direction, displacement, restraint: Some(k) })?;
             }
         }
-        supports.push(Support { name, holds });
+        names.push(name);
     }
-    Ok(supports)
+    let all = held.of_node.into_values().flatten().collect();
+    let mut holds = Holds::new(mesh.nodes.len(), all);
+    holds.fix(dropped.iter().flat_map(|node| node.dofs()));
+    Ok((names, holds))
 }
 
 /// Names the first node that two restraints hold along directions that are nearly one, as where a smooth curve is in
 /// two groups; it then cannot move at all.
-pub fn narrow(mesh: &Mesh, supports: &[Support]) -> Option<String> {
-    let mut held: BTreeMap<NodeId, Vec<(usize, [f64; 2])>> = BTreeMap::new();
-    for (k, support) in supports.iter().enumerate() {
-        support
-            .holds
-            .iter()
-            .for_each(|hold| held.entry(hold.node).or_default().push((k, hold.direction)));
-    }
-    let nearly_one = held.iter().filter_map(|(node, along)| {
-        let [(j, a), (k, b)] = along[..] else { return None };
+pub fn narrow(mesh: &Mesh, model: &Model) -> Option<String> {
+    let nearly_one = model.node_ids().filter_map(|node| {
+        let [one, other] = model.holds.of(node) else { return None };
+        let (a, b) = (one.direction, other.direction);
         let cosine = (a[0] * b[0] + a[1] * b[1]).abs();
-        (j != k && cosine > CORNER).then_some((node, [j, k], cosine))
+        let by = [one.restraint?, other.restraint?];
+        (by[0] != by[1] && cosine > CORNER).then_some((node, by, cosine))
     });
     let all: Vec<_> = nearly_one.collect();
     let (node, [j, k], cosine) = all.first()?;
@@ -89,9 +84,9 @@ pub fn narrow(mesh: &Mesh, supports: &[Support]) -> Option<String> {
          at all: put both curves in one group, and it is held along their mean",
         mesh.named(&[node.number()]),
         j + 1,
-        supports[*j].name,
+        model.restraints[*j],
         k + 1,
-        supports[*k].name,
+        model.restraints[*k],
         six_digits(cosine.min(1.0).acos().to_degrees().round())
     ))
 }
@@ -268,32 +263,33 @@ fn unit([x, y]: [f64; 2]) -> Option<[f64; 2]> {
 /// The directions along which nodes are held so far.
 struct Held<'a> {
     mesh: &'a Mesh,
-    /// Those of each node, at most two, each with the restraint that holds it.
-    of_node: HashMap<NodeId, Vec<(Hold, usize)>>,
+    /// Those of each node, at most two.
+    of_node: HashMap<NodeId, Vec<Hold>>,
 }
 
 impl Held<'_> {
-    /// Returns whether restraint `k` holds what those before it do not, and keeps it then.
+    /// Keeps what a restraint holds where those before it do not.
     ///
     /// # Errors
     /// They displace the node by another amount along that direction, or hold it along nearly the same one.
-    fn is_new(&mut self, hold: &Hold, k: usize) -> Result<bool> {
+    fn add(&mut self, hold: Hold) -> Result<()> {
+        let by = |hold: &Hold| hold.restraint.expect("a restraint gives it");
+        let k = by(&hold);
         let before = self.of_node.entry(hold.node).or_default();
         let [x, y] = hold.direction;
         let sine = |other: &Hold| (x * other.direction[1] - y * other.direction[0]).abs();
-        let near = before.iter().find(|(other, _)| sine(other) < TWO);
+        let near = before.iter().find(|other| sine(other) < TWO);
         let already = match (near, &before[..]) {
-            (Some((other, _)), _) if sine(other) <= SAME => {
+            (Some(other), _) if sine(other) <= SAME => {
                 let along = x * other.direction[0] + y * other.direction[1];
                 along.signum() * other.displacement
             }
-            (_, [(a, _), (b, _)]) => {
-                let given = [a.displacement, b.displacement];
-                let [u, v] = crossing([a.direction, b.direction], given).expect("they are two");
+            (_, [a, b]) => {
+                let [u, v] = crossing([a, b]);
                 x * u + y * v
             }
-            (Some((other, first)), _) => {
-                let degrees = sine(other).asin().to_degrees();
+            (Some(other), _) => {
+                let (first, degrees) = (by(other), sine(other).asin().to_degrees());
                 let what = format!(
                     "restraints[{first}] and restraints[{k}] hold node {} along directions {} degrees apart",
                     self.mesh.named(&[hold.node.number()]),
@@ -303,16 +299,16 @@ impl Held<'_> {
                 return Err(InputError::new(format!("restraints[{k}]"), what, fix));
             }
             (None, _) => {
-                before.push((*hold, k));
-                return Ok(true);
+                before.push(hold);
+                return Ok(());
             }
         };
-        let sizes = before.iter().map(|(other, _)| other.displacement.abs());
+        let sizes = before.iter().map(|other| other.displacement.abs());
         let size = sizes.fold(hold.displacement.abs(), f64::max);
         if (already - hold.displacement).abs() <= SAME * size {
-            return Ok(false);
+            return Ok(());
         }
-        let first = before[0].1;
+        let first = by(&before[0]);
         let what = format!(
             "node {} is displaced by {} along [{}, {}], and by {} as restraints[{first}] has it",
             self.mesh.named(&[hold.node.number()]),

@@ -5,16 +5,15 @@
 //! the half right of it, restrained in x on the line, has the same solution.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
-use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::Scene;
 use super::derived::Derived;
-use crate::model::{
-    Body, ContactSurfaces, Dof, Edge, EdgeId, Element, Force, Hold, Model, NodeId, Restraint, Row,
-    Sides, Support, Triangle, TriangleId, unordered,
-};
+use super::description::{Axis, Description, LoadKind, Restraint};
+use super::groups::Groups;
+use super::mesh::{Element, KINDS, Mesh};
+use super::{Scene, Surface};
+use crate::model::{Edge, Model, NodeId, Triangle, TriangleId, unordered};
 
 /// The largest distance of a node from its image, over the scene's size: meshes are rounded.
 const PLACE: f64 = 1e-9;
@@ -22,31 +21,90 @@ const PLACE: f64 = 1e-9;
 /// The largest difference of a load from its image, over the largest load.
 const LOAD: f64 = 1e-9;
 
+/// The tag of the edges along the line in the mesh of a half: no other has one so large.
+const LINE: usize = usize::MAX;
+
 /// Returns the half of `scene` right of the line; None where it is not symmetric about a vertical line.
 pub fn half(scene: &Scene) -> Option<Derived> {
-    let whole = &*scene.model;
-    images(whole)?;
-    let line = Line::of(whole);
-    let right =
-        |id: &TriangleId| whole.triangle(*id).nodes.iter().all(|node| line.side(*node) >= 0);
-    let triangles: Vec<TriangleId> = whole.triangle_ids().filter(right).collect();
+    let model = &*scene.model;
+    images(model)?;
+    let line = Line::of(model);
+    let is_right =
+        |id: &TriangleId| model.triangle(*id).nodes.iter().all(|node| line.side(*node) >= 0);
+    let triangles: Vec<TriangleId> = model.triangle_ids().filter(is_right).collect();
     let nodes: BTreeSet<NodeId> =
-        triangles.iter().flat_map(|id| whole.triangle(*id).nodes).collect();
-    let nodes: Vec<NodeId> = nodes.into_iter().collect();
-    let scene = Scene {
-        name: scene.name.clone(),
-        word: scene.word.clone(),
-        title: scene.title.clone(),
-        units: scene.units.clone(),
-        model: Arc::new(restricted(&line, &nodes, &triangles)),
-        iterations: scene.iterations,
-        variant: scene.variant,
-        contact: scene.contact,
-        friction_is_missing: scene.friction_is_missing,
-        coupling_is_missing: scene.coupling_is_missing,
-        source: None,
-    };
+        triangles.iter().flat_map(|id| model.triangle(*id).nodes).collect();
+    let mut mesh = mesh(scene, &line, &triangles, &nodes);
+    let mut description = description(scene, &line, &mesh, &nodes);
+    mesh.adapt(&mut description).ok()?;
+    let scene = scene.on(description, mesh, Vec::new()).ok()?;
     Some(Derived { scene, nodes: nodes.into_iter().map(|node| [node; 2]).collect(), triangles })
+}
+
+/// Returns the mesh of a half with its `nodes`, under the scene's numbers: a part of the scene's, and edges along the
+/// line.
+fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], nodes: &BTreeSet<NodeId>) -> Mesh {
+    let (_, whole) = scene.source();
+    let is_inside = |n: &usize| nodes.contains(&NodeId::from_number(*n));
+    let own = whole.elements.iter().filter(|element| element.nodes.iter().all(is_inside));
+    let sides = triangles.iter().flat_map(|id| {
+        let [a, b, c] = scene.model.triangle(*id).nodes;
+        [[a, b], [b, c], [c, a]]
+    });
+    let on_line = sides.filter(|side| side.iter().all(|node| line.side(*node) == 0));
+    let last = whole.elements.last().map_or(0, |element| element.number);
+    let along = (last + 1..).zip(on_line).map(|(number, side)| Element {
+        number,
+        kind: KINDS[1].number,
+        physical: [LINE].into(),
+        geometric: LINE,
+        nodes: side.map(NodeId::number)[..].into(),
+    });
+    Mesh {
+        names: whole.names.clone(),
+        nodes: nodes.iter().map(|node| whole.nodes[node.index()].clone()).collect(),
+        elements: own.cloned().chain(along).collect(),
+        ..Mesh::default()
+    }
+}
+
+/// Describes a half on its mesh: the line is restrained in x, and has half of the forces on its nodes.
+fn description(scene: &Scene, line: &Line, mesh: &Mesh, nodes: &BTreeSet<NodeId>) -> Description {
+    let (model, groups) = (&*scene.model, Groups::new(mesh));
+    let mut own = scene.source().0.clone();
+    own.materials.0.retain(|(group, _)| groups.places(2, group, "materials").is_ok());
+    let held = own.restraints.into_iter().zip(model.held_nodes());
+    let held = held.filter(|(restraint, held)| match &restraint.on {
+        Some(on) => groups.nodes(on, "restraints").is_ok(),
+        None => held.iter().any(|node| nodes.contains(node)),
+    });
+    let of_line = |on, node| Restraint { on, node, fix: vec![Axis::X], ..Restraint::default() };
+    let on_line = nodes.iter().filter(|node| line.side(**node) == 0);
+    // A finer mesh has more nodes along the edges; no edge may be there.
+    let edges = groups.places(1, &LINE.into(), "restraints").ok();
+    let along = edges.map(|_| of_line(Some(LINE.into()), None)).into_iter();
+    let along = along.chain(on_line.map(|node| of_line(None, Some(node.number()))));
+    own.restraints = held.map(|(restraint, _)| restraint).chain(along).collect();
+    own.loads.retain_mut(|load| match &mut load.kind {
+        LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
+            groups.places(1, on, "loads").is_ok()
+        }
+        LoadKind::Force { node, force: [x, y] } => {
+            let node = NodeId::from_number(*node);
+            if line.side(node) == 0 {
+                (*x, *y) = (0.0, 0.5 * *y);
+            }
+            nodes.contains(&node)
+        }
+    });
+    if let Some(contact) = &mut own.contact {
+        let on_contact = model.contact.nodes.iter().filter(|node| nodes.contains(node));
+        let is_inside = |edge: &&Edge| edge.nodes.iter().all(|node| nodes.contains(node));
+        let on_target = model.target_edges().filter(is_inside);
+        contact.contact = Surface::Numbers(on_contact.map(|node| node.number()).collect());
+        contact.target = Surface::Numbers(on_target.map(|edge| edge.number).collect());
+    }
+    own
 }
 
 /// The only line about which a model may be symmetric.
@@ -125,13 +183,9 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
     let target: HashSet<[NodeId; 2]> =
         model.target_edges().map(|edge| unordered(edge.nodes)).collect();
     // Restraints and loads.
-    let of = |dof: Dof| model.restraints[dof.index()];
     let same_restraints = |n: NodeId| {
-        let mut pairs = n.dofs().into_iter().zip(image(n).dofs());
-        pairs.all(|(one, other)| match (of(one), of(other)) {
-            (Restraint::Free, Restraint::Free) | (Restraint::Fixed, Restraint::Fixed) => true,
-            (Restraint::Free, Restraint::Fixed) | (Restraint::Fixed, Restraint::Free) => false,
-        })
+        let [[x, y], [mx, my]] = [n, image(n)].map(|n| n.dofs().map(|dof| model.holds.given(dof)));
+        model.holds.oblique(n).is_none() && x == mx.map(|u| -u) && y == my
     };
     let same_load = |load: &DVector<f64>| {
         let near = LOAD * load.amax();
@@ -144,90 +198,7 @@ pub fn images(model: &Model) -> Option<Vec<NodeId>> {
         && model.triangles.iter().all(|t| triangles.contains(&key(t.nodes.map(image), t)))
         && contact.iter().all(|n| contact.contains(&image(*n)))
         && target.iter().all(|edge| target.contains(&unordered(edge.map(image))))
-        && model.oblique().next().is_none()
         && model.node_ids().all(same_restraints)
         && model.stages.iter().all(same_load);
     is_symmetric.then_some(images)
-}
-
-/// Returns the part of a model with these nodes and triangles; nodes on the line are restrained in x, and have half of
-/// their load.
-fn restricted(line: &Line, nodes: &[NodeId], triangles: &[TriangleId]) -> Model {
-    let whole = line.model;
-    let numbers: HashMap<NodeId, NodeId> =
-        nodes.iter().copied().zip(NodeId::all(nodes.len())).collect();
-    let number = |node: &NodeId| numbers.get(node).copied();
-    let is_inside = |id: &EdgeId| whole.edge(*id).nodes.iter().all(|n| numbers.contains_key(n));
-    let edges: Vec<EdgeId> = EdgeId::all(whole.edges.len()).filter(is_inside).collect();
-    let edge_number = |id: &EdgeId| edges.binary_search(id).ok().map(EdgeId::new);
-    let own_triangles: Vec<Triangle> = triangles
-        .iter()
-        .map(|id| {
-            let triangle = whole.triangle(*id);
-            Triangle { nodes: triangle.nodes.map(|node| numbers[&node]), ..*triangle }
-        })
-        .collect();
-    let dofs = || nodes.iter().flat_map(|n| n.dofs());
-    let on_line = |dof: Dof| line.side(dof.node()) == 0;
-    let restraint = |dof: Dof| match whole.restraints[dof.index()] {
-        Restraint::Free if dof.direction() == 0 && on_line(dof) => Restraint::Fixed,
-        own => own,
-    };
-    let own_part = |load: &DVector<f64>| {
-        let half = |dof: Dof| match (on_line(dof), dof.direction()) {
-            (true, 0) => 0.0,
-            (true, _) => 0.5 * load[dof.index()],
-            (false, _) => load[dof.index()],
-        };
-        DVector::from_iterator(2 * nodes.len(), dofs().map(half))
-    };
-    let support = |support: &Support| {
-        let own = |hold: &Hold| Some(Hold { node: number(&hold.node)?, ..*hold });
-        let holds = support.holds.iter().filter_map(own).collect();
-        Support { name: support.name.clone(), holds }
-    };
-    let triangle_number = |id: &TriangleId| triangles.binary_search(id).ok().map(TriangleId::new);
-    let body = |body: &Body| Body {
-        name: body.name.clone(),
-        triangles: body.triangles.iter().filter_map(triangle_number).collect(),
-        nodes: body.nodes.iter().filter_map(number).collect(),
-    };
-    let row = |row: &Row| {
-        let element = match row.element {
-            Element::Point(node) => Element::Point(number(&node)?),
-            Element::Edge(id) => Element::Edge(edge_number(&id)?),
-            Element::Triangle(id) => Element::Triangle(triangle_number(&id)?),
-        };
-        Some(Row { element, ..*row })
-    };
-    let load = own_part(&whole.load);
-    let contact = &whole.contact;
-    Model {
-        nodes: nodes.iter().map(|n| whole.coordinates(*n)).collect(),
-        sides: Sides::new(own_triangles.iter().map(|triangle| triangle.nodes)),
-        triangles: own_triangles,
-        edges: edges
-            .iter()
-            .map(|id| whole.edge(*id))
-            .map(|edge| Edge { nodes: edge.nodes.map(|node| numbers[&node]), ..*edge })
-            .collect(),
-        restraints: dofs().map(restraint).collect(),
-        supports: whole.supports.iter().map(support).collect(),
-        forces: NodeId::all(nodes.len())
-            .map(|node| Force::Node(node, node.components(&load)))
-            .collect(),
-        load,
-        stages: whole.stages.iter().map(own_part).collect(),
-        bodies: whole.bodies.iter().map(body).filter(|body| !body.triangles.is_empty()).collect(),
-        contact: ContactSurfaces {
-            nodes: contact.nodes.iter().filter_map(number).collect(),
-            target: contact.target.iter().filter_map(edge_number).collect(),
-            tolerance: contact.tolerance,
-        },
-        rows: whole.rows.iter().filter_map(row).collect(),
-        dropped: Vec::new(),
-        plane: whole.plane,
-        thickness: whole.thickness,
-        z: whole.z,
-    }
 }

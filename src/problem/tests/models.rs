@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 use problem::element::Plane;
-use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, Restraint, TriangleId, freedom};
+use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
 use serde_json::{Value, json};
 use testing::embedded::scene_json;
@@ -102,11 +102,11 @@ fn what_restraints_leave_free() {
     for (restraints, expected) in cases {
         // The scene is sound; the restraints are changed afterwards.
         let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
-        model.all_dofs().for_each(|dof| model.restrain(dof, Restraint::Free));
+        model.holds.release(model.all_dofs());
         for (node, axes) in restraints {
             for axis in *axes {
                 let [x, y] = NodeId::from_number(*node).dofs();
-                model.restrain(if *axis == X { x } else { y }, Restraint::Fixed);
+                model.holds.fix([if *axis == X { x } else { y }]);
             }
         }
         // Sizes and places change nothing.
@@ -125,10 +125,8 @@ fn what_restraints_leave_free() {
 #[test]
 fn restraints_beside_each_other_leave_a_body_free_to_turn() {
     let mut model = Model::clone(&held(blocks(&["a"]), 1).build().expect("sound").model);
-    for dof in model.all_dofs() {
-        let is_fixed = [0, 1, 3].contains(&dof.index());
-        model.restrain(dof, if is_fixed { Restraint::Fixed } else { Restraint::Free });
-    }
+    model.holds.release(model.all_dofs());
+    model.holds.fix([0, 1, 3].map(Dof::new));
     let mut found = |apart: f64| {
         model.nodes = vec![[0.0, 0.0], [apart, 0.0], [1.0, 1.0], [-1.0, -1.0]];
         freedom(&model, &model.bodies[0].nodes, &[])
@@ -275,13 +273,13 @@ fn shapes_and_places() {
     let u = DVector::from_fn(10, |k, _| if k % 2 == 0 { 0.5 } else { 8.0 });
     let moved: Vec<[f64; 2]> = model.nodes.iter().map(|[x, y]| [x + 0.5, y + 8.0]).collect();
     assert_eq!(model.shape(&u), moved);
-    let finer = scene.refined().expect("sound").expect("it has a mesh");
+    let finer = scene.refined().expect("sound");
     assert_eq!(finer.scene.model.nodes.len(), 5 + 5, "one on each edge");
     for (k, ends) in finer.nodes.iter().enumerate() {
         let [[ax, ay], [bx, by]] = ends.map(|n| model.coordinates(n));
         assert_eq!(finer.scene.model.nodes[k], [(ax + bx) / 2.0, (ay + by) / 2.0]);
     }
-    let (_, mesh) = finer.scene.source().expect("it has a mesh");
+    let (_, mesh) = finer.scene.source();
     assert!(mesh.nodes.iter().zip(1..).all(|(node, number)| node.number == number));
     assert!(mesh.elements.iter().zip(1..).all(|(element, number)| element.number == number));
 }

@@ -30,7 +30,13 @@ fn body() -> SceneBuilder {
 }
 
 fn held(scene: &Scene) -> Vec<Vec<Hold>> {
-    scene.model.supports.iter().map(|support| support.holds.clone()).collect()
+    let mut held = vec![Vec::new(); scene.model.restraints.len()];
+    scene
+        .model
+        .holds
+        .iter()
+        .for_each(|hold| held[hold.restraint.expect("all have one")].push(*hold));
+    held
 }
 
 /// Why a restraint of the body is refused.
@@ -74,14 +80,14 @@ fn at_a_corner_both_normals_are_held() {
 #[test]
 fn a_tangent_has_the_body_on_its_left() {
     let scene = body().restrain("bottom", &[Axis::Tangent, Axis::Y]).build().expect("it is sound");
-    assert!(held(&scene)[0][..3].iter().all(|hold| hold.direction == [1.0, 0.0]));
+    assert!(held(&scene)[0].iter().step_by(2).all(|hold| hold.direction == [1.0, 0.0]));
 }
 
 #[test]
 fn a_node_is_named_by_its_place() {
     let at = |at| Restraint { at: Some(at), fix: vec![Axis::X, Axis::Y], ..Restraint::default() };
     let scene = body().restraint(at([1.0, 5e-7])).restrain_node(9, &[Axis::Y]).build();
-    assert_eq!(scene.expect("it is sound").model.supports[0].name, "node 2");
+    assert_eq!(scene.expect("it is sound").model.restraints[0], "node 2");
     let why = refused(at([1.0, 0.1]));
     assert!(why.contains("no node is at 1, 0.1") && why.contains("node 2, is at 1, 0"), "{why}");
 }

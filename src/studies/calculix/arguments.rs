@@ -2,8 +2,9 @@
 
 use crate::calculix::{Contact, ContactKind, Pair, Part};
 use engine::error::Result;
+use engine::options::Options;
 use engine::{self, Request, Solution};
-use problem::modelling::Variant;
+use problem::modelling::{Coupling, Variant};
 use problem::scene::Scene;
 
 use commands::{ModelArgs, ReadingArg, offered, waiting};
@@ -38,7 +39,7 @@ fn penalty(text: &str) -> Result<f64, String> {
 impl DeckArgs {
     /// The run whose contact a deck has.
     pub fn solve(&self, scene: &Scene) -> Result<Solution> {
-        let request = self.model.request(scene, self.variant, &self.reading)?;
+        let request = self.model.options(self.variant, &self.reading).request(scene)?;
         if self.contact == ContactKind::Equation {
             Contact::check_equations(request.variant)?;
         }
@@ -47,10 +48,15 @@ impl DeckArgs {
 
     /// The run that a field is compared with: that of the variant that is asked for, else the equilibrium.
     pub fn reference(&self, scene: &Scene) -> Result<Request> {
-        match self.variant {
-            Some(_) => self.model.request(scene, self.variant, &self.reading),
-            None => self.model.equilibrium(scene, &self.reading),
-        }
+        let own = self.model.options(self.variant, &self.reading);
+        let asked = match self.variant {
+            Some(_) => own,
+            None => {
+                let coupling = own.coupling.or(Some(Coupling::Mortar));
+                Options { variant: Some(Variant::Unilateral), coupling, ..own }
+            }
+        };
+        Ok(asked.request(scene)?)
     }
 
     /// The problems whose sum is the run; the last iteration's comes last.

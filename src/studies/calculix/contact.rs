@@ -130,7 +130,7 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Returns the equations of constraints: those of an iteration, or of what no degree of freedom alone holds.
+    /// Returns the equations of constraints.
     pub fn of_constraints(model: &Model, constraints: &[Constraint]) -> Vec<Equation> {
         constraints.iter().flat_map(|one| Equation::of_constraint(model, one)).collect()
     }

@@ -6,9 +6,8 @@ use super::contact::{Contact, Equation, Pair};
 use base::error::{InputError, Result};
 use base::files::DECK;
 use base::plain::on_a_line;
-use engine::support_constraints;
 use problem::element::Plane;
-use problem::model::{Dof, Material, Model, NodeId, Restraint, unordered};
+use problem::model::{Dof, Model, NodeId, unordered};
 use problem::modelling::Friction;
 
 /// ccx reads no more characters of a field.
@@ -26,7 +25,7 @@ const STICK_SLOPE: f64 = 0.1;
 /// # Errors
 /// The surfaces of a pair bound no triangle.
 pub fn deck(title: &str, model: &Model, contact: &Contact) -> Result<String> {
-    let held = Equation::of_constraints(model, &support_constraints(model, 1.0));
+    let held: Vec<Equation> = oblique(model).collect();
     let (touch, cards, step) = match contact {
         Contact::Equations(equations, friction) => {
             let load = friction.iter().fold(model.load.clone(), |load, friction| load + friction);
@@ -57,12 +56,18 @@ fn nodes(model: &Model) -> String {
 
 /// The restrained degrees of freedom.
 fn boundary(model: &Model) -> String {
-    let restraints = model.all_dofs().zip(model.restraints());
-    let fixed = restraints.filter_map(|(dof, restraint)| match restraint {
-        Restraint::Free => None,
-        Restraint::Fixed => Some(format!("{},{}\n", node_and_direction(dof), dof.direction() + 1)),
-    });
-    String::from("*BOUNDARY\n") + &fixed.collect::<String>()
+    let at = |u: f64| if u == 0.0 { String::new() } else { format!(",{}", field(u)) };
+    let line = |dof: Dof| {
+        let given = model.holds.given(dof)?;
+        Some(format!("{},{}{}\n", node_and_direction(dof), dof.direction() + 1, at(given)))
+    };
+    String::from("*BOUNDARY\n") + &model.all_dofs().filter_map(line).collect::<String>()
+}
+
+/// The equations of nodes that are held along a direction that is no axis.
+fn oblique(model: &Model) -> impl Iterator<Item = Equation> {
+    let holds = model.node_ids().filter_map(|node| model.holds.oblique(node));
+    holds.flat_map(|hold| Equation::of_constraint(model, &hold.into()))
 }
 
 /// The triangles of each material, in the order in which the materials come.
@@ -72,7 +77,7 @@ fn elements(model: &Model) -> String {
         Plane::Stress => "CPS3",
     };
     let mut text = String::new();
-    for (k, material) in materials(model).into_iter().enumerate() {
+    for (k, material) in model.materials().into_iter().enumerate() {
         let name = format!("MATERIAL{}", k + 1);
         text += &format!("*ELEMENT, TYPE={kind}, ELSET={name}\n");
         let all = model.triangle_ids().zip(&model.triangles);
@@ -86,17 +91,6 @@ fn elements(model: &Model) -> String {
         text += &(field(model.thickness) + "\n");
     }
     text
-}
-
-/// The distinct materials in order of appearance.
-fn materials(model: &Model) -> Vec<Material> {
-    let mut found = Vec::new();
-    for material in model.triangles.iter().map(|triangle| triangle.material) {
-        if !found.contains(&material) {
-            found.push(material);
-        }
-    }
-    found
 }
 
 /// The equations. ccx knows homogeneous ones only: a constant is the prescribed displacement, in x,
@@ -171,7 +165,7 @@ fn step(model: &Model, load: &DVector<f64>, increments: &str) -> String {
     let loads = loads
         .map(|(dof, force)| format!("*CLOAD\n{},{}\n", node_and_direction(dof), field(*force)));
     let stresses =
-        (1..=materials(model).len()).map(|k| format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n"));
+        (1..=model.materials().len()).map(|k| format!("*EL PRINT, ELSET=MATERIAL{k}\nS\n"));
     format!(
         "*STEP\n*STATIC\n{increments}{}*NODE PRINT, NSET=NODES\nU\n{}*END STEP\n",
         loads.collect::<String>(),

@@ -147,7 +147,7 @@ impl Rows {
         model: &Model,
         is_at: impl Fn(&Row, NodeId) -> bool + Copy,
     ) -> Result<(Vec<NodeId>, String)> {
-        let in_file = scene.source().map_or(&[][..], |(_, mesh)| &mesh.in_file);
+        let in_file = &scene.source().1.in_file;
         let here = self.by_number(model, |n| n.checked_sub(1), is_at);
         if in_file.is_empty() {
             return Ok((here?, "by number".into()));

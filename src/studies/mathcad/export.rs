@@ -84,13 +84,7 @@ fn listings(args: &Args, write: impl Fn(&Export) -> String) -> Result<String> {
     // Where the published algorithm stops, the worksheet has the listings alone.
     let solved = waiting("solving", || engine::solve(&request, &mut |_| ()));
     let run = Error::found(solved)?.map(|solution| Run {
-        force: solution
-            .model
-            .load_in(|x| x)
-            .iter()
-            .zip(model.restraints())
-            .map(|(f, restraint)| if restraint.is_free() { *f } else { 0.0 })
-            .collect(),
+        force: model.free_part(&solution.model.load_in(|x| x)).as_slice().to_vec(),
         iterations: solution.steps.len(),
         pairs: door::Call::c_cnt(&model, &reading, &model.nodes).expect("the run called it").pairs,
         u: solution.u.iter().copied().collect(),

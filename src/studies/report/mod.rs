@@ -272,7 +272,7 @@ fn unchecked(audit: &Audit) -> Report {
 /// Reports what makes the report again: the command, and what it starts from.
 fn origin(contents: &Contents) -> Report {
     let Contents { scene, command, asked, .. } = contents;
-    let hashes = scene.hashes().into_iter().flatten().cloned();
+    let hashes = scene.hashes().iter().cloned();
     let hashes = ["scene, SHA-256", "mesh, SHA-256"].into_iter().zip(hashes);
     let listings = [("listing c_cnt, SHA-256", Which::CCnt), ("listing Km, SHA-256", Which::Km)];
     let listings = listings.map(|(what, which)| (what, hash(which.text())));

@@ -61,7 +61,7 @@ impl Snapshot {
         let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, rounding)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
-        Ok(Snapshot::of_runs(Input::from_scene(scene)?, None, runs))
+        Ok(Snapshot::of_runs(Input::from_scene(scene), None, runs))
     }
 
     /// Returns the snapshot of runs that this program made of an input, read from `scene_file`.

@@ -23,21 +23,16 @@ pub struct Input {
 
 impl Input {
     /// Returns the input of a scene.
-    ///
-    /// # Errors
-    /// The scene is half of one, which no file describes.
-    pub fn from_scene(scene: &Scene) -> Result<Self> {
-        let (description, mesh) = scene.source().ok_or_else(|| {
-            InputError::new("the scene", "half a scene has no file", "write it to a file first")
-        })?;
-        let [scene_sha256, mesh_sha256] = scene.hashes().expect("it has a source").clone();
-        Ok(Input {
+    pub fn from_scene(scene: &Scene) -> Self {
+        let (description, mesh) = scene.source();
+        let [scene_sha256, mesh_sha256] = scene.hashes().clone();
+        Input {
             name: scene.name.clone(),
             scene_sha256,
             mesh_sha256,
             scene: description.clone(),
             mesh: mesh.clone(),
-        })
+        }
     }
 
     /// Builds the scene again.

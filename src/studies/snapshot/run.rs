@@ -13,11 +13,11 @@ use base::error::InputError;
 use engine::contact::{Sense, Status};
 use engine::error::{Error, Result};
 use engine::estimates::perturbed_requests;
-use engine::{Detail, Elimination, Request, Solution, Step, Stiffness, solve, support_constraints};
+use engine::{Detail, Elimination, Request, Solution, Step, Stiffness, solve};
 use paper::door;
 use paper::mirror::Km;
 use problem::element::State;
-use problem::model::{Body, Model, TriangleId};
+use problem::model::{Body, Dof, Hold, Model, TriangleId};
 use problem::modelling::Variant;
 
 /// The most nodes of a scene whose dense matrix, that of `Km`, is assembled once more.
@@ -225,13 +225,16 @@ fn worksheet(run: &mut Run, request: &Request, model: &Model) {
     let target: Vec<usize> = model.target_edges().map(|edge| edge.number).collect();
     run.fact_is(Quantity::Cnt, contact);
     run.fact_is(Quantity::Trg, target);
-    let restrained = model.all_dofs().filter(|dof| model.is_restrained(*dof));
-    let oblique = model.oblique().map(|(_, hold)| {
-        let [x, y] = hold.direction;
-        format!("{} along {x}, {y}: {}", hold.node, hold.displacement)
+    let mut holds: Vec<&Hold> = model.holds.iter().collect();
+    holds.sort_by_key(|hold| (hold.dof().is_none(), hold.dof(), hold.restraint));
+    let restrained = holds.into_iter().map(|hold| match hold.dof() {
+        Some(dof) => format!("{}{}", dof.node(), dof.axis()),
+        None => {
+            let [x, y] = hold.direction;
+            format!("{} along {x}, {y}: {}", hold.node, hold.displacement)
+        }
     });
-    let restrained = restrained.map(|dof| format!("{}{}", dof.node(), dof.axis()));
-    run.fact_is(Quantity::Restrained, restrained.chain(oblique).collect::<Vec<_>>());
+    run.fact_is(Quantity::Restrained, restrained.collect::<Vec<_>>());
     let tolerance = Numbers::list(&units.length, [model.contact.tolerance]);
     run.numbers_are(Quantity::Tolerance, tolerance);
     run.numbers_are(Quantity::Load, Numbers::list(&units.force, model.total_load()));
@@ -335,13 +338,11 @@ impl Recorded<'_> {
                 lower.filter(|(_, _, value)| *value != 0.0).collect()
             }
             (Detail::Published(_), Variant::Tied | Variant::Stepped | Variant::Unilateral) => {
-                let t = Elimination::new(model.restraints(), &step.constraints);
+                let t = Elimination::new(&model.holds, &step.constraints);
                 stiffness.reduced(&t).entries().collect()
             }
             (Detail::Unilateral(_), _) => {
-                let own = support_constraints(model, 1.0);
-                let all = step.constraints.iter().cloned().chain(own).collect::<Vec<_>>();
-                let t = Elimination::closing(model.restraints(), &all);
+                let t = Elimination::closing(&model.holds, 1.0, &step.constraints);
                 stiffness.reduced(&t).entries().collect()
             }
         };
@@ -372,15 +373,10 @@ fn end(run: &mut Run, solution: &Solution, stiffness: &Stiffness) {
     let strains = largest(solution, |state| state.von_mises_strain);
     let strains = Numbers::list("", strains);
     run.numbers_are(Quantity::VonMisesStrain, strains);
-    let held = model.held_directions();
-    let restrained = model.node_ids().filter(|node| held[node.index()] > 0);
+    let restrained = model.node_ids().filter(|node| !model.holds.of(*node).is_empty());
     let force = stiffness.times(&solution.u) - &model.load;
-    let reactions = restrained.map(|node| {
-        let (of_node, axes) = (node.components(&force), model.restraints_of(node));
-        // Of a node that is held along another direction both components count.
-        let is_oblique = axes.iter().filter(|held| **held).count() < held[node.index()];
-        (node.number(), [0, 1].map(|d| if axes[d] || is_oblique { of_node[d] } else { 0.0 }))
-    });
+    let along = |dof: Dof| if model.holds.takes(dof) { force[dof.index()] } else { 0.0 };
+    let reactions = restrained.map(|node| (node.number(), node.dofs().map(along)));
     run.numbers_are(Quantity::Reactions, Numbers::rows(&units.force, reactions));
     let nodes = || solution.contact.iter();
     let gaps = nodes().map(|c| (c.node.number(), [c.gap]));

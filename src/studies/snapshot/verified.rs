@@ -174,7 +174,7 @@ fn again(
         .par_iter()
         .map(|(name, old)| Ok(((*name).clone(), run(&old.options.request(scene)?, old)?)));
     let runs = runs.collect::<Result<Vec<_>>>()?.into_iter().collect();
-    Ok(Snapshot::of_runs(Input::from_scene(scene)?, snapshot.scene_file.clone(), runs))
+    Ok(Snapshot::of_runs(Input::from_scene(scene), snapshot.scene_file.clone(), runs))
 }
 
 /// Records of a request what was recorded of an earlier run.

@@ -223,7 +223,7 @@ fn meshes(request: &Request) -> Result<Vec<Trial>, InputError> {
     let mut trials = vec![Trial { label, request, own: true, mesh: None }];
     for times in (1..MESHES).take_while(|times| equations(*times) <= EQUATIONS) {
         let coarser = &trials[times - 1].request;
-        let Some(mesh) = coarser.scene.refined()? else { break };
+        let mesh = coarser.scene.refined()?;
         trials.push(Trial {
             label: format!("h / {}", 1 << times),
             request: Request { scene: mesh.scene.clone(), ..coarser.clone() },

@@ -4,7 +4,7 @@ use super::{Finding, Preparation, Repair, search, status, stiffness, weights};
 use engine::contact::turned;
 use paper::findings::FindingId;
 use paper::listings::Which;
-use problem::model::{Model, Restraint};
+use problem::model::Model;
 
 /// A repair that is a file in `listings/`.
 macro_rules! edit {
@@ -275,7 +275,7 @@ pub const FINDINGS: &[Finding] = &[
         repair: "set the 1 in a loop over nodes",
         edit: edit!("repairs/K4.edit"),
         before: Preparation::Model("with one more node, which belongs to no triangle", |model| {
-            model.add_node([1.0, 0.0], Restraint::Free);
+            model.add_node([1.0, 0.0]);
         }),
         number: "rows of zeros that one such node adds",
         measure: stiffness::orphan,
@@ -372,8 +372,8 @@ fn let_stamp_sink(model: &mut Model) {
     let contact = model.contact.nodes[0];
     let stamp = model.body_of(contact).expect("a contact node is of a body");
     let last = *stamp.nodes.last().expect("a body has nodes");
-    model.restrain(contact.x(), Restraint::Fixed);
-    model.restrain(last.y(), Restraint::Free);
+    model.holds.fix([contact.x()]);
+    model.holds.release([last.y()]);
 }
 
 /// Takes every restraint from the stamp, and all but its first contact node.
@@ -381,5 +381,5 @@ fn release_stamp(model: &mut Model) {
     model.contact.nodes.truncate(1);
     let stamp = model.body_of(model.contact.nodes[0]).expect("a contact node is of a body");
     let dofs: Vec<_> = stamp.nodes.iter().flat_map(|node| node.dofs()).collect();
-    dofs.iter().for_each(|dof| model.restrain(*dof, Restraint::Free));
+    model.holds.release(dofs);
 }

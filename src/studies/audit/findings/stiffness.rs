@@ -12,7 +12,7 @@ use engine::linear::SparseCholesky;
 use engine::{Constraint, Detail, Elimination, Stiffness, max_displacement};
 use paper::door::{self, Call};
 use paper::mirror::Failure;
-use problem::model::{Model, NodeId, Restraint, TriangleId};
+use problem::model::{Dof, Model, NodeId, TriangleId};
 use problem::modelling::Variant;
 
 /// K1: entries of MJS that join two bodies, at the first shape with contact.
@@ -74,8 +74,8 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let range = |is_free: bool| {
-            let entries = diagonal.iter().zip(case.model().restraints());
-            let of = entries.filter(|(_, restraint)| restraint.is_free() == is_free);
+            let entries = diagonal.iter().zip(case.model().all_dofs());
+            let of = entries.filter(|(_, dof)| case.model().is_restrained(*dof) != is_free);
             of.fold((f64::INFINITY, 0.0_f64), |(low, high), (x, _)| (low.min(*x), high.max(*x)))
         };
         let ((low, high), (one, _)) = (range(true), range(false));
@@ -97,15 +97,18 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<Evidence> {
 
 /// K4: rows of zeros that one node without a triangle adds, free or restrained.
 pub(super) fn orphan(case: &Case) -> Outcome<Evidence> {
-    let zero_rows = |orphan: Option<Restraint>| -> Result<usize, Failure> {
+    let zero_rows = |orphan: Option<&[Dof]>| -> Result<usize, Failure> {
         let mut model = case.model().clone();
-        orphan.into_iter().for_each(|restraint| model.add_node([0.0; 2], restraint));
+        if let Some(fixed) = orphan {
+            model.add_node([0.0; 2]);
+            model.holds.fix(fixed.iter().copied());
+        }
         let mjs = Call::without_contact(&model).km(case.reading())?;
         let filled: HashSet<usize> = mjs.entries().map(|(row, ..)| row).collect();
         Ok(mjs.size() - filled.len())
     };
-    let [own, free, restrained] =
-        [None, Some(Restraint::Free), Some(Restraint::Fixed)].map(zero_rows);
+    let dofs = NodeId::new(case.model().nodes.len()).dofs();
+    let [own, free, restrained] = [None, Some(&[][..]), Some(&dofs)].map(zero_rows);
     let (own, free, restrained) = (own?, free?, restrained?);
     let detail = format!(
         "rows of zeros: {own} without the node, {free} with it, {restrained} where S restrains it"
@@ -157,16 +160,14 @@ pub(super) fn hinge(case: &Case) -> Outcome<Evidence> {
     let call = first_in_contact(case)?;
     let stiffness = Stiffness::new(case.model(), |x| x);
     let linked = door::linked(&call.sheet, &call.pairs);
-    let mut restraints = case.model().restraints().to_vec();
+    let mut holds = case.model().holds.clone();
     let stamp = case.model().body_of(case.model().contact.nodes[0]);
-    for dof in stamp.into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()) {
-        restraints[dof.index()] = Restraint::Free;
-    }
+    holds.release(stamp.into_iter().flat_map(|body| &body.nodes).flat_map(|n| n.dofs()));
     // Nothing where the scene has not so many nodes in contact.
     let singular = [1, 2].map(|count| {
         let few: Vec<Constraint> =
             linked.get(..count)?.iter().map(|bound| (*bound).into()).collect();
-        let reduced = stiffness.reduced(&Elimination::new(&restraints, &few));
+        let reduced = stiffness.reduced(&Elimination::new(&holds, &few));
         Some(SparseCholesky::new(reduced).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);

@@ -55,7 +55,7 @@ pub fn scene_of(
     let said = match &scene {
         None => Some(format!("scene file {path} is not there: the scene in the snapshot is run")),
         Some(scene) => {
-            let [scene_sha256, mesh_sha256] = scene.hashes().expect("it is whole");
+            let [scene_sha256, mesh_sha256] = scene.hashes();
             let own = &snapshot.input;
             let is_same = *scene_sha256 == own.scene_sha256 && *mesh_sha256 == own.mesh_sha256;
             (!is_same).then(|| format!("scene file {path}, or its mesh, was edited since"))

@@ -64,8 +64,9 @@ pub fn run(args: &Args) -> Result<()> {
             true => vec![None],
             false => args.variant.iter().copied().map(Some).collect(),
         };
-        let requests = variants.into_iter().map(|variant| args.method.request(&scene, variant));
-        let requests = requests.collect::<Result<Vec<_>>>()?;
+        let requests =
+            variants.into_iter().map(|variant| args.method.options(variant).request(&scene));
+        let requests = requests.collect::<Result<Vec<_>, _>>()?;
         let mut snapshot =
             waiting("recording", || Snapshot::record(&scene, &requests, Rounding::Measured))?;
         if !args.only.is_empty() {
