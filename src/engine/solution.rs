@@ -425,30 +425,7 @@ impl Solution {
     /// the contact surface, the reactions and the steps stay those of this solution.
     #[must_use]
     pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
-        let Solution {
-            request,
-            model,
-            steps,
-            reactions,
-            contact,
-            factored,
-            overlap,
-            equilibrium,
-            ..
-        } = self.clone();
-        Solution {
-            request,
-            model,
-            steps,
-            u,
-            reactions,
-            elements,
-            contact,
-            factored,
-            digits: None,
-            overlap,
-            equilibrium,
-        }
+        Solution { u, elements, digits: None, ..self.clone() }
     }
 
     /// Returns the displacements by degree of freedom with all their digits, length.

@@ -13,10 +13,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{contact_forces, tangent};
 use super::lemke::complementary;
 use super::problem::StateSearch;
-use crate::contact::{Pairing, Sense, Status};
+use crate::contact::{Pairing, Sense, Status, contact_forces};
 use crate::elimination::{Constraint, Motion};
 
 /// The number of contact nodes up to which the step is condensed.
@@ -92,7 +91,7 @@ impl<'a> Condensed<'a> {
             });
             let (forces, u) = solved(&unloaded, &moved.collect::<Vec<_>>())?;
             let reached = facing().flat_map(|(pairing, status)| {
-                let (n, t) = (pairing.normal, tangent(pairing));
+                let (n, t) = (pairing.normal, pairing.tangent());
                 let [ux, uy] = pairing.motion(|node| node.components(&u));
                 parts(status, [n, t].map(|[dx, dy]| dx * ux + dy * uy))
             });
@@ -249,7 +248,7 @@ fn parts<T>(held: Status, [normal, tangent]: [T; 2]) -> Vec<T> {
 
 /// Binds a node to the place that is a gap and a slip apart from its own on the target.
 fn at_distance(constraint: &Constraint, pairing: &Pairing, [gap, slip]: [f64; 2]) -> Constraint {
-    let (n, t) = (pairing.normal, tangent(pairing));
+    let (n, t) = (pairing.normal, pairing.tangent());
     let motion = match constraint.motion {
         Motion::Both(_) => Motion::Both([0, 1].map(|d| gap * n[d] + slip * t[d])),
         Motion::Along(normal, _) => Motion::Along(normal, gap),

@@ -3,10 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{ContactForce, add, contact_forces};
 use super::problem::{Configuration, StateAttempt, StateSearch, StateSolution};
 use super::reduced::{HeldBodies, Unheld};
-use crate::contact::{Pairing, Status};
+use crate::contact::{ContactForce, Pairing, Status, add, contact_forces};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
 use crate::linear::SparseCholesky;

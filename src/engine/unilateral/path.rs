@@ -5,11 +5,12 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::equilibria::{TakenStep, setting, uniqueness};
-use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
-use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction, Watched};
+use crate::contact::{
+    ContactForce, ContactNode, NodeEnd, ROUNDING_OF_A_FORCE, Status, Watched, load_of,
+};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::reactions::{reactions, support_force, transmitted_force};
 use crate::solution::{
@@ -454,19 +455,15 @@ fn friction_needed(statuses: &[Status], forces: &[ContactForce]) -> Option<f64> 
 fn contact(problem: &Problem, config: &Configuration, last: &Iteration) -> Vec<ContactNode> {
     let measured = if problem.is_current() { &*config.shape } else { &problem.model.nodes };
     let open = problem.undetermined(config, last);
-    let forces = last.solution.forces.iter().zip(&open);
-    let forces =
-        forces.map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
-    let traction = Traction {
-        model: problem.model,
-        u: &last.solution.u,
-        surfaces: &problem.surfaces,
-        measured_in: measured,
-        pairings: &config.pairings,
-        gaps: &last.gaps,
-        in_contact: &last.statuses.iter().map(|status| status.is_closed()).collect::<Vec<_>>(),
-        statuses: Some(&last.statuses),
-        forces: &forces.collect::<Vec<_>>(),
-    };
-    traction.nodes()
+    let u = &last.solution.u;
+    problem.surfaces.nodes_at_end((problem.model, u), (measured, &config.pairings), |i, pairing| {
+        let force = ContactForce { undetermined: open[i], ..last.solution.forces[i] };
+        let status = last.statuses[i];
+        NodeEnd {
+            gap: last.gaps[i].unwrap_or(pairing.gap),
+            in_contact: status.is_closed(),
+            status: Some(status),
+            force: force.known(),
+        }
+    })
 }

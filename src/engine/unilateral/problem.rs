@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::forces::{ContactForce, contact_forces, tangent};
 use super::rigid;
 use super::status::History;
-use crate::contact::{InsideNode, Pairing, Sense, Status, Surfaces, Watched};
+use crate::contact::{
+    ContactForce, InsideNode, Pairing, Sense, Status, Surfaces, Watched, contact_forces,
+};
 use crate::elimination::{Constraint, Motion};
 use crate::range::inside_out;
 use crate::reactions::supports;
@@ -333,7 +334,7 @@ impl<'a> Problem<'a> {
             let force = &mut last.solution.forces[i];
             let rests = |p: &&Pairing| p.corner > 0.0 && last.statuses[i] == Status::Stick;
             let Some(pairing) = config.pairings[i].as_ref().filter(rests) else { continue };
-            let (n, t, ends) = (pairing.normal, tangent(pairing), pairing.corner);
+            let (n, t, ends) = (pairing.normal, pairing.tangent(), pairing.corner);
             let slope = (force.tangent / force.normal).clamp(-ends, ends);
             let [cos, sin] = [1.0, slope].map(|x| x / slope.hypot(1.0));
             let normal = [0, 1].map(|d| cos * n[d] + sin * t[d]);
@@ -473,7 +474,7 @@ impl StateSearch<'_> {
             let motion = match status {
                 Status::Stick => {
                     let ([tx, ty], [bx, by]) =
-                        (tangent(pairing), pairing.motion(|n| n.components(setting.before)));
+                        (pairing.tangent(), pairing.motion(|n| n.components(setting.before)));
                     let [bx, by] = if pairing.corner > 0.0 {
                         pairing.motion(|n| problem.model.coordinates(n)).map(|x| -x)
                     } else {

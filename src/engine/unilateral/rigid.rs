@@ -3,7 +3,6 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
-use super::forces::tangent;
 use super::nonnegative::least;
 use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
@@ -181,7 +180,7 @@ pub(super) fn release(
     let rows = near
         .iter()
         .filter(|(_, gap)| *gap <= closed)
-        .flat_map(|(p, gap)| [(opening(p), -gap), (along(p, tangent(p)), 0.0)]);
+        .flat_map(|(p, gap)| [(opening(p), -gap), (along(p, p.tangent()), 0.0)]);
     let (rows, apart_by): (Vec<_>, Vec<f64>) = rows.unzip();
     let rows = DMatrix::from_columns(&rows).transpose();
     let svd = rows.clone().svd(true, true);
@@ -250,7 +249,7 @@ pub(super) fn turns(
 /// Returns the directions of the forces on a node whose sums are all forces that contact transmits
 /// under a coefficient of friction.
 fn extreme_forces(pairing: &Pairing, friction: f64) -> Vec<[f64; 2]> {
-    let (n, t) = (pairing.normal, tangent(pairing));
+    let (n, t) = (pairing.normal, pairing.tangent());
     match friction {
         0.0 => vec![n],
         f64::INFINITY => vec![n, t, t.map(|x| -x)],
