@@ -33,7 +33,7 @@ pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
 pub(super) use pressure::rounding;
 pub use pressure::{NodeEnd, ROUNDING_OF_A_FORCE, pulling, reactions};
-pub use surface::{BEND, Surfaces};
+pub use surface::Surfaces;
 
 use problem::modelling::Coupling;
 

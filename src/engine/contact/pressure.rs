@@ -4,13 +4,10 @@
 use nalgebra::DVector;
 
 use super::pairing::{Pairing, Status, Vector};
-use super::surface::Surfaces;
+use super::surface::{SAME, Surfaces};
 use crate::quantities::ContactNode;
 use problem::element::Plane;
 use problem::model::{Material, Model, NodeId};
-
-/// How far the size of a normal's component may be from 1 where a restraint is across the normal.
-const ACROSS: f64 = 1e-9;
 
 /// The force over the largest of a surface, or of the load, below which it is rounding.
 pub const ROUNDING_OF_A_FORCE: f64 = 1e-11;
@@ -141,8 +138,8 @@ pub fn reactions(
         let is_determined = match restrained {
             [false, false] => true,
             [true, true] => false,
-            [true, false] => eliminated || ny.abs() > 1.0 - ACROSS,
-            [false, true] => eliminated || nx.abs() > 1.0 - ACROSS,
+            [true, false] => eliminated || ny.abs() > 1.0 - SAME,
+            [false, true] => eliminated || nx.abs() > 1.0 - SAME,
         };
         is_determined.then_some([nx * rx + ny * ry, nx * ry - ny * rx])
     };

@@ -8,11 +8,11 @@ use super::pairing::{Vector, unit};
 use super::search::{Segment, dot, is_inside, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
-use problem::model::{Body, EdgeId, Model, NodeId, unordered};
+use problem::model::{BEND, Body, EdgeId, Model, NodeId, unordered};
 
-/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
-/// smooth surface: 30 degrees.
-pub const BEND: f64 = 0.866;
+/// The difference of two places or directions, over the size of what is compared, up to which they are one: far
+/// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
+pub(super) const SAME: f64 = 1e-9;
 
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
 /// the two do not face each other.

@@ -15,9 +15,6 @@ const UNBOUNDED: f64 = 0.1 / f64::EPSILON;
 /// matrix, no other load is tried.
 const SMALL_PART: f64 = 1e-5;
 
-/// What is added to a unit diagonal to see how a singular matrix moves.
-const SHIFT: f64 = 1e-10;
-
 /// A symmetric positive definite matrix and its Cholesky factors.
 pub struct SparseCholesky {
     matrix: SparseSymmetric,
@@ -123,7 +120,7 @@ pub(super) fn mechanism(matrix: &SparseSymmetric) -> Singular {
     if let Some(column) = diagonal.iter().position(|d| d.is_nan() || *d <= 0.0) {
         return Singular { column, pivot: diagonal[column] };
     }
-    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT));
+    let shifted = Cholesky::new(&matrix.softly_held());
     let shifted = shifted.and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }

@@ -11,9 +11,6 @@ use crate::error::{Cause, NoEquilibrium};
 use crate::linear::SparseCholesky;
 use problem::model::Dof;
 
-/// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
-const SOFT: f64 = 1e-8;
-
 impl StateSearch<'_> {
     /// Solves for the displacements and forces under imposed statuses.
     ///
@@ -35,7 +32,7 @@ impl StateSearch<'_> {
                 Ok(StateAttempt::Solved(solved.expect("the whole equations have a solution")))
             }
             Err(Unheld { t, singular }) => {
-                let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
+                let soft = self.problem.stiffness.reduced(&t).softly_held();
                 let load = t.load(&self.problem.model.free_part(&self.setting.load));
                 let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(StateAttempt::Free { dof: t.dof(singular.column), motion })

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::problem::{Configuration, Problem, StateSearch};
 use super::reduced::{HeldBodies, Unheld};
 use super::rigid::{self, Release};
-use crate::contact::{BEND, Pairing, Status};
+use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
 use crate::range::{beyond_range, inside_out};
@@ -13,7 +13,7 @@ use crate::solution::Start;
 use base::error::InputError;
 use base::plain::six_digits;
 use problem::element::Plane;
-use problem::model::{Dof, NodeId};
+use problem::model::{BEND, Dof, NodeId};
 use problem::modelling::Coupling;
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.

@@ -7,6 +7,7 @@ mod body;
 mod bounds;
 mod force;
 mod ids;
+mod rigid;
 mod sides;
 mod support;
 
@@ -15,11 +16,12 @@ use std::collections::HashSet;
 
 use nalgebra::DVector;
 
-pub use body::{Body, bodies, freedom};
+pub use body::{Body, bodies};
 pub use bounds::Bounds;
 pub use force::Force;
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
-pub use sides::{Sides, TriangleSide, unordered};
+pub use rigid::{FREE, RigidBody, freedom};
+pub use sides::{BEND, Sides, TriangleSide, unordered};
 pub use support::{Hold, Support, crossing};
 
 use super::element::{Corners, Plane};
@@ -235,11 +237,17 @@ impl Model {
         holds.filter(|(_, hold)| hold.dof().is_none())
     }
 
+    /// Returns the directions along which nodes are held, first those along the axes.
+    pub fn held(&self) -> impl Iterator<Item = (NodeId, [f64; 2])> {
+        let axes = self.all_dofs().filter(|dof| self.is_restrained(*dof));
+        let oblique = self.oblique().map(|(_, hold)| (hold.node, hold.direction));
+        axes.map(|dof| (dof.node(), dof.unit())).chain(oblique)
+    }
+
     /// Returns the number of directions, 0 to 2, along which each node is held.
     pub fn held_directions(&self) -> Vec<usize> {
-        let count = |node| self.restraints_of(node).into_iter().filter(|held| *held).count();
-        let mut held: Vec<usize> = self.node_ids().map(count).collect();
-        self.oblique().for_each(|(_, hold)| held[hold.node.index()] += 1);
+        let mut held = vec![0; self.nodes.len()];
+        self.held().for_each(|(node, _)| held[node.index()] += 1);
         held
     }
 

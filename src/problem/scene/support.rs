@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::description::{Axis, Restraint};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::model::{Bounds, Hold, NodeId, Sides, Support, crossing};
+use crate::model::{BEND, Bounds, Hold, NodeId, Sides, Support, crossing};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
@@ -19,9 +19,6 @@ use base::plain::six_digits;
 /// they are two: between these a node would be held twice along what was meant to be one direction.
 const SAME: f64 = 1e-9;
 const TWO: f64 = 0.05;
-
-/// The cosine of the angle between edges beyond which they meet in a corner: that of a circle of twelve edges.
-const CORNER: f64 = 0.866;
 
 /// How far a node may be from the coordinates that name it, over the larger side of the mesh.
 const NEAR: f64 = 1e-6;
@@ -76,7 +73,7 @@ pub fn narrow(mesh: &Mesh, supports: &[Support]) -> Option<String> {
     let nearly_one = held.iter().filter_map(|(node, along)| {
         let [(j, a), (k, b)] = along[..] else { return None };
         let cosine = (a[0] * b[0] + a[1] * b[1]).abs();
-        (j != k && cosine > CORNER).then_some((node, [j, k], cosine))
+        (j != k && cosine > BEND).then_some((node, [j, k], cosine))
     });
     let all: Vec<_> = nearly_one.collect();
     let (node, [j, k], cosine) = all.first()?;
@@ -244,7 +241,7 @@ fn normals(
     }
     let own = |edges: Vec<[f64; 2]>| {
         let each: Vec<[f64; 2]> = edges.iter().filter_map(|edge| unit(*edge)).collect();
-        let turns = |n: &[f64; 2]| n[0] * each[0][0] + n[1] * each[0][1] < CORNER;
+        let turns = |n: &[f64; 2]| n[0] * each[0][0] + n[1] * each[0][1] < BEND;
         if each.iter().any(turns) {
             return each;
         }
