@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::outline::{FacedPoint, Outline};
 use super::overlap::PlacedTriangles;
 use super::pairing::Vector;
-use super::search::{Segment, dot};
+use super::search::{distance_square, dot};
 use super::surface::{SAME, Surfaces};
 use base::error::InputError;
 use problem::model::{Body, Bounds, Model, NodeId};
@@ -82,7 +82,7 @@ impl Surfaces {
             let sides = model.sides.outline().filter(|side| body.has(side.nodes[0]));
             let ends = sides.map(|side| side.nodes.map(|end| model.coordinates(end)));
             let against = ends.filter(|[[ax, ay], [bx, by]]| dot([by - ay, ax - bx], normal) < 0.0);
-            let square = |ends| Segment::new(ends).closest(model.coordinates(node)).distance_square;
+            let square = |ends| distance_square(ends, model.coordinates(node));
             against.map(square).fold(f64::INFINITY, f64::min).sqrt()
         };
         let faced = self.faced(model);

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
-use super::search::{Segment, dot, is_inside, minus};
+use super::search::{distance_square, dot, is_inside, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
 use problem::model::{BEND, Body, EdgeId, Model, NodeId, unordered};
@@ -97,7 +97,7 @@ impl Surface {
             return false;
         }
         let near = (BESIDE * depth).powi(2);
-        let is_beside = |ends: &[Vector; 2]| Segment::new(*ends).closest(p).distance_square < near;
+        let is_beside = |ends: &[Vector; 2]| distance_square(*ends, p) < near;
         !is_inside(self.outline.iter().copied(), p) || self.outline.iter().any(is_beside)
     }
 

@@ -1,7 +1,7 @@
 //! The status rules on scenes worked out by hand.
 
 use crate::faced;
-use engine::contact::search::{Segment, closest};
+use engine::contact::search::closest;
 use engine::contact::status::statuses;
 use engine::contact::{NodeEnd, Pairing, Surfaces, reactions};
 use engine::{self, Constraint, Detail, Request};
@@ -194,9 +194,8 @@ fn the_closest_point_at_a_corner_has_the_right_side() {
     ] {
         let [a, b, c] = chain.map(|[x, y]| [-x, y]);
         for segments in [[[a, b], [b, c]], [[b, c], [a, b]]] {
-            let segments = segments.map(Segment::new);
-            let nearest = &segments[closest(&segments, point).expect("there are two")];
-            assert_eq!(nearest.side(point) > 0.0, is_inside, "{point:?}");
+            let [a, b] = segments[closest(&segments, point).expect("there are two")];
+            assert_eq!(f64::orientation(a, b, point) > 0.0, is_inside, "{point:?}");
         }
     }
 }
