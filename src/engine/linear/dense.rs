@@ -93,17 +93,16 @@ impl DenseCholesky {
         let is_held = |j: usize| is_large(pivots[j] * pivots[j], matrix[(j, j)]);
         (0..matrix.nrows()).all(is_held).then_some(DenseCholesky(factors))
     }
-
-    /// Returns the solutions x of A x = b for the columns b of a matrix.
-    pub fn solve_all(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
-        let x = self.0.solve(of_columns(b));
-        DMatrix::from_fn(b.nrows(), b.ncols(), |i, j| x[(i, j)])
-    }
 }
 
 impl Factors for DenseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         solve(&self.0, b)
+    }
+
+    fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
+        let x = self.0.solve(of_columns(&b));
+        DMatrix::from_fn(b.nrows(), b.ncols(), |i, j| x[(i, j)])
     }
 }
 

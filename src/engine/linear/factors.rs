@@ -10,12 +10,14 @@ use numbers::scalar::Scalar;
 pub trait Factors: Sync {
     /// Returns the solution x of A x = `b`.
     fn solve(&self, b: &DVector<f64>) -> DVector<f64>;
-}
 
-/// Factors of a matrix whose norm is known, by which solutions are refined.
-pub trait Normed: Factors {
-    /// Returns the largest row sum of |A|.
-    fn norm(&self) -> f64;
+    /// Returns the solutions x of A x = b for the columns b of a matrix.
+    fn solve_all(&self, mut b: DMatrix<f64>) -> DMatrix<f64> {
+        for mut column in b.column_iter_mut() {
+            column.copy_from(&self.solve(&column.clone_owned()));
+        }
+        b
+    }
 }
 
 /// LU factors of a matrix that they keep.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::Cholesky;
-use super::factors::{Factors, Normed, Singular};
+use super::factors::{Factors, Singular};
 use super::inverse_norm::inverse_norm;
 use super::symmetric::SparseSymmetric;
 
@@ -53,9 +53,9 @@ impl SparseCholesky {
         solve(&self.factors, b)
     }
 
-    /// Returns the solutions x of A x = b for the columns b of a matrix.
-    pub fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
-        self.factors.solve(b)
+    /// Returns the largest row sum of |A|.
+    pub fn norm(&self) -> f64 {
+        self.norm
     }
 
     /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
@@ -65,15 +65,13 @@ impl SparseCholesky {
     }
 }
 
-impl Normed for SparseCholesky {
-    fn norm(&self) -> f64 {
-        self.norm
-    }
-}
-
 impl Factors for SparseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         SparseCholesky::solve(self, b)
+    }
+
+    fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
+        self.factors.solve(b)
     }
 }
 

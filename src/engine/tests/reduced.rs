@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use engine::contact::{Pairing, Surfaces};
+use engine::held::{Held, Loaded};
 use engine::linear::SparseCholesky;
-use engine::reduction::{ReducedState, Reduction};
+use engine::reduction::Reduction;
 use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
 use problem::model::{Model, NodeId, Restraint};
@@ -59,7 +60,6 @@ fn constraints(pairings: &[Option<Pairing>], closed: &[usize], stuck: &[usize]) 
 fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints: &[Constraint]) {
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
-    let state = ReducedState::new(&reduction, constraints).expect("the bodies are held");
     let t = Elimination::closing(model.restraints(), constraints);
     let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
@@ -81,19 +81,28 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
         more[rub.node.dofs()[0].index()] = 1.5;
         rub.masters.iter().for_each(|(node, w)| more[node.dofs()[0].index()] = -1.5 * w);
         let reduced = reduction.eliminated(&load);
-        let (own, _) = state.displacements(&reduced, &more).expect("it has its digits");
+        let bodies = Loaded { model, stiffness: &stiffness, load: &load };
+        let held = || Held::reduced(bodies, (&reduction, &reduced), constraints).expect("it is");
+        let (state, of_all) = (held(), held().of_all());
+        let all = Held::new(bodies, constraints, 1.0).ok().expect("the bodies are held");
+        let (own, _) = state.displacements(&more).expect("it has its digits");
         let f = model.free_part(&(&load + &more)) - stiffness.times(t.shift());
         let whole = t.expand(&factors.solve(&t.load(&f)));
         near("displacement", &own, &whole);
-        let all = model.free_part(&(&load + &more));
-        let (refined, residual) = state.refined(&stiffness, &all, (&reduced, &more)).expect("so");
-        near("refined displacement", &refined, &whole);
-        assert!(residual < 1e-14, "{residual:e}");
+        for held in [&of_all, &all] {
+            let (refined, residual) = held.displacements(&more).expect("so");
+            near("refined displacement", &refined, &whole);
+            assert!(residual < 1e-14, "{residual:e}");
+        }
         let reaction = stiffness.times(&whole) - &load;
-        near("force", &on_surface(&state.reaction(&own, &reduced)), &on_surface(&reaction));
+        for held in [&state, &of_all, &all] {
+            near("force", &on_surface(&held.reaction(&own)), &on_surface(&reaction));
+        }
         let moved = t.motion(&factors.solve(&t.load(&model.free_part(&more))));
-        let response = &state.responses(std::slice::from_ref(&more))[0];
-        near("response", &on_surface(response), &on_surface(&(stiffness.times(&moved) - &more)));
+        for held in [&state, &of_all, &all] {
+            let own = &held.responses(std::slice::from_ref(&more))[0];
+            near("response", &on_surface(own), &on_surface(&(stiffness.times(&moved) - &more)));
+        }
     }
 }
 
@@ -126,8 +135,11 @@ fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {
     is_as_the_whole(&model, &pairings, &constraints(&pairings, &[300], &[310, 340]));
     let stiffness = Stiffness::new(&model, |x| x);
     let reduction = Reduction::new(&stiffness, &model, &pairings).expect("the surfaces hold it");
+    let load = DVector::zeros(model.dofs());
+    let bodies = Loaded { model: &model, stiffness: &stiffness, load: &load };
     let is_reduced = |closed: &[usize], stuck: &[usize]| {
-        ReducedState::new(&reduction, &constraints(&pairings, closed, stuck)).is_some()
+        let by = (&reduction, &reduction.eliminated(&load));
+        Held::reduced(bodies, by, &constraints(&pairings, closed, stuck)).is_some()
     };
     assert!(is_reduced(&[], &[300, 301]));
     assert!(!is_reduced(&[], &[20, 301]), "node 20 is not kept");

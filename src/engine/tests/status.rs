@@ -6,6 +6,7 @@ use engine::contact::status::statuses;
 use engine::contact::{NodeEnd, Pairing, Surfaces, reactions};
 use engine::{self, Constraint, Detail, Request};
 use nalgebra::DVector;
+use numbers::scalar::Scalar;
 use paper::door::{self, Call};
 use paper::mirror::{Cause, Failure, Pairs, Reading};
 use problem::element::Plane;

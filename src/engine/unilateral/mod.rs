@@ -61,7 +61,6 @@ mod lemke;
 mod nonnegative;
 mod path;
 mod problem;
-mod reduced;
 mod rigid;
 mod search;
 mod springs;

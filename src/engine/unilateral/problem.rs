@@ -64,8 +64,6 @@ pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
     pub(super) model: &'a Arc<Model>,
     pub(super) stiffness: Stiffness,
-    /// The triangles at a node of either contact surface.
-    pub(super) surface_triangles: Vec<usize>,
     pub(super) surfaces: Arc<Surfaces>,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
@@ -89,7 +87,7 @@ pub(super) struct Setting<'a> {
     pub(super) part: f64,
     /// The load on the contact surfaces; None where states are not looked for on these.
     pub(super) reduced: Option<ReducedLoad>,
-    /// Whether solutions are refined until they solve the equations of the whole bodies.
+    /// Whether the equations of the whole bodies are solved, also by the factors of those on the surfaces.
     pub(super) whole: bool,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
@@ -193,19 +191,12 @@ impl<'a> Problem<'a> {
         initial.iter_mut().flatten().for_each(|pairing| pairing.corner = 0.0);
         let initial = Arc::new(initial);
         let stiffness = Stiffness::new(model, |x| x);
-        let mut is_on_surface = vec![false; model.dofs()];
-        let nodes = model.contact.nodes.iter().copied();
-        nodes
-            .chain(model.target_edges().flat_map(|edge| edge.nodes))
-            .flat_map(NodeId::dofs)
-            .for_each(|dof| is_on_surface[dof.index()] = true);
         Ok(Problem {
             request,
             model,
             surfaces,
             closed: CLOSED * size(model),
             supports: stiffness.about(&supports(model, model.restraints())),
-            surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
             friction: match request.contact.friction.coefficient() {
@@ -223,7 +214,6 @@ impl<'a> Problem<'a> {
         Problem {
             surfaces: Arc::clone(&self.surfaces),
             supports: self.supports.clone(),
-            surface_triangles: self.surface_triangles.clone(),
             reduction: None,
             stiffness: Stiffness::on_springs(self.model, stiffness),
             initial: Arc::clone(&self.initial),

@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 
 use super::problem::{Configuration, Problem, StateSearch};
-use super::reduced::{HeldBodies, Unheld};
 use super::rigid::{self, Release};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
@@ -336,9 +335,7 @@ impl Problem<'_> {
 impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
-        let constraints = self.constraints(statuses);
-        let held = HeldBodies::whole(self.problem, self.setting, &constraints);
-        held.err().map(|Unheld { t, singular }| t.dof(singular.column).node())
+        self.whole(&self.constraints(statuses)).err().map(|unheld| unheld.dof.node())
     }
 }
 
