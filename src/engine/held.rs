@@ -66,7 +66,7 @@ impl<'a> Held<'a> {
         let supports = support_constraints(bodies.model, part);
         let all: Vec<Constraint> = constraints.iter().cloned().chain(supports).collect();
         let t = Elimination::closing(bodies.model.restraints(), &all);
-        match SparseCholesky::new(bodies.stiffness.reduced(&t)) {
+        match SparseCholesky::new(&bodies.stiffness.reduced(&t)) {
             Ok(factors) => {
                 let (equations, norm) = (Equations::All, factors.norm());
                 Ok(Held { bodies, equations, t, factors: Box::new(factors), norm })

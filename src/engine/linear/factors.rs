@@ -4,6 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
+use mathcad::SparseSquare;
 use numbers::scalar::Scalar;
 
 /// The factors of a square matrix A.
@@ -18,13 +19,6 @@ pub trait Factors: Sync {
         }
         b
     }
-}
-
-/// LU factors of a matrix that they keep.
-pub trait Lu: Factors {
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64;
 }
 
 /// A column whose pivot vanished: the matrix has no unique solution.
@@ -67,4 +61,15 @@ pub fn backward_error<T: Scalar>(
 ) -> f64 {
     let [residual, x, b] = [residual, x, b].map(|numbers| largest(numbers.as_slice()));
     if residual == 0.0 { 0.0 } else { residual / (norm * x + b) }
+}
+
+/// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors, 0 when x and b are
+/// 0.
+pub fn residual(matrix: &SparseSquare, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    let (mut rest, mut row_sums) = (-b, DVector::<f64>::zeros(x.len()));
+    for (i, j, a) in matrix.entries() {
+        rest[i] += a * x[j];
+        row_sums[i] += a.abs();
+    }
+    backward_error(&rest, largest(row_sums.as_slice()), x, b)
 }

@@ -15,10 +15,9 @@ const UNBOUNDED: f64 = 0.1 / f64::EPSILON;
 /// matrix, no other load is tried.
 const SMALL_PART: f64 = 1e-5;
 
-/// A symmetric positive definite matrix and its Cholesky factors.
+/// The Cholesky factors of a symmetric positive definite matrix.
 pub struct SparseCholesky {
-    matrix: SparseSymmetric,
-    /// The largest row sum of its sizes.
+    /// The largest row sum of the matrix's sizes.
     norm: f64,
     factors: Cholesky,
 }
@@ -29,12 +28,12 @@ impl SparseCholesky {
     /// # Errors
     /// Names an equation that a trial load, scaled by the diagonal, moves without bound:
     /// the matrix is singular or nearly so.
-    pub fn new(matrix: SparseSymmetric) -> Result<Self, Singular> {
-        let Some(factors) = Cholesky::new(&matrix) else {
-            return Err(mechanism(&matrix));
+    pub fn new(matrix: &SparseSymmetric) -> Result<Self, Singular> {
+        let Some(factors) = Cholesky::new(matrix) else {
+            return Err(mechanism(matrix));
         };
         let diagonal = matrix.diagonal();
-        let cholesky = SparseCholesky { norm: matrix.norm(), matrix, factors };
+        let cholesky = SparseCholesky { norm: matrix.norm(), factors };
         let Some((column, size)) = probe(&cholesky.factors, &diagonal) else {
             return Ok(cholesky);
         };
@@ -48,26 +47,15 @@ impl SparseCholesky {
         }
     }
 
-    /// Returns the solution x of A x = `b`.
-    pub fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        solve(&self.factors, b)
-    }
-
     /// Returns the largest row sum of |A|.
     pub fn norm(&self) -> f64 {
         self.norm
-    }
-
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    pub fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
-        self.matrix.residual(x, b)
     }
 }
 
 impl Factors for SparseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        SparseCholesky::solve(self, b)
+        solve(&self.factors, b)
     }
 
     fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {

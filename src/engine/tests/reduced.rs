@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use engine::contact::{Pairing, Surfaces};
 use engine::held::{Held, Loaded};
-use engine::linear::SparseCholesky;
+use engine::linear::{Factors, SparseCholesky};
 use engine::reduction::Reduction;
 use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
@@ -61,7 +61,7 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
     let t = Elimination::closing(model.restraints(), constraints);
-    let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
+    let factors = SparseCholesky::new(&stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
         assert!(whole.amax() > 1e-3, "{what}");
         for (own, other) in own.iter().zip(whole) {

@@ -8,7 +8,7 @@ use crate::contact::{ContactForce, Pairing, Status, add, contact_forces};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
 use crate::held::{Held, Loaded, Unheld};
-use crate::linear::SparseCholesky;
+use crate::linear::{Factors, SparseCholesky};
 use problem::model::Dof;
 
 impl StateSearch<'_> {
@@ -55,7 +55,7 @@ impl StateSearch<'_> {
             Err(Unheld { t, dof }) => {
                 let soft = self.problem.stiffness.reduced(&t).softly_held();
                 let load = t.load(&self.setting.load);
-                let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
+                let motion = SparseCholesky::new(&soft).ok().map(|k| t.motion(&k.solve(&load)));
                 Ok(StateAttempt::Free { dof, motion })
             }
         }
