@@ -19,7 +19,7 @@ use paper::mirror::Pairs;
 use problem::element::State;
 use problem::model::{Dof, Model, NodeId};
 
-/// The part of the largest displacement from which a gap is open.
+/// The part of the largest displacement from which a gap is open, and from which two equilibria differ.
 pub(super) const APART: f64 = 1e-6;
 
 /// A step: one iteration of a published variant, or one of the active set.

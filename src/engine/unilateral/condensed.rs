@@ -17,12 +17,10 @@ use super::lemke::complementary;
 use super::problem::StateSearch;
 use crate::contact::{Pairing, Sense, Status, contact_forces};
 use crate::elimination::{Constraint, Motion};
+use problem::model::FREE;
 
 /// The number of contact nodes up to which the step is condensed.
 const MOST: usize = 150;
-
-/// A pivot over the largest stiffness below which nothing holds the bodies.
-const LOOSE: f64 = 1e-12;
 
 /// What of a force, a gap or a slip over the largest is rounding; what is found is checked on the bodies.
 const ROUNDING: f64 = 1e-8;
@@ -192,7 +190,7 @@ impl<'a> Condensed<'a> {
             let (free, held) = (vanish.nrows(), size - vanish.nrows());
             let equations = vanish * left.rows(0, size);
             let inverse = equations.columns(held, free).into_owned().try_inverse();
-            let Some(inverse) = inverse.filter(|inverse| inverse.amax() * LOOSE <= 1.0) else {
+            let Some(inverse) = inverse.filter(|inverse| inverse.amax() * FREE <= 1.0) else {
                 continue;
             };
             let moved = -inverse * equations.columns(size, later);

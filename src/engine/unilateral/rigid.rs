@@ -8,8 +8,9 @@ use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
 use problem::model::{Body, Dof, FREE, Model, NodeId, RigidBody};
 
-/// The part of the load below which what nothing opposes is rounding.
-const OPPOSED: f64 = 1e-9;
+/// The part of forces, or of their moments about the farthest node, below which what is left of them is rounding:
+/// coordinates and loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
+pub(super) const BALANCED: f64 = 1e-9;
 
 /// The gap, over the deepest overlap, beyond which bodies are apart.
 const ROOM: f64 = 1e-3;
@@ -93,7 +94,7 @@ pub(super) fn escape(
     };
     let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
     let left = &f + forces * sizes;
-    if left.amax() <= OPPOSED * load.amax() {
+    if left.amax() <= BALANCED * load.amax() {
         return None;
     }
     model.all_dofs().nth(motions.displacements(&left).iamax())
@@ -149,7 +150,7 @@ pub(super) fn release(
     }
     let in_all = |motion: DVector<f64>| motions.displacements(&motion);
     let f = motions.work_of(load);
-    let under_load = (f.norm() > OPPOSED * load.amax())
+    let under_load = (f.norm() > BALANCED * load.amax())
         .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
         .flatten()
         .filter(|motion| motion.norm() <= reach);
@@ -260,6 +261,9 @@ impl<'a> RigidMotions<'a> {
     fn new(model: &'a Model, shape: &'a [[f64; 2]]) -> Self {
         let places = |part: &'a Body| part.nodes.iter().map(|node| shape[node.index()]);
         let mut bodies: Vec<_> = model.bodies.iter().map(|b| RigidBody::new(places(b))).collect();
+        let all = model.bodies.iter().flat_map(places);
+        let size = all.map(|p| bodies[0].far(p)).fold(0.0, f64::max);
+        bodies.iter_mut().for_each(|body| body.size = size);
         let mut body = vec![None; model.nodes.len()];
         for (b, part) in model.bodies.iter().enumerate() {
             part.nodes.iter().for_each(|node| body[node.index()] = Some(b));

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::problem::{Configuration, Problem, StateSearch};
-use super::rigid::{self, Release};
+use super::rigid::{self, BALANCED, Release};
 use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
@@ -17,10 +17,6 @@ use problem::modelling::Coupling;
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
-
-/// The part of the sum of forces times the farthest node's arm below which a moment is rounding: coordinates and
-/// loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
-const BALANCED: f64 = 1e-9;
 
 /// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
 const RELEASES: usize = 20;

@@ -8,17 +8,17 @@ use super::Model;
 use super::ids::NodeId;
 use base::plain::six_digits;
 
-/// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
+/// The stiffness, over the largest, up to which a motion is free of force.
 pub const FREE: f64 = 1e-12;
 
 /// The turn of a rigid motion, over its size, below which it is a translation to rounding.
 const SLIDES: f64 = 1e-6;
 
-/// The motions of some nodes as a rigid body: along x, along y, and a turn that moves the farthest node by 1.
+/// The motions of some nodes as a rigid body: along x, along y, and a turn about their middle.
 pub struct RigidBody {
     /// The middle of the nodes, length.
     pub middle: [f64; 2],
-    /// The distance of the farthest node from the middle, length.
+    /// The arm of a turn of size 1, length: the farthest node's.
     pub size: f64,
     /// The Gram matrix of the motions that are held.
     held: Matrix3<f64>,
@@ -30,8 +30,14 @@ impl RigidBody {
         let add = |[x, y]: [f64; 2], p: [f64; 2]| [x + p[0], y + p[1]];
         let count = places.clone().count() as f64;
         let middle = places.clone().fold([0.0; 2], add).map(|sum| sum / count);
-        let far = |[x, y]: [f64; 2]| (x - middle[0]).hypot(y - middle[1]);
-        RigidBody { middle, size: places.map(far).fold(0.0, f64::max), held: Matrix3::zeros() }
+        let mut body = RigidBody { middle, size: 0.0, held: Matrix3::zeros() };
+        body.size = places.map(|p| body.far(p)).fold(0.0, f64::max);
+        body
+    }
+
+    /// Returns the distance of a place from the middle, length.
+    pub fn far(&self, [x, y]: [f64; 2]) -> f64 {
+        (x - self.middle[0]).hypot(y - self.middle[1])
     }
 
     /// Returns how far each motion moves a place along a direction.
