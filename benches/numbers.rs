@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use nalgebra::DVector;
-use plane_contact::engine::linear::SparseCholesky;
+use plane_contact::engine::linear::{Factors, SparseCholesky};
 use plane_contact::engine::{Elimination, Stiffness};
 use plane_contact::output::exports::{self, Export};
 use plane_contact::paper::door;
@@ -302,7 +302,7 @@ fn factors_of(scene: &str) -> [f64; 3] {
     let matrix = stiffness.reduced(&Elimination::new(&holds, &[]));
     let n = matrix.size();
     let start = Instant::now();
-    let factors = SparseCholesky::new(matrix).expect("the bodies are held");
+    let factors = SparseCholesky::new(&matrix).expect("the bodies are held");
     let factored = start.elapsed().as_secs_f64();
     let b = DVector::from_element(n, 1.0);
     let solution = least(3, || drop(black_box(factors.solve(&b))));

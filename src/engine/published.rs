@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, Surfaces, Traction, reactions, status};
+use super::contact::{ContactNode, NodeEnd, Surfaces, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
@@ -302,25 +302,18 @@ impl<T: Precision> Run<'_, T> {
         in_contact: &[bool],
         reaction: &DVector<f64>,
     ) -> Result<Vec<ContactNode>, InputError> {
-        if !self.equations.model.has_contact() {
-            return Ok(Vec::new());
-        }
         let surfaces = Surfaces::new(self.equations.model)?;
         let shape = numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let eliminated = self.equations.request.variant != Variant::Printed;
-        let traction = Traction {
-            model: self.equations.model,
-            u: &self.u.map(T::to_f64),
-            surfaces: &surfaces,
-            pairings: &pairings,
-            gaps: &pairings.iter().map(|p| p.as_ref().map(|p| p.gap)).collect::<Vec<_>>(),
-            measured_in: &shape,
-            in_contact,
-            statuses: None,
-            forces: &reactions(self.equations.model, &pairings, reaction, eliminated),
-        };
-        Ok(traction.nodes())
+        let (model, u) = (self.equations.model, self.u.map(T::to_f64));
+        let forces = reactions(model, &pairings, reaction, eliminated);
+        Ok(surfaces.nodes_at_end((model, &u), (&shape, &pairings), |i, pairing| NodeEnd {
+            gap: pairing.gap,
+            in_contact: in_contact[i],
+            status: None,
+            force: forces[i],
+        }))
     }
 }
 

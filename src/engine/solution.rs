@@ -19,7 +19,7 @@ use paper::mirror::Pairs;
 use problem::element::State;
 use problem::model::{Dof, Model, NodeId};
 
-/// The part of the largest displacement from which a gap is open.
+/// The part of the largest displacement from which a gap is open, and from which two equilibria differ.
 pub(super) const APART: f64 = 1e-6;
 
 /// A step: one iteration of a published variant, or one of the active set.
@@ -425,30 +425,7 @@ impl Solution {
     /// the contact surface, the reactions and the steps stay those of this solution.
     #[must_use]
     pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
-        let Solution {
-            request,
-            model,
-            steps,
-            reactions,
-            contact,
-            factored,
-            overlap,
-            equilibrium,
-            ..
-        } = self.clone();
-        Solution {
-            request,
-            model,
-            steps,
-            u,
-            reactions,
-            elements,
-            contact,
-            factored,
-            digits: None,
-            overlap,
-            equilibrium,
-        }
+        Solution { u, elements, digits: None, ..self.clone() }
     }
 
     /// Returns the displacements by degree of freedom with all their digits, length.

@@ -6,19 +6,17 @@ use faer::{MatRef, Par, prelude::Solve};
 
 use super::square::SparseSquare;
 
-/// Factors an n x n `matrix`, however near to a singular one it is: the matrix column by column, and its
-/// factors; None where a pivot is 0.
-pub fn factored(matrix: &SparseSquare) -> Option<(SparseColMat<usize, f64>, Lu<usize, f64>)> {
+/// Factors an n x n `matrix`, however near to a singular one it is; None where a pivot is 0.
+pub fn factored(matrix: &SparseSquare) -> Option<Lu<usize, f64>> {
     let matrix = columns(matrix);
     faer::set_global_parallelism(Par::Seq);
     let symbolic = SymbolicLu::try_new(matrix.symbolic()).expect("a pattern fits in memory");
-    let factors = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).ok()?;
-    Some((matrix, factors))
+    Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).ok()
 }
 
 /// Returns the solution x of A x = `b`; None where a pivot of `matrix`, which is A, is 0.
 pub fn solved(matrix: &SparseSquare, b: &[f64]) -> Option<Vec<f64>> {
-    let (_, factors) = factored(matrix)?;
+    let factors = factored(matrix)?;
     let x = factors.solve(MatRef::from_column_major_slice(b, b.len(), 1));
     Some((0..b.len()).map(|i| x[(i, 0)]).collect())
 }

@@ -5,17 +5,14 @@ use serde::Serialize;
 use super::outline::{FacedPoint, Outline};
 use super::overlap::PlacedTriangles;
 use super::pairing::Vector;
-use super::search::{Segment, dot};
-use super::surface::Surfaces;
+use super::search::{distance_square, dot};
+use super::surface::{SAME, Surfaces};
 use base::error::InputError;
 use problem::model::{Body, Bounds, Model, NodeId};
 
 /// The initial penetration over the size of the scene up to which a scene is never refused: ten
 /// times the interference of a press fit of 0.1 %.
 const DEEP_SCENE: f64 = 0.01;
-
-/// The depth over the size of the scene up to which a node touches: rounding.
-const TOUCHING: f64 = 1e-9;
 
 /// The gap over the size of the smaller body beyond which bodies lie far apart.
 const FAR: f64 = 0.1;
@@ -85,7 +82,7 @@ impl Surfaces {
             let sides = model.sides.outline().filter(|side| body.has(side.nodes[0]));
             let ends = sides.map(|side| side.nodes.map(|end| model.coordinates(end)));
             let against = ends.filter(|[[ax, ay], [bx, by]]| dot([by - ay, ax - bx], normal) < 0.0);
-            let square = |ends| Segment::new(ends).closest(model.coordinates(node)).distance_square;
+            let square = |ends| distance_square(ends, model.coordinates(node));
             against.map(square).fold(f64::INFINITY, f64::min).sqrt()
         };
         let faced = self.faced(model);
@@ -124,7 +121,7 @@ impl Surfaces {
         model: &Model,
         faced: &'a [(NodeId, FacedPoint)],
     ) -> Vec<&'a (NodeId, FacedPoint)> {
-        let least = TOUCHING * model.bounds().larger_side();
+        let least = SAME * model.bounds().larger_side();
         let behind = |(_, point): &&(NodeId, FacedPoint)| point.over && point.gap < -least;
         let mut found: Vec<_> = faced.iter().filter(behind).collect();
         if found.is_empty() {

@@ -5,11 +5,13 @@
 //! | what does a contact node face, and how far is it? | `pairing.rs`: by `nts.rs` with `outline.rs`, or by `mortar.rs` |
 //! | is it in contact under `printed`, `tied`, `stepped`? | `c_cnt`, or [`status`], by the rule that is asked for |
 //! | is it open, does it stick or slide under `unilateral`? | `../unilateral/mod.rs` |
+//! | what is its force, and do its restraints leave it undetermined? | `forces.rs`, `direct` and `by_target` |
 //! | what is its traction? | `pressure.rs` |
 //!
 //! A gap is < 0 inside the target. The listing's `yt`, and what [`status`] gives in its place, is of the
 //! opposite sign: > 0 where the target's line is above the node.
 
+mod forces;
 mod initial;
 mod mortar;
 mod nts;
@@ -22,6 +24,7 @@ pub mod search;
 pub mod status;
 mod surface;
 pub use crate::quantities::ContactNode;
+pub(super) use forces::{ContactForce, add, contact_forces, load_of};
 pub use initial::InitialGaps;
 pub use order::{along, hidden, oddity, turned};
 pub use overlap::{InsideNode, Watched};
@@ -29,8 +32,8 @@ pub use pairing::{Pairing, STEEP, Sense, Status};
 pub(crate) use pressure::ContactPlace;
 pub(super) use pressure::arcs;
 pub(super) use pressure::rounding;
-pub use pressure::{ROUNDING_OF_A_FORCE, Traction, pulling, reactions};
-pub use surface::{BEND, Surfaces};
+pub use pressure::{NodeEnd, ROUNDING_OF_A_FORCE, pulling, reactions};
+pub use surface::Surfaces;
 
 use problem::modelling::Coupling;
 

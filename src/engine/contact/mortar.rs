@@ -37,7 +37,7 @@ use rustc_hash::FxHashMap;
 
 use super::pairing::{Pairing, unit};
 use super::search::dot;
-use super::surface::{Edge, FACING, PlacedEdge, Surface, Surfaces};
+use super::surface::{Edge, FACING, PlacedEdge, SAME, Surface, Surfaces};
 use numbers::scalar::Scalar;
 use problem::model::{EdgeId, NodeId};
 use problem::tree::{Bounds, Tree};
@@ -56,9 +56,6 @@ const WALL: f64 = 0.5;
 /// How far one target edge may lie behind the line of another, over the distance between them: a target that bends
 /// there.
 const BEHIND: f64 = 0.5;
-
-/// How far one target edge may lie behind another that it touches, over the contact edge's length: rounding.
-const JUMP: f64 = 1e-9;
 
 impl Surfaces {
     /// Returns, for each contact surface entry, the average of the target that its edges cover in a shape, given as
@@ -251,7 +248,7 @@ impl<T: Scalar> Search<'_, T> {
         let ends = [last.edge, next.edge];
         let undeformed = ends.map(|k| self.surfaces.target.undeformed[k].map(T::from_f64));
         let least = depth(ends.map(|k| self.target[k])).min(depth(undeformed));
-        least > JUMP * length.to_f64()
+        least > SAME * length.to_f64()
     }
 }
 

@@ -12,8 +12,8 @@
 //! 2. A node in the cone of a corner, where it projects past the ends of both edges, is paired with
 //!    the corner's vertex alone. The normal is the direction between vertex and node. It is the
 //!    edge's normal on the cone's two sides, so that nothing jumps where a node passes round.
-//! 3. Where the node lies within [`TIE`] of the vertex, or two edges that meet there are equally
-//!    near within [`TIE`], it is paired with the vertex, and the normal is the bisector of the
+//! 3. Where the node lies within [`SAME`] of the vertex, or two edges that meet there are equally
+//!    near within [`SAME`], it is paired with the vertex, and the normal is the bisector of the
 //!    edges' normals. So a node inside a convex corner or over a concave one, on the bisector.
 //!    There, and inside a concave corner past the ends of both edges, contact may press along any normal
 //!    between those of the edges.
@@ -27,7 +27,7 @@
 //! 6. An edge that the node sees from behind, through the body, before any load does not count.
 //!
 //! No rule depends on the order or direction of the edges or on the axes; a choice jumps only where
-//! a node leaves the neighbourhood [`TIE`] of rule 3, and at the limits of rules 4 and 5.
+//! a node leaves the neighbourhood [`SAME`] of rule 3, and at the limits of rules 4 and 5.
 //!
 //! Source: G. Zavarise, L. De Lorenzis, Comput. Methods Appl. Mech. Engrg. 198 (2009) 3428-3451 (a
 //! node in the cone between two segments is paired with the vertex); J. A. Bærentzen, H. Aanæs, IEEE
@@ -37,17 +37,9 @@ use std::cell::{Cell, RefCell};
 
 use super::pairing::{Vector, unit};
 use super::search::{dot, minus};
-use super::surface::{BEND, FACING, PlacedEdge, Surface};
-use problem::model::NodeId;
+use super::surface::{FACING, PlacedEdge, SAME, Surface};
+use problem::model::{BEND, NodeId};
 use problem::tree::{Bounds, Tree};
-
-/// The difference of two distances, over the size of the surface, below which they are equal: far
-/// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
-const TIE: f64 = 1e-9;
-
-/// How far past an edge's end a closest point still counts as on it, over its length, and by how
-/// much a cosine may miss its limit: rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// How far past the end of the surface a node still rests on it, over the last edge's length: the
 /// same tolerance as mortar's. Edges that lie flush slide by their strain.
@@ -96,7 +88,7 @@ impl<'a> Outline<'a> {
         let placed: Vec<PlacedEdge> = edges.iter().map(|edge| edge.in_shape(shape)).collect();
         let ends = |k: &usize| (*k, edges[*k].nodes.map(|n| shape[n.index()]));
         let tree = Tree::new(once.iter().map(ends));
-        let tie = TIE * tree.bounds().map_or(0.0, |all| all.larger_side());
+        let tie = SAME * tree.bounds().map_or(0.0, |all| all.larger_side());
         let normals = normals(surface, &placed);
         Outline { surface, placed, normals, tree, tie }
     }
@@ -167,7 +159,7 @@ struct FacingNode<'a> {
 impl FacingNode<'_> {
     /// Returns whether the node faces a normal of the surface.
     fn faces(&self, normal: Vector) -> bool {
-        self.own.is_none_or(|own| dot(own, normal) <= ROUNDING - FACING)
+        self.own.is_none_or(|own| dot(own, normal) <= SAME - FACING)
     }
 
     fn faces_edge(&self, k: usize) -> bool {
@@ -206,7 +198,7 @@ impl FacingNode<'_> {
         let last = if let [k] = facing[..] { Some(k) } else { None };
         let last = last.filter(|k| past(*k) > 0.0);
         if let Some(k) = last
-            && past(k) <= HANGING + ROUNDING
+            && past(k) <= HANGING + SAME
         {
             return Some(Part::Edge(k));
         }
@@ -221,7 +213,7 @@ impl FacingNode<'_> {
         }
         let steep = |k: &usize| {
             let edge = &outline.placed[*k];
-            past(*k) <= edge.outside(self.p).abs() / edge.length + ROUNDING
+            past(*k) <= edge.outside(self.p).abs() / edge.length + SAME
         };
         last.filter(steep).map(Part::Edge)
     }
@@ -324,7 +316,7 @@ impl FacingNode<'_> {
         let (edge, placed) = (&self.outline.surface.edges[k], &self.outline.placed[k]);
         let along = placed.along(self.p);
         let xi = along.clamp(0.0, 1.0);
-        let over = (along - xi).abs() <= ROUNDING;
+        let over = (along - xi).abs() <= SAME;
         let [a, b] = self.outline.normals[k];
         let normal = unit([0, 1].map(|d| (1.0 - xi) * a[d] + xi * b[d]));
         let masters = vec![(edge.nodes[0], 1.0 - xi), (edge.nodes[1], xi)];

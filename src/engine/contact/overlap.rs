@@ -11,7 +11,7 @@ use std::collections::HashSet;
 
 use super::outline::Outline;
 use super::pairing::Vector;
-use super::search::{Segment, is_in_triangle};
+use super::search::{distance_square, is_in_triangle};
 use super::surface::{Edge, Surface, Surfaces};
 use problem::model::{Body, Bounds, Model, NodeId};
 use problem::tree::Tree;
@@ -118,7 +118,7 @@ impl Surface {
             self.edges.iter().filter(|edge| body.has(edge.nodes[0]) && !edge.nodes.contains(&node));
         let square = |edge: &Edge| {
             let ends = edge.nodes.map(|end| shape[end.index()]);
-            Segment::new(ends).closest(shape[node.index()]).distance_square
+            distance_square(ends, shape[node.index()])
         };
         let nearest = edges.map(|edge| (square(edge), edge)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map(|(square, edge)| (square.sqrt(), edge))

@@ -51,6 +51,11 @@ impl Pairing {
         self.opening(|node| model.coordinates(node)) + self.opening(|node| node.components(u))
     }
 
+    /// Returns the tangent: the normal turned left.
+    pub(crate) fn tangent(&self) -> [f64; 2] {
+        [-self.normal[1], self.normal[0]]
+    }
+
     /// Returns the pairing of a node in a concave corner with one of its two edges alone: that whose normal is turned from
     /// the mean normal to the left (1) or to the right (-1).
     pub(crate) fn on_edge(&self, side: f64) -> Self {

@@ -3,14 +3,11 @@
 
 use nalgebra::DVector;
 
-use super::pairing::{Pairing, Status};
-use super::surface::Surfaces;
+use super::pairing::{Pairing, Status, Vector};
+use super::surface::{SAME, Surfaces};
 use crate::quantities::ContactNode;
 use problem::element::Plane;
 use problem::model::{Material, Model, NodeId};
-
-/// How far the size of a normal's component may be from 1 where a restraint is across the normal.
-const ACROSS: f64 = 1e-9;
 
 /// The force over the largest of a surface, or of the load, below which it is rounding.
 pub const ROUNDING_OF_A_FORCE: f64 = 1e-11;
@@ -46,57 +43,52 @@ fn largest(forces: impl Iterator<Item = Option<f64>>) -> f64 {
     forces.flatten().fold(0.0, |largest, force| largest.max(force.abs()))
 }
 
-/// The contact surface at the end of a run, from which the tractions are computed.
-pub struct Traction<'a> {
-    /// The finite element model of the run.
-    pub model: &'a Model,
-    /// The displacements at its end, length.
-    pub u: &'a DVector<f64>,
-    /// The contact and target surfaces of the model.
-    pub surfaces: &'a Surfaces,
-    /// The shape in which contact is measured: the coordinates of each node, length.
-    pub measured_in: &'a [[f64; 2]],
-    /// The pairing of each entry of the contact surface in that shape.
-    pub pairings: &'a [Option<Pairing>],
-    /// The gap of each entry, length; None where it faces nothing.
-    pub gaps: &'a [Option<f64>],
-    /// Whether each entry of the contact surface is in contact.
-    pub in_contact: &'a [bool],
-    /// The status of each entry; None where the variant has no such statuses.
-    pub statuses: Option<&'a [Status]>,
-    /// The force of each entry along normal and tangent, force; None where it is not determined.
-    pub forces: &'a [[Option<f64>; 2]],
+/// What a run ends with at a contact node that faces the target.
+pub struct NodeEnd {
+    /// The distance from the target along its normal, length.
+    pub gap: f64,
+    /// Whether it is in contact.
+    pub in_contact: bool,
+    /// Its status; None where the variant has no such statuses.
+    pub status: Option<Status>,
+    /// The force along normal and tangent, force; None where it is not determined.
+    pub force: Option<[f64; 2]>,
 }
 
-impl Traction<'_> {
-    /// Returns the contact nodes that face the target, in order along the surface.
-    pub fn nodes(&self) -> Vec<ContactNode> {
-        let lengths =
-            [&self.model.nodes[..], self.measured_in].map(|shape| self.surfaces.tributary(shape));
-        let arcs = arcs(self.model);
-        let least = ROUNDING_OF_A_FORCE * largest(self.forces.iter().map(|force| force[0]));
-        let rounding = rounding(self.model, self.u);
-        let node = |i: usize| {
-            let pairing = self.pairings[i].as_ref()?;
+impl Surfaces {
+    /// Returns the contact nodes that face the target after displacements `u` of a model, length, in order along the
+    /// surface. `pairings` are those in the shape in which contact is measured, which has the coordinates of each node,
+    /// length; `end` is told each of them with its entry.
+    pub fn nodes_at_end<'a>(
+        &self,
+        (model, u): (&Model, &DVector<f64>),
+        (measured_in, pairings): (&[Vector], &'a [Option<Pairing>]),
+        end: impl Fn(usize, &Pairing) -> NodeEnd,
+    ) -> Vec<ContactNode> {
+        let entries = pairings.iter().enumerate();
+        let facing: Vec<(usize, &'a Pairing, NodeEnd)> = entries
+            .filter_map(|(i, p)| p.as_ref().map(|pairing| (i, pairing, end(i, pairing))))
+            .collect();
+        let lengths = [&model.nodes, measured_in].map(|shape| self.tributary(shape));
+        let (arcs, rounding) = (arcs(model), rounding(model, u));
+        let pressing = facing.iter().map(|(_, _, end)| end.force.map(|[normal, _]| normal));
+        let least = ROUNDING_OF_A_FORCE * largest(pressing);
+        let node = |(i, pairing, mut end): (usize, &'a Pairing, NodeEnd)| {
             let stretch = lengths[1][i] / lengths[0][i];
-            let length = over(pairing.length, stretch).unwrap_or(0.0);
-            let least = least.max(rounding[pairing.node.index()]);
-            let beyond =
-                |force: f64| if force.abs() > rounding[pairing.node.index()] { force } else { 0.0 };
-            let [normal, tangent] = self.forces[i].map(|force| force.map(beyond));
-            Some(ContactNode::compute(&ContactPlace {
+            let area = over(pairing.length, stretch).unwrap_or(0.0) * model.thickness;
+            let rounding = rounding[pairing.node.index()];
+            for part in end.force.iter_mut().flatten().filter(|part| part.abs() <= rounding) {
+                *part = 0.0;
+            }
+            ContactNode::compute(&ContactPlace {
                 pairing,
                 arc: arcs[i],
-                area: length * self.model.thickness,
-                in_contact: self.in_contact[i],
-                gap: self.gaps[i].unwrap_or(pairing.gap),
-                status: self.statuses.map(|statuses| statuses[i]),
-                normal,
-                tangent,
-                is_pressed: self.in_contact[i] && normal.is_some_and(|normal| normal > least),
-            }))
+                area,
+                least: least.max(rounding),
+                end,
+            })
         };
-        (0..self.pairings.len()).filter_map(node).collect()
+        facing.into_iter().map(node).collect()
     }
 }
 
@@ -106,27 +98,26 @@ pub(crate) struct ContactPlace<'a> {
     /// Its distance along the undeformed surface, length.
     pub arc: f64,
     /// The undeformed surface that it represents, length · thickness.
-    pub area: f64,
-    pub in_contact: bool,
-    pub gap: f64,
-    pub status: Option<Status>,
-    /// The force along the normal, force; None where it is not determined.
-    pub normal: Option<f64>,
-    /// The force along the tangent, force; None where it is not determined.
-    pub tangent: Option<f64>,
-    /// Whether it is in contact and pressed by more than rounding.
-    pub is_pressed: bool,
+    area: f64,
+    /// The force up to which it presses by rounding alone, force.
+    least: f64,
+    pub end: NodeEnd,
 }
 
 impl ContactPlace<'_> {
-    /// Returns a traction, stress.
-    pub fn over_area(&self, force: Option<f64>) -> Option<f64> {
-        over(force?, self.area)
+    /// Returns the force along the normal, 0, or the tangent, 1, force.
+    pub fn force(&self, along: usize) -> Option<f64> {
+        self.end.force.map(|force| force[along])
+    }
+
+    /// Returns the same over the area, stress.
+    pub fn traction(&self, along: usize) -> Option<f64> {
+        over(self.force(along)?, self.area)
     }
 
     pub fn friction_needed(&self) -> Option<f64> {
-        let normal = self.normal.filter(|_| self.is_pressed)?;
-        Some(self.tangent?.abs() / normal)
+        let [normal, tangent] = self.end.force?;
+        (self.end.in_contact && normal > self.least).then(|| tangent.abs() / normal)
     }
 }
 
@@ -139,7 +130,7 @@ pub fn reactions(
     pairings: &[Option<Pairing>],
     reaction: &DVector<f64>,
     eliminated: bool,
-) -> Vec<[Option<f64>; 2]> {
+) -> Vec<Option<[f64; 2]>> {
     let of_pairing = |pairing: &Pairing| {
         let ([nx, ny], restrained) = (pairing.normal, model.restraints_of(pairing.node));
         let force = pairing.node.components(reaction);
@@ -147,13 +138,12 @@ pub fn reactions(
         let is_determined = match restrained {
             [false, false] => true,
             [true, true] => false,
-            [true, false] => eliminated || ny.abs() > 1.0 - ACROSS,
-            [false, true] => eliminated || nx.abs() > 1.0 - ACROSS,
+            [true, false] => eliminated || ny.abs() > 1.0 - SAME,
+            [false, true] => eliminated || nx.abs() > 1.0 - SAME,
         };
-        let force = [nx * rx + ny * ry, nx * ry - ny * rx];
-        force.map(|component| is_determined.then_some(component))
+        is_determined.then_some([nx * rx + ny * ry, nx * ry - ny * rx])
     };
-    pairings.iter().map(|p| p.as_ref().map_or([None, None], of_pairing)).collect()
+    pairings.iter().map(|p| p.as_ref().and_then(of_pairing)).collect()
 }
 
 /// Returns a / b; None for a node that represents no length, which has no pressure.

@@ -34,72 +34,33 @@ pub fn is_inside(sides: impl Iterator<Item = [[f64; 2]; 2]>, p: [f64; 2]) -> boo
     !sides.filter(is_above).count().is_multiple_of(2)
 }
 
-/// An edge in a shape, with its body on the left.
-#[derive(Clone, Copy, Debug)]
-pub struct Segment<T> {
-    /// The coordinates of its two ends, length.
-    pub ends: [[T; 2]; 2],
-    /// The vector from its first end to its second, length.
-    along: [T; 2],
-    /// The square of its length, length².
-    square: T,
-}
-
-/// The point of a segment that is closest to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closest<T> {
-    /// Twice the area of the two ends and the point, length²: > 0 on the body's side of the line.
-    pub side: T,
-    /// The square of the segment's length, length².
-    pub square: T,
-    /// The square of the distance to the segment, length².
-    pub distance_square: T,
-}
-
-impl<T: Scalar> Segment<T> {
-    /// Returns the segment between two ends.
-    pub fn new(ends: [[T; 2]; 2]) -> Self {
-        let along = minus(ends[1], ends[0]);
-        Segment { ends, along, square: dot(along, along) }
-    }
-
-    /// Returns its point that is closest to `p`.
-    pub fn closest(&self, p: [T; 2]) -> Closest<T> {
-        let xi = dot(self.along, minus(p, self.ends[0])) / self.square;
-        let side = self.side(p);
-        let square = |a: [T; 2]| dot(a, a);
-        let distance_square = if xi < T::zero() {
-            square(minus(p, self.ends[0]))
-        } else if xi > T::one() {
-            square(minus(p, self.ends[1]))
-        } else {
-            side * side / self.square
-        };
-        Closest { side, square: self.square, distance_square }
-    }
-
-    /// Returns a number > 0 where `p` lies on the body's side of its line, 0 on the line, else < 0;
-    /// of `f64` the sign is exact.
-    pub fn side(&self, p: [T; 2]) -> T {
-        T::orientation(self.ends[0], self.ends[1], p)
+/// Returns the square of the distance of `p` from the segment between two ends, length².
+pub(super) fn distance_square<T: Scalar>([a, b]: [[T; 2]; 2], p: [T; 2]) -> T {
+    let (along, square) = (minus(b, a), |v: [T; 2]| dot(v, v));
+    let xi = dot(along, minus(p, a)) / square(along);
+    if xi < T::zero() {
+        square(minus(p, a))
+    } else if xi > T::one() {
+        square(minus(p, b))
+    } else {
+        line_square([a, b], p)
     }
 }
 
-impl<T: Scalar> Closest<T> {
-    fn is_nearer_than(&self, other: &Self) -> bool {
-        let line_square = |of: &Self| of.side * of.side / of.square;
-        self.distance_square < other.distance_square
-            || self.distance_square == other.distance_square
-                && line_square(self) > line_square(other)
-    }
+/// Returns the square of the distance of `p` from the line through two points, length².
+fn line_square<T: Scalar>([a, b]: [[T; 2]; 2], p: [T; 2]) -> T {
+    let (along, side) = (minus(b, a), T::orientation(a, b, p));
+    side * side / dot(along, along)
 }
 
-/// Returns the index of the segment that is closest to `p`.
-pub fn closest<T: Scalar>(segments: &[Segment<T>], p: [T; 2]) -> Option<usize> {
-    let points = segments.iter().map(|segment| segment.closest(p)).enumerate();
-    let nearest =
-        points.reduce(|best, next| if next.1.is_nearer_than(&best.1) { next } else { best })?;
-    Some(nearest.0)
+/// Returns the index of the segment, given by its two ends, that is closest to `p`.
+pub fn closest<T: Scalar>(segments: &[[[T; 2]; 2]], p: [T; 2]) -> Option<usize> {
+    let squares = |ends: &[[T; 2]; 2]| [distance_square(*ends, p), line_square(*ends, p)];
+    let nearest = segments.iter().map(squares).enumerate().reduce(|best, next| {
+        let ([own, line], [other, farther]) = (best.1, next.1);
+        if other < own || other == own && farther > line { next } else { best }
+    });
+    nearest.map(|(k, _)| k)
 }
 
 pub(super) fn minus<T: Scalar>(a: [T; 2], b: [T; 2]) -> [T; 2] {

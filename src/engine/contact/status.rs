@@ -28,7 +28,7 @@
 
 use std::collections::BTreeSet;
 
-use super::search::{Segment, closest};
+use super::search::closest;
 
 use mathcad::Conjunction;
 use mathcad::array::Table;
@@ -79,7 +79,8 @@ fn is_near<T: Scalar>(sheet: &Worksheet<T>, pairs: &Pairs<T>, i1: usize) -> bool
 /// The target edges in a shape that bound a triangle with an area, whose inner side is therefore known.
 struct Target<T> {
     edges: Vec<EdgeId>,
-    segments: Vec<Segment<T>>,
+    /// The ends of each, with the body on the left.
+    segments: Vec<[[T; 2]; 2]>,
 }
 
 impl<T: Scalar> Target<T> {
@@ -92,7 +93,7 @@ impl<T: Scalar> Target<T> {
             let inner = T::orientation(a, b, place(beside.third));
             // A shape may be folded: the triangle's side is taken from the shape.
             let ends = if inner > T::zero() { [a, b] } else { [b, a] };
-            (!inner.is_zero()).then(|| (*id, Segment::new(ends)))
+            (!inner.is_zero()).then_some((*id, ends))
         };
         let (edges, segments) = model.contact.target.iter().filter_map(edge).unzip();
         Target { edges, segments }
@@ -119,7 +120,7 @@ fn intersects<T: Scalar>(model: &Model, target: &Target<T>, node_n: &Table<T>, n
     let c = door::coordinates(node_n, n);
     sides(model, n).into_iter().any(|q| {
         let q = door::coordinates(node_n, q);
-        target.segments.iter().map(|edge| crossing(edge, c, q)).sum::<i32>() > 0
+        target.segments.iter().map(|edge| crossing(*edge, c, q)).sum::<i32>() > 0
     })
 }
 
@@ -129,11 +130,10 @@ fn sides(model: &Model, n: NodeId) -> BTreeSet<NodeId> {
     triangles.flatten().filter(|other| *other != n).collect()
 }
 
-/// Returns +1 where the segment from `c` to `q` crosses `edge` outwards, −1 inwards, and 0 where it
+/// Returns +1 where the segment from `c` to `q` crosses the edge from `a` to `b` outwards, −1 inwards, and 0 where it
 /// does not cross. A corner of two edges is crossed once. A segment that starts on the edge starts
 /// inside; one that ends on it ends outside.
-fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
-    let [a, b] = edge.ends;
+fn crossing<T: Scalar>([a, b]: [[T; 2]; 2], c: [T; 2], q: [T; 2]) -> i32 {
     if apart([a, b], [c, q]) {
         return 0;
     }
@@ -141,7 +141,7 @@ fn crossing<T: Scalar>(edge: &Segment<T>, c: [T; 2], q: [T; 2]) -> i32 {
     if (T::orientation(c, q, a) >= zero) == (T::orientation(c, q, b) >= zero) {
         return 0;
     }
-    match (edge.side(c) >= zero, edge.side(q) > zero) {
+    match (T::orientation(a, b, c) >= zero, T::orientation(a, b, q) > zero) {
         (true, false) => 1,
         (false, true) => -1,
         (true, true) | (false, false) => 0,

@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use rustc_hash::FxHashMap;
 
 use super::pairing::{Vector, unit};
-use super::search::{Segment, dot, is_inside, minus};
+use super::search::{distance_square, dot, is_inside, minus};
 use base::error::InputError;
 use numbers::scalar::Scalar;
-use problem::model::{Body, EdgeId, Model, NodeId, unordered};
+use problem::model::{BEND, Body, EdgeId, Model, NodeId, unordered};
 
-/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
-/// smooth surface: 30 degrees.
-pub const BEND: f64 = 0.866;
+/// The difference of two places or directions, over the size of what is compared, up to which they are one: far
+/// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
+pub(super) const SAME: f64 = 1e-9;
 
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
 /// the two do not face each other.
@@ -97,7 +97,7 @@ impl Surface {
             return false;
         }
         let near = (BESIDE * depth).powi(2);
-        let is_beside = |ends: &[Vector; 2]| Segment::new(*ends).closest(p).distance_square < near;
+        let is_beside = |ends: &[Vector; 2]| distance_square(*ends, p) < near;
         !is_inside(self.outline.iter().copied(), p) || self.outline.iter().any(is_beside)
     }
 

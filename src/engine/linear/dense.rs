@@ -9,16 +9,12 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::perm::Perm;
 use faer::{Accum, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
-use numbers::square::SparseSquare;
 
 use super::cholesky::is_large;
-use super::factors::{
-    Factors, Lu, Singular, backward_error, largest, of_columns, of_columns_mut, solve,
-};
+use super::factors::{Factors, Singular, largest, of_columns, of_columns_mut, solve};
 
-/// LU factors of a matrix, of which the entries that are not 0 are kept beside them.
+/// LU factors of a matrix.
 pub struct DenseLu {
-    matrix: SparseSquare,
     /// L, its diagonal of ones left out, and U.
     factors: DMatrix<f64>,
     rows: Perm<usize>,
@@ -33,7 +29,8 @@ impl DenseLu {
     /// body of soft material beside one of hard material is not taken for singular.
     pub fn new(matrix: DMatrix<f64>) -> Result<Self, Singular> {
         let n = matrix.nrows();
-        let (entries, mut factors) = (SparseSquare::from_dense(&matrix), matrix);
+        let columns = matrix.column_iter().map(|column| largest(column.as_slice()));
+        let (columns, mut factors) = (columns.collect::<Vec<f64>>(), matrix);
         let [mut order, mut back] = [0, 0].map(|at| vec![at; n]);
         // One thread: faer's bits depend on the number of threads.
         let (par, params) = (Par::Seq, Default::default());
@@ -41,16 +38,14 @@ impl DenseLu {
         let (view, stack) = (of_columns_mut(&mut factors), MemStack::new(&mut memory));
         lu_in_place(view, &mut order, &mut back, par, stack, params);
         let singular = (0..n).find(|&j| {
-            let sizes = entries.column(j).map(|(_, value)| value.abs());
-            let largest = sizes.fold(0.0, f64::max);
             let pivot = factors[(j, j)];
-            pivot.is_nan() || pivot.abs() <= rounding(n, f64::EPSILON) * largest
+            pivot.is_nan() || pivot.abs() <= rounding(n, f64::EPSILON) * columns[j]
         });
         if let Some(column) = singular {
             return Err(Singular { column, pivot: factors[(column, column)] });
         }
         let rows = Perm::new_checked(order.into(), back.into(), n);
-        Ok(DenseLu { matrix: entries, factors, rows })
+        Ok(DenseLu { factors, rows })
     }
 }
 
@@ -58,25 +53,13 @@ impl Factors for DenseLu {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         let (mut x, par) = (b.clone(), Par::Seq);
         let factors = of_columns(&self.factors);
-        let mut memory =
-            MemBuffer::new(solve_in_place_scratch::<usize, f64>(self.matrix.size(), 1, par));
+        let n = x.len();
+        let mut memory = MemBuffer::new(solve_in_place_scratch::<usize, f64>(n, 1, par));
         let stack = MemStack::new(&mut memory);
         let rows = self.rows.as_ref();
-        let n = x.len();
         let column = MatMut::from_column_major_slice_mut(x.as_mut_slice(), n, 1);
         solve_in_place(factors, factors, rows, column, par, stack);
         x
-    }
-}
-
-impl Lu for DenseLu {
-    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
-        let [mut product, mut row_sums] = [0, 1].map(|_| DVector::<f64>::zeros(x.len()));
-        for (i, j, a) in self.matrix.entries() {
-            product[i] += a * x[j];
-            row_sums[i] += a.abs();
-        }
-        backward_error(&(product - b), largest(row_sums.as_slice()), x, b)
     }
 }
 
@@ -93,17 +76,16 @@ impl DenseCholesky {
         let is_held = |j: usize| is_large(pivots[j] * pivots[j], matrix[(j, j)]);
         (0..matrix.nrows()).all(is_held).then_some(DenseCholesky(factors))
     }
-
-    /// Returns the solutions x of A x = b for the columns b of a matrix.
-    pub fn solve_all(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
-        let x = self.0.solve(of_columns(b));
-        DMatrix::from_fn(b.nrows(), b.ncols(), |i, j| x[(i, j)])
-    }
 }
 
 impl Factors for DenseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         solve(&self.0, b)
+    }
+
+    fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
+        let x = self.0.solve(of_columns(&b));
+        DMatrix::from_fn(b.nrows(), b.ncols(), |i, j| x[(i, j)])
     }
 }
 

@@ -5,24 +5,20 @@ use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
 use numbers::scalar::Scalar;
+use numbers::square::SparseSquare;
 
 /// The factors of a square matrix A.
 pub trait Factors: Sync {
     /// Returns the solution x of A x = `b`.
     fn solve(&self, b: &DVector<f64>) -> DVector<f64>;
-}
 
-/// Factors of a matrix whose norm is known, by which solutions are refined.
-pub trait Normed: Factors {
-    /// Returns the largest row sum of |A|.
-    fn norm(&self) -> f64;
-}
-
-/// LU factors of a matrix that they keep.
-pub trait Lu: Factors {
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64;
+    /// Returns the solutions x of A x = b for the columns b of a matrix.
+    fn solve_all(&self, mut b: DMatrix<f64>) -> DMatrix<f64> {
+        for mut column in b.column_iter_mut() {
+            column.copy_from(&self.solve(&column.clone_owned()));
+        }
+        b
+    }
 }
 
 /// A column whose pivot vanished: the matrix has no unique solution.
@@ -65,4 +61,15 @@ pub fn backward_error<T: Scalar>(
 ) -> f64 {
     let [residual, x, b] = [residual, x, b].map(|numbers| largest(numbers.as_slice()));
     if residual == 0.0 { 0.0 } else { residual / (norm * x + b) }
+}
+
+/// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors, 0 when x and b are
+/// 0.
+pub fn residual(matrix: &SparseSquare, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    let (mut rest, mut row_sums) = (-b, DVector::<f64>::zeros(x.len()));
+    for (i, j, a) in matrix.entries() {
+        rest[i] += a * x[j];
+        row_sums[i] += a.abs();
+    }
+    backward_error(&rest, largest(row_sums.as_slice()), x, b)
 }

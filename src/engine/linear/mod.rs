@@ -31,7 +31,7 @@ mod symmetric;
 pub use arithmetic::{Arithmetic, Inputs, ScalarName, Solver};
 pub use dense::{DenseCholesky, DenseLu};
 pub use elimination::solve_dense;
-pub use factors::{Factors, Lu, Normed, Singular, backward_error, largest};
+pub use factors::{Factors, Singular, backward_error, largest, residual};
 pub use inverse_norm::inverse_norm;
 pub use ldlt::Ldlt;
 pub use precision::{Precision, Solved};

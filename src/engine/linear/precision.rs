@@ -12,7 +12,7 @@ use nalgebra::DVector;
 use super::arithmetic::Solver;
 use super::dense::DenseLu;
 use super::elimination::solve_dense;
-use super::factors::{Lu, Singular};
+use super::factors::{Factors, Singular, residual};
 use super::ldlt::Ldlt;
 use super::sparse::SparseCholesky;
 use super::sparse_lu::SparseLu;
@@ -59,14 +59,14 @@ pub trait Precision: Scalar {
 impl Precision for f64 {
     fn solve(a: &SparseSquare<Self>, b: &DVector<Self>, by: Solver) -> SolvedOrSingular<Self> {
         match by {
-            Solver::DenseLu => Ok(solved(&DenseLu::new(a.dense())?, b)),
-            Solver::SparseLu => Ok(solved(&SparseLu::new(a)?, b)),
+            Solver::DenseLu => Ok(solved(&DenseLu::new(a.dense())?, a, b)),
+            Solver::SparseLu => Ok(solved(&SparseLu::new(a)?, a, b)),
             Solver::SparseCholesky => Self::solve_symmetric(&lower(a), b),
         }
     }
 
     fn solve_symmetric(a: &SparseSymmetric<Self>, b: &DVector<Self>) -> SolvedOrSingular<Self> {
-        let x = SparseCholesky::new(a.clone())?.solve(b);
+        let x = SparseCholesky::new(a)?.solve(b);
         Ok(Solved { residual: a.residual(&x, b), x })
     }
 }
@@ -134,9 +134,9 @@ fn exact(x: Vec<RBig>) -> Solved<Exact> {
     Solved { x, residual: 0.0 }
 }
 
-fn solved(lu: &impl Lu, b: &DVector<f64>) -> Solved<f64> {
-    let x = lu.solve(b);
-    Solved { residual: lu.residual(&x, b), x }
+fn solved(factors: &impl Factors, a: &SparseSquare, b: &DVector<f64>) -> Solved<f64> {
+    let x = factors.solve(b);
+    Solved { residual: residual(a, &x, b), x }
 }
 
 /// Returns the lower triangle of a matrix, which is taken for symmetric.

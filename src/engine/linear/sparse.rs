@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::cholesky::Cholesky;
-use super::factors::{Factors, Normed, Singular};
+use super::factors::{Factors, Singular};
 use super::inverse_norm::inverse_norm;
 use super::symmetric::SparseSymmetric;
 
@@ -15,13 +15,9 @@ const UNBOUNDED: f64 = 0.1 / f64::EPSILON;
 /// matrix, no other load is tried.
 const SMALL_PART: f64 = 1e-5;
 
-/// What is added to a unit diagonal to see how a singular matrix moves.
-const SHIFT: f64 = 1e-10;
-
-/// A symmetric positive definite matrix and its Cholesky factors.
+/// The Cholesky factors of a symmetric positive definite matrix.
 pub struct SparseCholesky {
-    matrix: SparseSymmetric,
-    /// The largest row sum of its sizes.
+    /// The largest row sum of the matrix's sizes.
     norm: f64,
     factors: Cholesky,
 }
@@ -32,12 +28,12 @@ impl SparseCholesky {
     /// # Errors
     /// Names an equation that a trial load, scaled by the diagonal, moves without bound:
     /// the matrix is singular or nearly so.
-    pub fn new(matrix: SparseSymmetric) -> Result<Self, Singular> {
-        let Some(factors) = Cholesky::new(&matrix) else {
-            return Err(mechanism(&matrix));
+    pub fn new(matrix: &SparseSymmetric) -> Result<Self, Singular> {
+        let Some(factors) = Cholesky::new(matrix) else {
+            return Err(mechanism(matrix));
         };
         let diagonal = matrix.diagonal();
-        let cholesky = SparseCholesky { norm: matrix.norm(), matrix, factors };
+        let cholesky = SparseCholesky { norm: matrix.norm(), factors };
         let Some((column, size)) = probe(&cholesky.factors, &diagonal) else {
             return Ok(cholesky);
         };
@@ -51,32 +47,19 @@ impl SparseCholesky {
         }
     }
 
-    /// Returns the solution x of A x = `b`.
-    pub fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        solve(&self.factors, b)
-    }
-
-    /// Returns the solutions x of A x = b for the columns b of a matrix.
-    pub fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
-        self.factors.solve(b)
-    }
-
-    /// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of
-    /// vectors, 0 when x and b are 0.
-    pub fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
-        self.matrix.residual(x, b)
-    }
-}
-
-impl Normed for SparseCholesky {
-    fn norm(&self) -> f64 {
+    /// Returns the largest row sum of |A|.
+    pub fn norm(&self) -> f64 {
         self.norm
     }
 }
 
 impl Factors for SparseCholesky {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        SparseCholesky::solve(self, b)
+        solve(&self.factors, b)
+    }
+
+    fn solve_all(&self, b: DMatrix<f64>) -> DMatrix<f64> {
+        self.factors.solve(b)
     }
 }
 
@@ -123,7 +106,7 @@ pub(super) fn mechanism(matrix: &SparseSymmetric) -> Singular {
     if let Some(column) = diagonal.iter().position(|d| d.is_nan() || *d <= 0.0) {
         return Singular { column, pivot: diagonal[column] };
     }
-    let shifted = Cholesky::new(&matrix.with_diagonal(SHIFT));
+    let shifted = Cholesky::new(&matrix.softly_held());
     let shifted = shifted.and_then(|factors| probe(&factors, &diagonal));
     let (column, size) = shifted.unwrap_or((0, f64::INFINITY));
     Singular { column, pivot: 1.0 / size }

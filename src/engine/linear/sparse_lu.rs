@@ -1,14 +1,13 @@
 //! LU of the entries of a matrix that are not 0, with row exchanges, by the library faer.
 
 use super::rounding;
-use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers;
 use nalgebra::DVector;
 use numbers::sparse_lu::factored;
 use numbers::square::SparseSquare;
 
 use super::dense::DenseLu;
-use super::factors::{Factors, Lu, Singular, backward_error, largest, solve};
+use super::factors::{Factors, Singular, solve};
 use super::sparse::{largest_motion, mechanism};
 use super::symmetric::SparseSymmetric;
 
@@ -19,11 +18,8 @@ const DOUBTFUL: f64 = 1e-3;
 /// The number of equations beyond which the motion itself says so: dense LU would take too long.
 const LARGEST_DENSE: usize = 3000;
 
-/// A matrix and its sparse LU factors.
-pub struct SparseLu {
-    matrix: SparseColMat<usize, f64>,
-    factors: solvers::Lu<usize, f64>,
-}
+/// The sparse LU factors of a matrix.
+pub struct SparseLu(solvers::Lu<usize, f64>);
 
 impl SparseLu {
     /// Factors an n x n `matrix`, which should be symmetric but for rounding.
@@ -32,14 +28,14 @@ impl SparseLu {
     /// Those of [`DenseLu`], which judges a matrix that loads move far; of a large one, the
     /// equation that it leaves free to move.
     pub fn new(matrix: &SparseSquare) -> Result<Self, Singular> {
-        let Some((columns, factors)) = factored(matrix) else {
+        let Some(factors) = factored(matrix) else {
             // A pivot is 0: it is singular, also where dense LU, which exchanges rows otherwise, finds none.
             let singular = || mechanism(&SparseSymmetric::new(matrix.size(), matrix.entries()));
             return Err(judged(matrix, f64::INFINITY).unwrap_or_else(singular));
         };
-        let lu = SparseLu { matrix: columns, factors };
+        let lu = SparseLu(factors);
         // Under loads of 1, both scaled to columns whose largest entry is 1.
-        let scale = |j, _| largest(lu.matrix.val_of_col(j));
+        let scale = |j, _| matrix.column(j).fold(0.0, |most: f64, (_, a)| most.max(a.abs()));
         let motion = largest_motion(&lu, &DVector::from_fn(matrix.size(), scale));
         if motion < DOUBTFUL * farthest(matrix.size()) {
             return Ok(lu);
@@ -50,19 +46,7 @@ impl SparseLu {
 
 impl Factors for SparseLu {
     fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
-        solve(&self.factors, b)
-    }
-}
-
-impl Lu for SparseLu {
-    fn residual(&self, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
-        let mut rest = -b;
-        let mut row_sums = DVector::<f64>::zeros(x.len());
-        for entry in self.matrix.triplet_iter() {
-            rest[entry.row] += *entry.val * x[entry.col];
-            row_sums[entry.row] += entry.val.abs();
-        }
-        backward_error(&rest, largest(row_sums.as_slice()), x, b)
+        solve(&self.0, b)
     }
 }
 

@@ -211,9 +211,11 @@ impl<T: Scalar> SparseSymmetric<T> {
         DVector::from_fn(self.size(), |j, _| of_column(j).unwrap_or(T::zero()))
     }
 
-    /// Returns the matrix with each diagonal entry made 1 + `part` times as large.
-    pub fn with_diagonal(&self, part: f64) -> Self {
-        self.clone().map_diagonal(|_, a| a * T::from_f64(1.0 + part))
+    /// Returns the matrix with springs so soft that they show how a singular one moves.
+    pub fn softly_held(&self) -> Self {
+        /// The stiffness of a spring over that of its equation.
+        const SOFT: f64 = 1e-10;
+        self.clone().map_diagonal(|_, a| a * T::from_f64(1.0 + SOFT))
     }
 
     /// Returns the matrix with `f` of each row's diagonal entry.

@@ -208,24 +208,24 @@ quantities! {
         arc: f64 = at.arc, "arc" ["s"] Length,
             "The distance from the first contact node along the undeformed contact surface.";
         #[serde(serialize_with = "as_number")]
-        in_contact in files "dy": bool = at.in_contact, "in contact" ["dy"] None,
+        in_contact in files "dy": bool = at.end.in_contact, "in contact" ["dy"] None,
             "Whether it is in contact by the variant's own rule: 1 or 0.";
-        gap: f64 = at.gap, "gap" ["g"] Length,
+        gap: f64 = at.end.gap, "gap" ["g"] Length,
             "The distance from the target along its normal, < 0 where the node penetrates; under \
              mortar its weighted mean over the surface around the node.";
-        force: Option<f64> = at.normal, "contact force" [] Force,
+        force: Option<f64> = at.force(0), "contact force" [] Force,
             "The force on the node along the normal, < 0 where it pulls; null where restraints of \
              the node leave it undetermined.";
-        pressure: Option<f64> = at.over_area(at.normal), "contact pressure" ["p"] Stress,
+        pressure: Option<f64> = at.traction(0), "contact pressure" ["p"] Stress,
             "That force over the undeformed surface of the node; null for a node that bounds no \
              contact edge.";
-        shear: Option<f64> = at.over_area(at.tangent), "contact shear" ["τ"] Stress,
+        shear: Option<f64> = at.traction(1), "contact shear" ["τ"] Stress,
             "The traction along the tangent, which is the normal turned left.";
         friction_needed: Option<f64> = at.friction_needed(), "friction needed" ["|τ|/p"] One,
             "The coefficient of friction that keeps the node from sliding; null where the force \
              does not press by more than rounding.";
         #[serde(skip_serializing_if = "Option::is_none")]
-        status: Option<Status> = at.status, "contact status" [] None,
+        status: Option<Status> = at.end.status, "contact status" [] None,
             "Open, stick or slip, under `unilateral`.";
     }
 }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use engine::contact::{Pairing, Surfaces};
-use engine::linear::SparseCholesky;
-use engine::reduction::{ReducedState, Reduction};
+use engine::held::{Held, Loaded};
+use engine::linear::{Factors, SparseCholesky};
+use engine::reduction::Reduction;
 use engine::{Constraint, Elimination, Motion, Stiffness};
 use nalgebra::DVector;
 use problem::model::{Holds, Model, NodeId};
@@ -59,9 +60,8 @@ fn constraints(pairings: &[Option<Pairing>], closed: &[usize], stuck: &[usize]) 
 fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints: &[Constraint]) {
     let stiffness = Stiffness::new(model, |x| x);
     let reduction = Reduction::new(&stiffness, model, pairings).expect("the surfaces hold it");
-    let state = ReducedState::new(&reduction, constraints).expect("the bodies are held");
     let t = Elimination::closing(&model.holds, 1.0, constraints);
-    let factors = SparseCholesky::new(stiffness.reduced(&t)).expect("the bodies are held");
+    let factors = SparseCholesky::new(&stiffness.reduced(&t)).expect("the bodies are held");
     let near = |what: &str, own: &DVector<f64>, whole: &DVector<f64>| {
         assert!(whole.amax() > 1e-3, "{what}");
         for (own, other) in own.iter().zip(whole) {
@@ -80,29 +80,38 @@ fn is_as_the_whole(model: &Arc<Model>, pairings: &[Option<Pairing>], constraints
         let mut more = DVector::zeros(model.dofs());
         more[rub.node.dofs()[0].index()] = 1.5;
         rub.masters.iter().for_each(|(node, w)| more[node.dofs()[0].index()] = -1.5 * w);
-        let reduced = reduction.eliminated(&stiffness, &load, 1.0);
-        let (own, _) = state.displacements(&reduced, &more).expect("it has its digits");
-        let all = &load + &more;
-        let f = &all - stiffness.times(t.shift());
+        let reduced = reduction.eliminated(&load);
+        let bodies = Loaded { model, stiffness: &stiffness, load: &load };
+        let held = || Held::reduced(bodies, (&reduction, &reduced), constraints).expect("it is");
+        let (state, of_all) = (held(), held().of_all());
+        let all = Held::new(bodies, constraints, 1.0).ok().expect("the bodies are held");
+        let (own, _) = state.displacements(&more).expect("it has its digits");
+        let f = &load + &more - stiffness.times(t.shift());
         let whole = t.expand(&factors.solve(&t.load(&f)));
         near("displacement", &own, &whole);
-        let (refined, residual) = state.refined(&stiffness, &all, (&reduced, &more)).expect("so");
-        near("refined displacement", &refined, &whole);
-        assert!(residual < 1e-14, "{residual:e}");
+        for held in [&of_all, &all] {
+            let (refined, residual) = held.displacements(&more).expect("so");
+            near("refined displacement", &refined, &whole);
+            assert!(residual < 1e-14, "{residual:e}");
+        }
         let reaction = stiffness.times(&whole) - &load;
-        near("force", &on_surface(&state.reaction(&own, &reduced)), &on_surface(&reaction));
+        for held in [&state, &of_all, &all] {
+            near("force", &on_surface(&held.reaction(&own)), &on_surface(&reaction));
+        }
         let moved = t.motion(&factors.solve(&t.load(&more)));
-        let response = &state.responses(std::slice::from_ref(&more))[0];
-        near("response", &on_surface(response), &on_surface(&(stiffness.times(&moved) - &more)));
+        for held in [&state, &of_all, &all] {
+            let own = &held.responses(std::slice::from_ref(&more))[0];
+            near("response", &on_surface(own), &on_surface(&(stiffness.times(&moved) - &more)));
+        }
     }
 }
 
 #[test]
 fn states_on_the_surfaces_are_those_of_the_whole() {
-    let (x, y, slope) = (&[Axis::X][..], &[Axis::Y][..], [Axis::Direction([1.0, 2.0])]);
-    // Free but for contact; guided; held; with restrained contact nodes; and along a slope.
-    let held: [&[(usize, &[Axis])]; 5] =
-        [&[], &[(15, x)], &[(12, BOTH), (15, y)], &[(8, x), (11, BOTH)], &[(15, &slope)]];
+    let (x, y) = (&[Axis::X][..], &[Axis::Y][..]);
+    // Free but for contact; guided; held; and with restrained contact nodes.
+    let held: [&[(usize, &[Axis])]; 4] =
+        [&[], &[(15, x)], &[(12, BOTH), (15, y)], &[(8, x), (11, BOTH)]];
     for restrained in held {
         let model = blocks(4, restrained);
         let pairings = pairings(&model);
@@ -126,8 +135,11 @@ fn of_large_surfaces_the_nodes_near_the_contact_are_kept() {
     is_as_the_whole(&model, &pairings, &constraints(&pairings, &[300], &[310, 340]));
     let stiffness = Stiffness::new(&model, |x| x);
     let reduction = Reduction::new(&stiffness, &model, &pairings).expect("the surfaces hold it");
+    let load = DVector::zeros(model.dofs());
+    let bodies = Loaded { model: &model, stiffness: &stiffness, load: &load };
     let is_reduced = |closed: &[usize], stuck: &[usize]| {
-        ReducedState::new(&reduction, &constraints(&pairings, closed, stuck)).is_some()
+        let by = (&reduction, &reduction.eliminated(&load));
+        Held::reduced(bodies, by, &constraints(&pairings, closed, stuck)).is_some()
     };
     assert!(is_reduced(&[], &[300, 301]));
     assert!(!is_reduced(&[], &[20, 301]), "node 20 is not kept");

@@ -47,10 +47,8 @@ fn a_residual_is_over_the_norms_of_the_matrix_and_of_the_vectors() {
         assert!((solved.residual / expected - 1.0).abs() < 1e-9, "{solver} {}", solved.residual);
     }
     let matrix = SparseSymmetric::new(2, [(0, 0, 2.0), (1, 0, -1.0), (1, 1, 1.0)].into_iter());
-    let cholesky = SparseCholesky::new(matrix.clone()).unwrap();
     let (x, b) = (dvector![1.0, 0.0], dvector![1.0, 0.0]);
     // A x − b is (1, −1), and the norms are 3, 1 and 1.
-    assert_eq!(cholesky.residual(&x, &b), 0.25);
     assert_eq!(matrix.residual(&x, &b), 0.25);
 }
 
@@ -154,7 +152,7 @@ fn of_what_moves_alike_the_first_is_named() {
         let diagonal = (0..9).map(move |i| (i, i, if i == 4 { first } else { 1.0 }));
         SparseSymmetric::new(9, diagonal.chain([(1, 0, -1.0), (8, 7, -1.0)]))
     };
-    let singular = |first| SparseCholesky::new(matrix(first)).map(|_| ()).unwrap_err();
+    let singular = |first| SparseCholesky::new(&matrix(first)).map(|_| ()).unwrap_err();
     assert!(singular(1.0).column < 2, "{:?}", singular(1.0));
     assert_eq!(singular(-2.0), Singular { column: 4, pivot: -2.0 });
     assert_eq!(singular(0.0), Singular { column: 4, pivot: 0.0 });
@@ -307,8 +305,8 @@ fn a_pivot_is_measured_by_its_column() {
 fn a_last_equation_without_entries_has_no_diagonal() {
     let matrix = SparseSymmetric::new(3, [(0, 0, 1.0), (1, 0, 2.0)].into_iter());
     assert_eq!(matrix.diagonal(), dvector![1.0, 0.0, 0.0]);
-    let raised: Vec<_> = matrix.with_diagonal(0.5).entries().collect();
-    assert_eq!(raised, [(0, 0, 1.5), (1, 0, 2.0)]);
+    let raised: Vec<_> = matrix.softly_held().entries().collect();
+    assert_eq!(raised, [(0, 0, 1.0 + 1e-10), (1, 0, 2.0)]);
 }
 
 #[test]

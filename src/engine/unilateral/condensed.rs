@@ -13,17 +13,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{contact_forces, tangent};
 use super::lemke::complementary;
 use super::problem::StateSearch;
-use crate::contact::{Pairing, Sense, Status};
+use crate::contact::{Pairing, Sense, Status, contact_forces};
 use crate::elimination::{Constraint, Motion};
+use problem::model::FREE;
 
 /// The number of contact nodes up to which the step is condensed.
 const MOST: usize = 150;
-
-/// A pivot over the largest stiffness below which nothing holds the bodies.
-const LOOSE: f64 = 1e-12;
 
 /// What of a force, a gap or a slip over the largest is rounding; what is found is checked on the bodies.
 const ROUNDING: f64 = 1e-8;
@@ -92,7 +89,7 @@ impl<'a> Condensed<'a> {
             });
             let (forces, u) = solved(&unloaded, &moved.collect::<Vec<_>>())?;
             let reached = facing().flat_map(|(pairing, status)| {
-                let (n, t) = (pairing.normal, tangent(pairing));
+                let (n, t) = (pairing.normal, pairing.tangent());
                 let [ux, uy] = pairing.motion(|node| node.components(&u));
                 parts(status, [n, t].map(|[dx, dy]| dx * ux + dy * uy))
             });
@@ -193,7 +190,7 @@ impl<'a> Condensed<'a> {
             let (free, held) = (vanish.nrows(), size - vanish.nrows());
             let equations = vanish * left.rows(0, size);
             let inverse = equations.columns(held, free).into_owned().try_inverse();
-            let Some(inverse) = inverse.filter(|inverse| inverse.amax() * LOOSE <= 1.0) else {
+            let Some(inverse) = inverse.filter(|inverse| inverse.amax() * FREE <= 1.0) else {
                 continue;
             };
             let moved = -inverse * equations.columns(size, later);
@@ -249,7 +246,7 @@ fn parts<T>(held: Status, [normal, tangent]: [T; 2]) -> Vec<T> {
 
 /// Binds a node to the place that is a gap and a slip apart from its own on the target.
 fn at_distance(constraint: &Constraint, pairing: &Pairing, [gap, slip]: [f64; 2]) -> Constraint {
-    let (n, t) = (pairing.normal, tangent(pairing));
+    let (n, t) = (pairing.normal, pairing.tangent());
     let motion = match constraint.motion {
         Motion::Both(_) => Motion::Both([0, 1].map(|d| gap * n[d] + slip * t[d])),
         Motion::Along(normal, _) => Motion::Along(normal, gap),

@@ -4,16 +4,10 @@ use nalgebra::DVector;
 
 use super::condensed::Condensed;
 use super::problem::{Configuration, Equilibrium, Problem, Setting, StateSearch, StateSolution};
+use super::rigid::BALANCED;
 use crate::contact::{Sense, Status};
-use crate::solution::{OtherEquilibrium, Uniqueness};
+use crate::solution::{APART, OtherEquilibrium, Uniqueness};
 use problem::model::NodeId;
-
-/// The force of a node in contact, over the largest of the loads and of those of contact, below which
-/// it may as well be open.
-const WEAK: f64 = 1e-9;
-
-/// The difference of displacements, over the largest, beyond which two equilibria differ.
-const DISTINCT: f64 = 1e-6;
 
 /// The number of equations that may be factored in all to try the neighbours of a contact state.
 const WORK: usize = 500_000;
@@ -112,7 +106,7 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
     let StateSolution { forces, .. } = &found.last.solution;
     let largest = forces.iter().map(|f| f.normal).fold(setting.load.amax(), f64::max);
     let mut statuses = found.last.statuses.clone();
-    let carries_nothing = |i: usize| forces[i].normal <= WEAK * largest;
+    let carries_nothing = |i: usize| forces[i].normal <= BALANCED * largest;
     let weak: Vec<usize> =
         (0..statuses.len()).filter(|&i| statuses[i].is_closed() && carries_nothing(i)).collect();
     if weak.is_empty() {
@@ -154,8 +148,7 @@ impl Problem<'_> {
             };
             let apart = |u: &DVector<f64>| (&solution.u - u).amax();
             let change = apart(&step.u);
-            if change > DISTINCT * scale && others.iter().all(|(u, _)| apart(u) > DISTINCT * scale)
-            {
+            if change > APART * scale && others.iter().all(|(u, _)| apart(u) > APART * scale) {
                 let nodes = |wanted: fn(&Status) -> bool| {
                     let entries = statuses.iter().zip(self.surfaces.nodes());
                     entries.filter(|(status, _)| wanted(status)).map(|(_, node)| *node).collect()

@@ -2,8 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::forces::{contact_forces, load_of};
-use crate::contact::{Sense, Status, Surfaces, Traction};
+use crate::contact::{NodeEnd, Sense, Status, Surfaces, contact_forces, load_of};
 use crate::reactions::{reactions, support_force, transmitted_force};
 use crate::solution::{APART, Solution, max_displacement};
 use crate::stiffness::Stiffness;
@@ -37,10 +36,7 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
     };
     let measured_in = if is_current { &shape } else { &model.nodes };
     let surfaces = Surfaces::new(model)?;
-    let pairings = match model.has_contact() {
-        true => surfaces.pairings(coupling, measured_in),
-        false => Vec::new(),
-    };
+    let pairings = surfaces.pairings(coupling, measured_in);
     // Where a restraint takes a part of a node's force, the rest is that along its normal.
     let statuses: Vec<Status> = pairings
         .iter()
@@ -51,26 +47,11 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
         })
         .collect();
     let forces = contact_forces(model, &pairings, &statuses, &force);
-    let known = forces.iter().map(|force| {
-        [force.normal, force.tangent].map(|component| (!force.undetermined).then_some(component))
-    });
-    let gaps = pairings.iter().map(|pairing| Some(pairing.as_ref()?.gap_after(model, &u)));
-    let gaps: Vec<Option<f64>> = gaps.collect();
     let closed = APART * max_displacement(&u);
-    let in_contact: Vec<bool> =
-        gaps.iter().map(|gap| gap.is_some_and(|gap| gap <= closed)).collect();
-    let traction = Traction {
-        model,
-        u: &u,
-        surfaces: &surfaces,
-        measured_in,
-        pairings: &pairings,
-        gaps: &gaps,
-        in_contact: &in_contact,
-        statuses: None,
-        forces: &known.collect::<Vec<_>>(),
-    };
-    let contact = traction.nodes();
+    let contact = surfaces.nodes_at_end((model, &u), (measured_in, &pairings), |i, pairing| {
+        let gap = pairing.gap_after(model, &u);
+        NodeEnd { gap, in_contact: gap <= closed, status: None, force: forces[i].known() }
+    });
     let rest = force - load_of(&pairings, &forces, u.len());
     let unbalanced = unbalanced(reference, &inner, &rest);
     let held = support_force(model, &rest, &model.load);

@@ -3,19 +3,36 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::forces::{ContactForce, add, contact_forces};
-use super::problem::{Configuration, StateAttempt, StateSearch, StateSolution};
-use super::reduced::{HeldBodies, Unheld};
-use crate::contact::{Pairing, Status};
+use super::problem::{Configuration, Problem, StateAttempt, StateSearch, StateSolution};
+use crate::contact::{ContactForce, Pairing, Status, add, contact_forces};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
-use crate::linear::SparseCholesky;
+use crate::held::{Held, Loaded, Unheld};
+use crate::linear::{Factors, SparseCholesky};
 use problem::model::Dof;
 
-/// The stiffness, over the diagonal, of the springs that show how an unrestrained body moves.
-const SOFT: f64 = 1e-8;
-
 impl StateSearch<'_> {
+    fn loaded(&self) -> Loaded<'_> {
+        let Problem { model, stiffness, .. } = self.problem;
+        Loaded { model, stiffness, load: &self.setting.load }
+    }
+
+    /// Factors the equations of the surfaces; None where the setting has no load on them, and where the
+    /// whole ones are to be factored.
+    fn reduced(&self, constraints: &[Constraint]) -> Option<Held<'_>> {
+        let by = self.problem.reduction.as_ref().zip(self.setting.reduced.as_ref())?;
+        let held = Held::reduced(self.loaded(), by, constraints)?;
+        Some(if self.setting.whole { held.of_all() } else { held })
+    }
+
+    /// Factors the whole equations.
+    ///
+    /// # Errors
+    /// The constraints do not hold the bodies.
+    pub(super) fn whole(&self, constraints: &[Constraint]) -> Result<Held<'_>, Unheld> {
+        Held::new(self.loaded(), constraints, self.setting.part.min(1.0))
+    }
+
     /// Solves for the displacements and forces under imposed statuses.
     ///
     /// # Errors
@@ -25,21 +42,21 @@ impl StateSearch<'_> {
         statuses: &[Status],
         constraints: &[Constraint],
     ) -> Result<StateAttempt, NoEquilibrium> {
-        if let Some(bodies) = HeldBodies::reduced(self.problem, self.setting, constraints)
+        if let Some(bodies) = self.reduced(constraints)
             && let Some(solved) = self.solved(statuses, &bodies)?
         {
             return Ok(StateAttempt::Solved(solved));
         }
-        match HeldBodies::whole(self.problem, self.setting, constraints) {
+        match self.whole(constraints) {
             Ok(bodies) => {
                 let solved = self.solved(statuses, &bodies)?;
                 Ok(StateAttempt::Solved(solved.expect("the whole equations have a solution")))
             }
-            Err(Unheld { t, singular }) => {
-                let soft = self.problem.stiffness.reduced(&t).with_diagonal(SOFT);
+            Err(Unheld { t, dof }) => {
+                let soft = self.problem.stiffness.reduced(&t).softly_held();
                 let load = t.load(&self.setting.load);
-                let motion = SparseCholesky::new(soft).ok().map(|k| t.motion(&k.solve(&load)));
-                Ok(StateAttempt::Free { dof: t.dof(singular.column), motion })
+                let motion = SparseCholesky::new(&soft).ok().map(|k| t.motion(&k.solve(&load)));
+                Ok(StateAttempt::Free { dof, motion })
             }
         }
     }
@@ -61,7 +78,7 @@ impl StateSearch<'_> {
     fn solved(
         &self,
         statuses: &[Status],
-        bodies: &HeldBodies,
+        bodies: &Held,
     ) -> Result<Option<StateSolution>, NoEquilibrium> {
         let none = DVector::zeros(self.setting.load.len());
         let Some((mut u, mut residual)) = bodies.displacements(&none) else { return Ok(None) };
@@ -91,7 +108,7 @@ impl StateSearch<'_> {
         &self,
         statuses: &[Status],
         forces: &[ContactForce],
-        bodies: &HeldBodies,
+        bodies: &Held,
     ) -> Result<Option<Slide>, NoEquilibrium> {
         let sliding: Vec<(usize, f64, &Pairing)> = (0..statuses.len())
             .filter_map(|i| match statuses[i] {

@@ -11,15 +11,13 @@ use std::cmp::Ordering;
 
 use nalgebra::{DMatrix, DVector};
 
-/// A pivot, over the largest entry of M, up to which it is rounding.
-const FLAT: f64 = 1e-11;
+/// A pivot, over the largest entry of M, up to which it is rounding, and what of z0, over its first value: z0 leaves
+/// although another unknown came to 0 as it did. Measured where one node carries a body that turns: z0 is 1e-6 before
+/// that pivot, 1e-14 after it.
+const ROUNDING: f64 = 1e-11;
 
 /// The number of pivots for each unknown after which the search ends: three are usual.
 const PATIENCE: usize = 20;
-
-/// What of z0, over its first value, is rounding: z0 leaves although another unknown came to 0 as it did. Measured
-/// where one node carries a body that turns: 1e-6 before that pivot, 1e-14 after it.
-const GONE: f64 = 1e-11;
 
 /// Returns which z are not 0 in a solution, by the way that d makes; None where the pivots end without one.
 pub(super) fn complementary(
@@ -42,12 +40,12 @@ pub(super) fn complementary(
     for _ in 0..PATIENCE * n {
         pivot(&mut tableau, row, entering);
         let leaving = std::mem::replace(&mut basis[row], entering);
-        let is_left = |at: usize| basis[at] == z0 && tableau[(at, z0 + 1)] > GONE * first;
+        let is_left = |at: usize| basis[at] == z0 && tableau[(at, z0 + 1)] > ROUNDING * first;
         if !(0..n).any(is_left) {
             return Some((n..2 * n).map(|z| basis.contains(&z)).collect());
         }
         entering = (leaving + n) % z0;
-        row = first_at_zero(&tableau, entering, FLAT * m.amax())?;
+        row = first_at_zero(&tableau, entering, ROUNDING * m.amax())?;
     }
     None
 }

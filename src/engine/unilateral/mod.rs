@@ -39,7 +39,6 @@
 //! | question | where |
 //! |---|---|
 //! | which status do its force, gap and slip ask for? | `search.rs`, `wanted` |
-//! | what is its force, and do its restraints leave it undetermined? | `forces.rs`, `direct` and `by_target` |
 //! | what is the friction of a node that slides? | `imposed.rs`, `slide` |
 //! | what does a status impose, and does friction act there at all? | `problem.rs`, `constraints` and `transmits_shear` |
 //! | up to which shear does a node stick, in a corner too? | `problem.rs`, `holding` |
@@ -56,14 +55,12 @@
 
 mod condensed;
 mod equilibria;
-mod forces;
 mod implied;
 mod imposed;
 mod lemke;
 mod nonnegative;
 mod path;
 mod problem;
-mod reduced;
 mod rigid;
 mod search;
 mod springs;

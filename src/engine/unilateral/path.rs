@@ -5,11 +5,12 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::equilibria::{TakenStep, setting, uniqueness};
-use super::forces::{ContactForce, load_of};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
 use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
-use crate::contact::{ContactNode, ROUNDING_OF_A_FORCE, Status, Traction, Watched};
+use crate::contact::{
+    ContactForce, ContactNode, NodeEnd, ROUNDING_OF_A_FORCE, Status, Watched, load_of,
+};
 use crate::error::{Cause, Error, NoEquilibrium};
 use crate::reactions::{reactions, support_force, transmitted_force};
 use crate::solution::{
@@ -42,29 +43,9 @@ struct Point {
 }
 
 impl Point {
-    fn after(load: f64, Equilibrium { last, .. }: Equilibrium) -> Self {
-        Point { load, u: last.solution.u, statuses: Some(last.statuses) }
+    fn after(load: f64, Equilibrium { last, .. }: &Equilibrium) -> Self {
+        Point { load, u: last.solution.u.clone(), statuses: Some(last.statuses.clone()) }
     }
-}
-
-/// A load to which the path goes.
-struct Target {
-    to: f64,
-    /// Whether a step of the path ends there, or a part of one.
-    ends_step: bool,
-    /// How often the way there may still be halved.
-    halvings: usize,
-    /// The whole way there, until the first of its parts is taken.
-    whole: Option<Undivided>,
-}
-
-/// A step of the load before it was divided.
-struct Undivided {
-    from: Point,
-    found: Option<Equilibrium>,
-    iterations: Vec<Step>,
-    /// The numbers of iterations and of steps taken before it.
-    before: [usize; 2],
 }
 
 /// Follows the path of the load to its end: under friction in equal steps of each stage, otherwise in one.
@@ -83,11 +64,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
     let mut run =
         Run { problem, watch, steps: Vec::new(), factored, halved, keeps_all, taken: Vec::new() };
     let (start, from) = run.start()?;
-    let target = |step: usize| {
-        let to = step as f64 / steps as f64;
-        Target { to, ends_step: true, halvings, whole: None }
-    };
-    let end = run.follow(from, (1..=stages * steps).rev().map(target).collect())?;
+    let loads = (1..=stages * steps).map(|step| step as f64 / steps as f64);
+    let end = run.follow(from, loads, halvings)?;
     let end = run.confirmed(stages as f64, end)?;
     let path = with_friction.then(|| Path {
         steps,
@@ -151,7 +129,7 @@ impl<'a> Run<'a> {
             Ok(None) => match self.step(&rest, 0.0, Problem::equilibrium) {
                 Ok(closed) => {
                     self.take(&rest, 0.0, &closed);
-                    Ok((Start::Closed, Point::after(0.0, closed)))
+                    Ok((Start::Closed, Point::after(0.0, &closed)))
                 }
                 Err(Error::Equilibrium(_)) => {
                     self.steps.clear();
@@ -171,7 +149,7 @@ impl<'a> Run<'a> {
                     Ok(held) if !problem.is_current() => {
                         self.take(&rest, FIRST, &held);
                         let is_only = uniqueness(problem, &held, &self.taken).is_proven();
-                        let pressed = (Start::Pressed, Point::after(FIRST, held));
+                        let pressed = (Start::Pressed, Point::after(FIRST, &held));
                         is_only.then_some(pressed).ok_or(several.into())
                     }
                     Ok(_) | Err(Error::Equilibrium(_)) => Err(several.into()),
@@ -181,96 +159,77 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Follows the path from a point through the targets `ahead`, the next one last; returns the equilibrium at
-    /// its end.
+    /// Follows the path from a point to each load in turn, by a step that may be halved so often; returns the
+    /// equilibrium at its end. Where no part of a step leads to its end, the whole of it is taken on springs.
+    fn follow(
+        &mut self,
+        mut from: Point,
+        loads: impl Iterator<Item = f64>,
+        halvings: usize,
+    ) -> Result<Equilibrium, Error> {
+        let mut end = None;
+        for to in loads {
+            let found = match self.reach(&from, to, halvings, &mut { CLOSINGS }) {
+                Ok(found) => found,
+                Err(why) => {
+                    let found = self.on_springs(&from, to, why)?;
+                    self.take(&from, to, &found);
+                    found
+                }
+            };
+            self.problem.in_range([&from.u, &found.last.solution.u], [from.load, to])?;
+            from = Point::after(to, &found);
+            end = Some(found);
+        }
+        Ok(end.expect("a path has a step"))
+    }
+
+    /// Goes to a load: in two parts where a node closes in between, as friction counts its slip from there, and in two
+    /// halves where no equilibrium is found. Whatever stops the first part, the whole way counts if it was found; the
+    /// second one does not go back behind the first.
     ///
     /// Source: backward Euler with steps at events, as of E. Hairer, G. Wanner, *Solving Ordinary Differential
     /// Equations II* (1996).
-    fn follow(&mut self, from: Point, mut ahead: Vec<Target>) -> Result<Equilibrium, Error> {
-        // Where the step of the path begins, what it has come to, and how often nodes that close may still divide it.
-        let (mut begin, mut at, mut closings) = (from.clone(), from, CLOSINGS);
+    fn reach(
+        &mut self,
+        from: &Point,
+        to: f64,
+        mut halvings: usize,
+        closings: &mut usize,
+    ) -> Result<Equilibrium, Error> {
+        let mut at = from.clone();
         loop {
-            // The whole way to the next target.
-            let target = ahead.last_mut().expect("the end of the path ends the loop");
             let before = [self.steps.len(), self.taken.len()];
-            let found = self.step(&at, target.to, Problem::equilibrium);
-
-            // In two parts where a node closes in between, as friction counts its slip from there, and in two
-            // halves where no equilibrium is found.
-            let middle = match &found {
-                Ok(Equilibrium { closing: Some(part), .. })
-                    if self.problem.friction > 0.0
-                        && closings > 0
-                        && (AT_THE_END..1.0 - AT_THE_END).contains(part) =>
-                {
-                    closings -= 1;
-                    Some(at.load + part * (target.to - at.load))
+            let found = self.step(&at, to, Problem::equilibrium);
+            let part = match &found {
+                Ok(Equilibrium { closing, .. }) => closing.filter(|part| {
+                    let is_inside = (AT_THE_END..1.0 - AT_THE_END).contains(part);
+                    self.problem.friction > 0.0 && *closings > 0 && is_inside
+                }),
+                Err(Error::Equilibrium(why)) if why.cause == Cause::NotFound && halvings > 0 => {
+                    Some(0.5)
                 }
-                Err(Error::Equilibrium(why))
-                    if target.halvings > 0 && why.cause == Cause::NotFound =>
-                {
-                    self.halved += 1;
-                    target.halvings -= 1;
-                    Some((at.load + target.to) / 2.0)
+                Err(_) => None,
+            };
+            let Some(part) = part else {
+                return found.inspect(|found| self.take(&at, to, found));
+            };
+            match found {
+                Ok(_) => *closings -= 1,
+                Err(_) => (self.halved, halvings) = (self.halved + 1, halvings - 1),
+            }
+            let iterations = self.steps.split_off(before[0]);
+            let middle = at.load + part * (to - at.load);
+            match self.reach(&at, middle, halvings, closings) {
+                Ok(first) => at = Point::after(middle, &first),
+                Err(why) => {
+                    self.steps.truncate(before[0]);
+                    self.steps.extend(iterations);
+                    self.taken.truncate(before[1]);
+                    return found.map_err(|_| why).inspect(|found| self.take(&at, to, found));
                 }
-                // The whole way is taken, or its error is dealt with below.
-                Ok(_) | Err(_) => None,
-            };
-            if let Some(to) = middle {
-                let first = Target { to, ends_step: false, whole: None, ..*target };
-                let (from, iterations) = (at.clone(), self.steps.split_off(before[0]));
-                // The only error that comes here says that none was found.
-                target.whole = Some(Undivided { from, found: found.ok(), iterations, before });
-                ahead.push(first);
-                continue;
-            }
-
-            // Whatever stops the first part of a step, the whole step counts, which was found; where one of the path
-            // is not, that on springs.
-            let (from, found) = match found {
-                Ok(found) => (at, found),
-                Err(why) => match self.undivided(&mut ahead) {
-                    Some(whole) => whole,
-                    None => {
-                        let to = ahead.last().map_or(begin.load, |target| target.to);
-                        (begin.clone(), self.on_springs(&begin, to, why)?)
-                    }
-                },
-            };
-            let Target { to, ends_step, .. } = ahead.pop().expect("a target was reached");
-            self.take(&from, to, &found);
-
-            // The next target starts from there; the rest of a divided step cannot go back behind its first part.
-            if ends_step {
-                self.problem.in_range([&begin.u, &found.last.solution.u], [begin.load, to])?;
-            }
-            let Some(next) = ahead.last_mut() else { return Ok(found) };
-            next.whole = None;
-            at = Point::after(to, found);
-            if ends_step {
-                (begin, closings) = (at.clone(), CLOSINGS);
             }
         }
-    }
-
-    /// Goes back to the last step that was found before it was divided and whose first part is not taken; None
-    /// where there is none in this step of the path. Its target is the next one then.
-    fn undivided(&mut self, ahead: &mut Vec<Target>) -> Option<(Point, Equilibrium)> {
-        while let Some(target) = ahead.last_mut() {
-            if let Some(whole) = target.whole.take() {
-                self.steps.truncate(whole.before[0]);
-                self.steps.extend(whole.iterations);
-                self.taken.truncate(whole.before[1]);
-                if let Some(found) = whole.found {
-                    return Some((whole.from, found));
-                }
-            }
-            if target.ends_step {
-                return None;
-            }
-            ahead.pop();
-        }
-        None
     }
 
     /// Takes a step of the path on springs, as no equilibrium was found without.
@@ -454,19 +413,15 @@ fn friction_needed(statuses: &[Status], forces: &[ContactForce]) -> Option<f64> 
 fn contact(problem: &Problem, config: &Configuration, last: &Iteration) -> Vec<ContactNode> {
     let measured = if problem.is_current() { &*config.shape } else { &problem.model.nodes };
     let open = problem.undetermined(config, last);
-    let forces = last.solution.forces.iter().zip(&open);
-    let forces =
-        forces.map(|(force, open)| [force.normal, force.tangent].map(|x| (!open).then_some(x)));
-    let traction = Traction {
-        model: problem.model,
-        u: &last.solution.u,
-        surfaces: &problem.surfaces,
-        measured_in: measured,
-        pairings: &config.pairings,
-        gaps: &last.gaps,
-        in_contact: &last.statuses.iter().map(|status| status.is_closed()).collect::<Vec<_>>(),
-        statuses: Some(&last.statuses),
-        forces: &forces.collect::<Vec<_>>(),
-    };
-    traction.nodes()
+    let u = &last.solution.u;
+    problem.surfaces.nodes_at_end((problem.model, u), (measured, &config.pairings), |i, pairing| {
+        let force = ContactForce { undetermined: open[i], ..last.solution.forces[i] };
+        let status = last.statuses[i];
+        NodeEnd {
+            gap: last.gaps[i].unwrap_or(pairing.gap),
+            in_contact: status.is_closed(),
+            status: Some(status),
+            force: force.known(),
+        }
+    })
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::forces::{ContactForce, contact_forces, tangent};
 use super::rigid;
 use super::status::History;
-use crate::contact::{InsideNode, Pairing, Sense, Status, Surfaces, Watched};
+use crate::contact::{
+    ContactForce, InsideNode, Pairing, Sense, Status, Surfaces, Watched, contact_forces,
+};
 use crate::elimination::{Constraint, Motion};
 use crate::range::inside_out;
 use crate::reactions::supports;
@@ -63,8 +64,6 @@ pub(super) struct Problem<'a> {
     pub(super) request: &'a Request,
     pub(super) model: &'a Arc<Model>,
     pub(super) stiffness: Stiffness,
-    /// The triangles at a node of either contact surface.
-    pub(super) surface_triangles: Vec<usize>,
     pub(super) surfaces: Arc<Surfaces>,
     /// The gap below which a node is closed, length.
     pub(super) closed: f64,
@@ -88,7 +87,7 @@ pub(super) struct Setting<'a> {
     pub(super) part: f64,
     /// The load on the contact surfaces; None where states are not looked for on these.
     pub(super) reduced: Option<ReducedLoad>,
-    /// Whether solutions are refined until they solve the equations of the whole bodies.
+    /// Whether the equations of the whole bodies are solved, also by the factors of those on the surfaces.
     pub(super) whole: bool,
     /// The displacements from which slips count, length.
     pub(super) before: &'a DVector<f64>,
@@ -192,19 +191,12 @@ impl<'a> Problem<'a> {
         initial.iter_mut().flatten().for_each(|pairing| pairing.corner = 0.0);
         let initial = Arc::new(initial);
         let stiffness = Stiffness::new(model, |x| x);
-        let mut is_on_surface = vec![false; model.dofs()];
-        let nodes = model.contact.nodes.iter().copied();
-        nodes
-            .chain(model.target_edges().flat_map(|edge| edge.nodes))
-            .flat_map(NodeId::dofs)
-            .for_each(|dof| is_on_surface[dof.index()] = true);
         Ok(Problem {
             request,
             model,
             surfaces,
             closed: CLOSED * size(model),
             supports: stiffness.about(&supports(model)),
-            surface_triangles: stiffness.about(&is_on_surface),
             reduction: Reduction::new(&stiffness, model, &initial),
             stiffness,
             friction: match request.contact.friction.coefficient() {
@@ -222,7 +214,6 @@ impl<'a> Problem<'a> {
         Problem {
             surfaces: Arc::clone(&self.surfaces),
             supports: self.supports.clone(),
-            surface_triangles: self.surface_triangles.clone(),
             reduction: None,
             stiffness: Stiffness::on_springs(self.model, stiffness),
             initial: Arc::clone(&self.initial),
@@ -245,9 +236,7 @@ impl<'a> Problem<'a> {
         statuses: Option<&'s [Status]>,
     ) -> Setting<'s> {
         let load = self.load(part);
-        let displaced = part.min(1.0);
-        let reduced = self.reduction.as_ref();
-        let reduced = reduced.map(|own| own.eliminated(&self.stiffness, &load, displaced));
+        let reduced = self.reduction.as_ref().map(|reduction| reduction.eliminated(&load));
         Setting { load, part, reduced, whole: false, before, statuses }
     }
 
@@ -335,7 +324,7 @@ impl<'a> Problem<'a> {
             let force = &mut last.solution.forces[i];
             let rests = |p: &&Pairing| p.corner > 0.0 && last.statuses[i] == Status::Stick;
             let Some(pairing) = config.pairings[i].as_ref().filter(rests) else { continue };
-            let (n, t, ends) = (pairing.normal, tangent(pairing), pairing.corner);
+            let (n, t, ends) = (pairing.normal, pairing.tangent(), pairing.corner);
             let slope = (force.tangent / force.normal).clamp(-ends, ends);
             let [cos, sin] = [1.0, slope].map(|x| x / slope.hypot(1.0));
             let normal = [0, 1].map(|d| cos * n[d] + sin * t[d]);
@@ -475,7 +464,7 @@ impl StateSearch<'_> {
             let motion = match status {
                 Status::Stick => {
                     let ([tx, ty], [bx, by]) =
-                        (tangent(pairing), pairing.motion(|n| n.components(setting.before)));
+                        (pairing.tangent(), pairing.motion(|n| n.components(setting.before)));
                     let [bx, by] = if pairing.corner > 0.0 {
                         pairing.motion(|n| problem.model.coordinates(n)).map(|x| -x)
                     } else {

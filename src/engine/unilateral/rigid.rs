@@ -3,18 +3,14 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
-use super::forces::tangent;
 use super::nonnegative::least;
 use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
-use numbers::joined::joined;
-use problem::model::{Dof, Model, NodeId};
+use problem::model::{Body, Dof, FREE, Model, NodeId, RigidBody};
 
-/// The least eigenvalue of the Gram matrix, over the largest, that a motion free of force has.
-const FREE: f64 = 1e-12;
-
-/// The part of the load below which what nothing opposes is rounding.
-const OPPOSED: f64 = 1e-9;
+/// The part of forces, or of their moments about the farthest node, below which what is left of them is rounding:
+/// coordinates and loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
+pub(super) const BALANCED: f64 = 1e-9;
 
 /// The gap, over the deepest overlap, beyond which bodies are apart.
 const ROOM: f64 = 1e-3;
@@ -37,38 +33,25 @@ const MOST: usize = 150;
 /// Returns whether no body can move as a rigid one under its restraints and `constraints`.
 pub(super) fn holds(model: &Model, constraints: &[Constraint]) -> bool {
     let motions = RigidMotions::new(model, &model.nodes);
-    let rows: Vec<Vec<(usize, Vector3<f64>)>> = constraints
-        .iter()
-        .flat_map(|Constraint { node, masters, motion }| {
-            let directions = match motion {
-                Motion::Along(normal, _) => vec![*normal],
-                Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
-            };
-            directions.into_iter().map(|direction| motions.relative(*node, masters, direction))
-        })
-        .collect();
-    // Bodies that no constraint joins are independent.
-    let pairs = rows.iter().flat_map(|row| row.iter().map(|(b, _)| (row[0].0, *b)));
-    let joined = joined(model.bodies.len(), pairs);
-    let of_group = |first: usize| {
-        let members: Vec<usize> = (0..joined.len()).filter(|b| joined[*b] == first).collect();
-        let place = |b: usize| 3 * members.binary_search(&b).expect("it is a member");
-        let mut gram = DMatrix::zeros(3 * members.len(), 3 * members.len());
-        for b in &members {
-            gram.fixed_view_mut::<3, 3>(place(*b), place(*b)).copy_from(&motions.restrained[*b]);
-        }
-        for row in rows.iter().filter(|row| row.first().is_some_and(|(b, _)| joined[*b] == first)) {
-            for ((b, own), (c, other)) in
-                row.iter().flat_map(|own| row.iter().map(move |c| (own, c)))
-            {
-                let mut block = gram.fixed_view_mut::<3, 3>(place(*b), place(*c));
-                block += own * other.transpose();
+    let mut gram = DMatrix::<f64>::zeros(motions.free, motions.free);
+    for Constraint { node, masters, motion } in constraints {
+        let directions = match motion {
+            Motion::Along(normal, _) => vec![*normal],
+            Motion::Both(_) => vec![[1.0, 0.0], [0.0, 1.0]],
+        };
+        for direction in directions {
+            let row = motions.in_free(&motions.relative(*node, masters, direction));
+            let bound: Vec<usize> = (0..row.len()).filter(|k| row[*k] != 0.0).collect();
+            for (i, j) in bound.iter().flat_map(|i| bound.iter().map(move |j| (*i, *j))) {
+                gram[(i, j)] += row[i] * row[j];
             }
         }
-        let stiffness = gram.symmetric_eigenvalues();
-        stiffness.min() > FREE * stiffness.max()
-    };
-    (0..joined.len()).filter(|b| joined[*b] == *b).all(of_group)
+    }
+    let diagonal = gram.diagonal();
+    gram.cholesky().is_some_and(|factors| {
+        let pivots = factors.l_dirty().diagonal();
+        pivots.iter().zip(&diagonal).all(|(pivot, own)| pivot * pivot > FREE * own)
+    })
 }
 
 /// Returns the degree of freedom that moves most in a motion of rigid bodies on which the load does
@@ -111,7 +94,7 @@ pub(super) fn escape(
     };
     let sizes = least(&forces.tr_mul(&forces), &forces.tr_mul(&f), DVector::zeros(forces.ncols()))?;
     let left = &f + forces * sizes;
-    if left.amax() <= OPPOSED * load.amax() {
+    if left.amax() <= BALANCED * load.amax() {
         return None;
     }
     model.all_dofs().nth(motions.displacements(&left).iamax())
@@ -167,7 +150,7 @@ pub(super) fn release(
     }
     let in_all = |motion: DVector<f64>| motions.displacements(&motion);
     let f = motions.work_of(load);
-    let under_load = (f.norm() > OPPOSED * load.amax())
+    let under_load = (f.norm() > BALANCED * load.amax())
         .then(|| least_under(&f.normalize(), VANISHING / deepest, 0.0))
         .flatten()
         .filter(|motion| motion.norm() <= reach);
@@ -181,7 +164,7 @@ pub(super) fn release(
     let rows = near
         .iter()
         .filter(|(_, gap)| *gap <= closed)
-        .flat_map(|(p, gap)| [(opening(p), -gap), (along(p, tangent(p)), 0.0)]);
+        .flat_map(|(p, gap)| [(opening(p), -gap), (along(p, p.tangent()), 0.0)]);
     let (rows, apart_by): (Vec<_>, Vec<f64>) = rows.unzip();
     let rows = DMatrix::from_columns(&rows).transpose();
     let svd = rows.clone().svd(true, true);
@@ -230,14 +213,14 @@ pub(super) fn turns(
         let (k, part) = eigen.eigenvalues.argmin();
         let motion = basis * root.tr_mul(&eigen.eigenvectors.column(k));
         // A flat surface slides along itself too, about a point that is far away.
-        let turning = motion[2] / motions.size;
-        if turning.abs() * motions.size <= ALONG * motion.norm() {
+        let RigidBody { middle: [mx, my], size, .. } = motions.bodies[b];
+        if motion[2].abs() <= ALONG * motion.norm() {
             return None;
         }
-        let [mx, my] = motions.middle[b];
+        let turning = motion[2] / size;
         let centre = [mx - motion[1] / turning, my + motion[0] / turning];
         // Without the rounding of a 0.
-        let centre = centre.map(|x| if x.abs() > ALONG * ALONG * motions.size { x } else { 0.0 });
+        let centre = centre.map(|x| if x.abs() > ALONG * ALONG * size { x } else { 0.0 });
         let far = |node: NodeId| {
             let [x, y] = model.coordinates(node);
             (x - centre[0]).hypot(y - centre[1])
@@ -250,7 +233,7 @@ pub(super) fn turns(
 /// Returns the directions of the forces on a node whose sums are all forces that contact transmits
 /// under a coefficient of friction.
 fn extreme_forces(pairing: &Pairing, friction: f64) -> Vec<[f64; 2]> {
-    let (n, t) = (pairing.normal, tangent(pairing));
+    let (n, t) = (pairing.normal, pairing.tangent());
     match friction {
         0.0 => vec![n],
         f64::INFINITY => vec![n, t, t.map(|x| -x)],
@@ -258,19 +241,15 @@ fn extreme_forces(pairing: &Pairing, friction: f64) -> Vec<[f64; 2]> {
     }
 }
 
-/// The rigid motions of all bodies in a shape: two translations and a rotation each.
+/// The rigid motions of all bodies in a shape.
 struct RigidMotions<'a> {
     model: &'a Model,
     /// The coordinates of each node, length.
     shape: &'a [[f64; 2]],
     /// The body of each node; None for a node of no triangle.
     body: Vec<Option<usize>>,
-    /// The middle of each body, length.
-    middle: Vec<[f64; 2]>,
-    /// The larger extent of the model, length.
-    size: f64,
-    /// The Gram matrix of each body's restraints.
-    restrained: Vec<Matrix3<f64>>,
+    /// The bodies under their restraints.
+    bodies: Vec<RigidBody>,
     /// A basis of the motions of each body that its restraints leave free, behind the number of those of the bodies
     /// before it.
     bases: Vec<(usize, Matrix3xX<f64>)>,
@@ -280,38 +259,26 @@ struct RigidMotions<'a> {
 
 impl<'a> RigidMotions<'a> {
     fn new(model: &'a Model, shape: &'a [[f64; 2]]) -> Self {
+        let places = |part: &'a Body| part.nodes.iter().map(|node| shape[node.index()]);
+        let mut bodies: Vec<_> = model.bodies.iter().map(|b| RigidBody::new(places(b))).collect();
+        let all = model.bodies.iter().flat_map(places);
+        let size = all.map(|p| bodies[0].far(p)).fold(0.0, f64::max);
+        bodies.iter_mut().for_each(|body| body.size = size);
         let mut body = vec![None; model.nodes.len()];
-        let mut middle = Vec::new();
         for (b, part) in model.bodies.iter().enumerate() {
-            part.nodes.iter().for_each(|n| body[n.index()] = Some(b));
-            let places = part.nodes.iter().map(|n| shape[n.index()]);
-            let sum = places.fold([0.0; 2], |[x, y], p| [x + p[0], y + p[1]]);
-            middle.push(sum.map(|s| s / part.nodes.len() as f64));
+            part.nodes.iter().for_each(|node| body[node.index()] = Some(b));
         }
-        let far = |n: &NodeId| {
-            let [x, y] = shape[n.index()];
-            (x - middle[0][0]).hypot(y - middle[0][1])
-        };
-        let nodes = model.bodies.iter().flat_map(|body| &body.nodes);
-        let size = nodes.map(far).fold(0.0, f64::max);
-        let restrained = vec![Matrix3::zeros(); middle.len()];
-        let bases = Vec::new();
-        let mut motions =
-            RigidMotions { model, shape, body, middle, size, restrained, bases, free: 0 };
         for hold in model.holds.iter() {
-            if let Some(b) = motions.body[hold.node.index()] {
-                let row = motions.motion(b, hold.node, hold.direction);
-                motions.restrained[b] += row * row.transpose();
+            if let Some(b) = body[hold.node.index()] {
+                bodies[b].hold(shape[hold.node.index()], hold.direction);
             }
         }
-        for gram in &motions.restrained {
-            let eigen = gram.symmetric_eigen();
-            let limit = FREE * eigen.eigenvalues.amax();
-            let free: Vec<usize> = (0..3).filter(|i| eigen.eigenvalues[*i] <= limit).collect();
-            motions.bases.push((motions.free, eigen.eigenvectors.select_columns(&free)));
-            motions.free += free.len();
+        let (mut bases, mut free) = (Vec::new(), 0);
+        for basis in bodies.iter().map(RigidBody::free) {
+            free += basis.ncols();
+            bases.push((free - basis.ncols(), basis));
         }
-        motions
+        RigidMotions { model, shape, body, bodies, bases, free }
     }
 
     /// Returns the work of a load in each free motion.
@@ -319,7 +286,8 @@ impl<'a> RigidMotions<'a> {
         let of_dof = |dof: Dof| Some((self.body[dof.node().index()]?, dof, load[dof.index()]));
         let loaded =
             self.model.all_dofs().filter(|dof| load[dof.index()] != 0.0).filter_map(of_dof);
-        let rows = loaded.map(|(b, dof, force)| (b, self.motion(b, dof.node(), axis(dof)) * force));
+        let rows =
+            loaded.map(|(b, dof, force)| (b, self.motion(b, dof.node(), dof.unit()) * force));
         self.in_free(&rows.collect::<Vec<_>>())
     }
 
@@ -341,7 +309,7 @@ impl<'a> RigidMotions<'a> {
         let bodies: Vec<Vector3<f64>> = self.bases.iter().map(of_body).collect();
         let u = self.model.all_dofs().map(|dof| {
             let body = self.body[dof.node().index()];
-            body.map_or(0.0, |b| self.motion(b, dof.node(), axis(dof)).dot(&bodies[b]))
+            body.map_or(0.0, |b| self.motion(b, dof.node(), dof.unit()).dot(&bodies[b]))
         });
         DVector::from_iterator(self.model.dofs(), u)
     }
@@ -364,13 +332,7 @@ impl<'a> RigidMotions<'a> {
     }
 
     /// Returns the component along `direction` of a node's motion in the rigid motions of its body.
-    fn motion(&self, body: usize, node: NodeId, [dx, dy]: [f64; 2]) -> Vector3<f64> {
-        let ([x, y], [mx, my]) = (self.shape[node.index()], self.middle[body]);
-        Vector3::new(dx, dy, (dy * (x - mx) - dx * (y - my)) / self.size)
+    fn motion(&self, body: usize, node: NodeId, direction: [f64; 2]) -> Vector3<f64> {
+        self.bodies[body].motion(self.shape[node.index()], direction)
     }
-}
-
-/// Returns the direction of a degree of freedom.
-fn axis(dof: Dof) -> [f64; 2] {
-    [0, 1].map(|d| if d == dof.direction() { 1.0 } else { 0.0 })
 }

@@ -6,13 +6,12 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::forces::{ContactForce, tangent};
 use super::problem::{
     CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateAttempt, StateSearch,
     StateSolution, Watch, cause_first,
 };
 use super::status::{History, nearest_open, next_closed};
-use crate::contact::{Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
+use crate::contact::{ContactForce, Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, Error, NoEquilibrium, too_large};
 use crate::linear::largest;
@@ -354,7 +353,7 @@ impl StateSearch<'_> {
     fn slip(&self, pairing: &Pairing, iteration: &Iteration) -> f64 {
         let [ux, uy] = pairing.motion(|n| n.components(&iteration.solution.u));
         let [bx, by] = pairing.motion(|n| n.components(self.setting.before));
-        let [tx, ty] = tangent(pairing);
+        let [tx, ty] = pairing.tangent();
         tx * (ux - bx) + ty * (uy - by)
     }
 

@@ -3,9 +3,8 @@
 use nalgebra::DVector;
 
 use super::problem::{Configuration, Problem, StateSearch};
-use super::reduced::{HeldBodies, Unheld};
-use super::rigid::{self, Release};
-use crate::contact::{BEND, Pairing, Status};
+use super::rigid::{self, BALANCED, Release};
+use crate::contact::{Pairing, Status};
 use crate::elimination::Constraint;
 use crate::error::{Cause, NoEquilibrium};
 use crate::range::{beyond_range, inside_out};
@@ -13,15 +12,11 @@ use crate::solution::Start;
 use base::error::InputError;
 use base::plain::six_digits;
 use problem::element::Plane;
-use problem::model::{Dof, NodeId};
+use problem::model::{BEND, Dof, NodeId};
 use problem::modelling::Coupling;
 
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
-
-/// The part of the sum of forces times the farthest node's arm below which a moment is rounding: coordinates and
-/// loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
-const BALANCED: f64 = 1e-9;
 
 /// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
 const RELEASES: usize = 20;
@@ -336,9 +331,7 @@ impl Problem<'_> {
 impl StateSearch<'_> {
     /// Returns a node that statuses leave free to move; None where they restrain the bodies.
     pub(super) fn unrestrained_node(&self, statuses: &[Status]) -> Option<NodeId> {
-        let constraints = self.constraints(statuses);
-        let held = HeldBodies::whole(self.problem, self.setting, &constraints);
-        held.err().map(|Unheld { t, singular }| t.dof(singular.column).node())
+        self.whole(&self.constraints(statuses)).err().map(|unheld| unheld.dof.node())
     }
 }
 

@@ -117,6 +117,11 @@ impl Dof {
         self.index() % 2
     }
 
+    /// Returns the unit vector along it.
+    pub const fn unit(self) -> [f64; 2] {
+        [[1.0, 0.0], [0.0, 1.0]][self.direction()]
+    }
+
     /// Returns `'x'` or `'y'`.
     pub const fn axis(self) -> char {
         ['x', 'y'][self.direction()]

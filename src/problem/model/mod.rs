@@ -8,6 +8,7 @@ mod bounds;
 mod force;
 mod holds;
 mod ids;
+mod rigid;
 mod sides;
 
 use std::collections::{BTreeSet, HashSet};
@@ -17,13 +18,14 @@ use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
 
-pub use body::{Body, bodies, freedom};
+pub use body::{Body, bodies};
 pub use bounds::Bounds;
 pub use force::Force;
 pub(crate) use holds::crossing;
 pub use holds::{Hold, Holds};
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
-pub use sides::{Sides, TriangleSide, unordered};
+pub use rigid::{FREE, RigidBody, freedom};
+pub use sides::{BEND, Sides, TriangleSide, unordered};
 
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;

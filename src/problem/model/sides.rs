@@ -3,6 +3,10 @@
 use super::ids::{NodeId, TriangleId};
 use serde::Serialize;
 
+/// The cosine of the angle between two edges beyond which they meet in a corner, not in a bend of a
+/// smooth surface: 30 degrees.
+pub const BEND: f64 = 0.866;
+
 /// What lies beside each side, by the lower of its two nodes, then by the higher one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Sides {

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::description::{Axis, Restraint};
 use super::groups::{GroupRef, Groups};
 use super::mesh::Mesh;
-use crate::model::{Bounds, Hold, Holds, Model, NodeId, Sides, crossing};
+use crate::model::{BEND, Bounds, Hold, Holds, Model, NodeId, Sides, crossing};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
@@ -19,9 +19,6 @@ use base::plain::six_digits;
 /// they are two: between these a node would be held twice along what was meant to be one direction.
 const SAME: f64 = 1e-9;
 const TWO: f64 = 0.05;
-
-/// The cosine of the angle between edges beyond which they meet in a corner: that of a circle of twelve edges.
-const CORNER: f64 = 0.866;
 
 /// How far a node may be from the coordinates that name it, over the larger side of the mesh.
 const NEAR: f64 = 1e-6;
@@ -71,7 +68,7 @@ pub fn narrow(mesh: &Mesh, model: &Model) -> Option<String> {
         let (a, b) = (one.direction, other.direction);
         let cosine = (a[0] * b[0] + a[1] * b[1]).abs();
         let by = [one.restraint?, other.restraint?];
-        (by[0] != by[1] && cosine > CORNER).then_some((node, by, cosine))
+        (by[0] != by[1] && cosine > BEND).then_some((node, by, cosine))
     });
     let all: Vec<_> = nearly_one.collect();
     let (node, [j, k], cosine) = all.first()?;
@@ -239,7 +236,7 @@ fn normals(
     }
     let own = |edges: Vec<[f64; 2]>| {
         let each: Vec<[f64; 2]> = edges.iter().filter_map(|edge| unit(*edge)).collect();
-        let turns = |n: &[f64; 2]| n[0] * each[0][0] + n[1] * each[0][1] < CORNER;
+        let turns = |n: &[f64; 2]| n[0] * each[0][0] + n[1] * each[0][1] < BEND;
         if each.iter().any(turns) {
             return each;
         }

@@ -168,7 +168,7 @@ pub(super) fn hinge(case: &Case) -> Outcome<Evidence> {
         let few: Vec<Constraint> =
             linked.get(..count)?.iter().map(|bound| (*bound).into()).collect();
         let reduced = stiffness.reduced(&Elimination::new(&holds, &few));
-        Some(SparseCholesky::new(reduced).is_err())
+        Some(SparseCholesky::new(&reduced).is_err())
     });
     let most = singular.iter().rposition(|singular| *singular == Some(true)).map_or(0, |at| at + 1);
     let [one, two] = singular.map(|singular| match singular {

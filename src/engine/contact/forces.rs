@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::contact::{Pairing, STEEP, Status};
+use super::pairing::{Pairing, STEEP, Status};
 use problem::model::{Dof, Model, NodeId};
 
 /// A singular value, over that of a force on an equation of its own, below which a combination of
@@ -20,27 +20,29 @@ const UNDETERMINED: f64 = 1e-9;
 
 /// The forces on a contact node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct ContactForce {
+pub(crate) struct ContactForce {
     /// Whether restraints leave them undetermined: then they are the least of those that hold the
     /// bodies in equilibrium.
-    pub(super) undetermined: bool,
+    pub(crate) undetermined: bool,
     /// The force along the normal, force; > 0 where it presses.
-    pub(super) normal: f64,
+    pub(crate) normal: f64,
     /// The force along the tangent, which is the normal turned left, force.
-    pub(super) tangent: f64,
+    pub(crate) tangent: f64,
 }
 
 /// A closed contact node, and whether it sticks: its tangential force is a reaction then, else part of `friction`.
 type Contact<'a> = (&'a Pairing, bool);
 
-/// Returns the tangent of a pairing: its normal turned left.
-pub(super) fn tangent(pairing: &Pairing) -> [f64; 2] {
-    [-pairing.normal[1], pairing.normal[0]]
+impl ContactForce {
+    /// Returns the force along normal and tangent, force; None where it is not determined.
+    pub(crate) fn known(self) -> Option<[f64; 2]> {
+        (!self.undetermined).then_some([self.normal, self.tangent])
+    }
 }
 
 /// Returns the forces of all entries from `reaction`, which is K u − F − friction by degree of freedom; 0 where an
 /// entry is open.
-pub(super) fn contact_forces(
+pub(crate) fn contact_forces(
     model: &Model,
     pairings: &[Option<Pairing>],
     statuses: &[Status],
@@ -68,8 +70,8 @@ pub(super) fn contact_forces(
 }
 
 /// Adds `factor` times the forces of a contact, on its node and reversed on its target, to `load`.
-pub(super) fn add(pairing: &Pairing, force: ContactForce, factor: f64, load: &mut DVector<f64>) {
-    let (normal, tangent) = (pairing.normal, tangent(pairing));
+pub(crate) fn add(pairing: &Pairing, force: ContactForce, factor: f64, load: &mut DVector<f64>) {
+    let (normal, tangent) = (pairing.normal, pairing.tangent());
     let force = [0, 1].map(|d| factor * (force.normal * normal[d] + force.tangent * tangent[d]));
     let mut on = |node: NodeId, weight: f64| {
         for dof in node.dofs() {
@@ -145,7 +147,7 @@ fn by_target(model: &Model, contacts: &[Contact], rest: &DVector<f64>) -> Vec<Co
 }
 
 /// Returns the contact forces by degree of freedom, force.
-pub(super) fn load_of(
+pub(crate) fn load_of(
     pairings: &[Option<Pairing>],
     forces: &[ContactForce],
     dofs: usize,
