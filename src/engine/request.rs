@@ -118,7 +118,7 @@ impl Request {
     }
 
     /// Returns whether mortar gives eq. (1) its weights, under the variants that impose it.
-    pub(super) fn is_bound_by_mortar(&self) -> bool {
+    pub fn is_bound_by_mortar(&self) -> bool {
         match (self.variant, self.contact.coupling) {
             (Variant::Tied | Variant::Stepped, Coupling::Mortar) => true,
             (Variant::Tied | Variant::Stepped, Coupling::Nts)

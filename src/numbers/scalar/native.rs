@@ -12,7 +12,7 @@ impl Subscript for usize {
 
 impl Subscript for f64 {
     fn index(self) -> usize {
-        debug_assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
+        assert!(self >= 0.0 && self.fract() == 0.0, "{self} is no subscript");
         self as usize
     }
 }

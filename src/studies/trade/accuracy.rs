@@ -15,7 +15,7 @@ use engine::linear::{Arithmetic, ScalarName, Solver};
 use engine::{Request, Solution, Step, max_displacement, over, solve};
 use numbers::scalar::{F64x2, Scalar};
 use output::layout::first_line;
-use problem::modelling::{Coupling, Variant};
+use problem::modelling::Variant;
 
 use super::trial::most_exact;
 
@@ -109,11 +109,10 @@ fn precisions(request: &Request) -> Vec<Precision> {
     }
     let is_printed = request.variant == Variant::Printed;
     let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
-    let is_mortar = request.contact.coupling == Coupling::Mortar && !is_printed;
     // `f32` is dearer than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with equal peak
     // memory, as f64 has the better solver.
     let tried = [ScalarName::F64, ScalarName::F64x2, ScalarName::Exact].into_iter();
-    let runs = |scalar: &ScalarName| !is_mortar || scalar.properties().no_mortar.is_none();
+    let runs = |scalar: &ScalarName| !request.is_bound_by_mortar() || scalar.properties().no_mortar.is_none();
     let precision = |scalar: ScalarName| {
         let solver =
             if by_lu && !scalar.is_exact() { Solver::DenseLu } else { Solver::SparseCholesky };

@@ -129,7 +129,7 @@ fn two_product(a: f64, b: f64) -> [f64; 2] {
 
 impl Subscript for F64x2 {
     fn index(self) -> usize {
-        debug_assert!(self.lo == 0.0, "{self} is no subscript");
+        assert!(self.lo == 0.0, "{self} is no subscript");
         self.hi.index()
     }
 }
