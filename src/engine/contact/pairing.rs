@@ -71,19 +71,6 @@ impl<T: Scalar> Pairing<T> {
         std::iter::once(self.node).chain(self.masters.iter().map(|(master, _)| *master))
     }
 
-    /// Returns the same pairing in other numbers.
-    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Pairing<U> {
-        Pairing {
-            node: self.node,
-            edge: self.edge,
-            masters: self.masters.iter().map(|&(master, w)| (master, to(w))).collect(),
-            normal: self.normal.map(&to),
-            gap: to(self.gap),
-            length: to(self.length),
-            corner: self.corner,
-        }
-    }
-
     /// Returns n·(v_c − Σ w v_t) of a field: of coordinates the gap, of displacements its change.
     pub fn opening(&self, of_node: impl Fn(NodeId) -> [T; 2]) -> T {
         dot(self.motion(of_node), self.normal)
