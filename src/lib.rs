@@ -1,5 +1,5 @@
-//! plane-contact: an audited, executable reimplementation of a published plane contact algorithm (A. M. Filipov,
-//! M. V. Khomenko, «Решение плоской контактной задачи методом конечных элементов»).
+//! plane-contact: an audited, executable reimplementation of a published plane contact algorithm (A. M.
+//! Filipov, M. V. Khomenko, «Решение плоской контактной задачи методом конечных элементов»).
 //!
 //! ```text
 //!  Scene (open a file, or build one in code) --> Request (what is asked) --> solve --> Solution
@@ -58,16 +58,16 @@
 //!
 //! The feature `cli`, on by default, is the program and its studies, snapshots among them.
 //!
-//! `examples/own_scene.rs` matches an error and writes a file for ParaView, `examples/snapshot_in_a_test.rs` has a
-//! snapshot in a test of Cargo.
+//! `examples/own_scene.rs` matches an error and writes a file for ParaView, `examples/snapshot_in_a_test.rs`
+//! has a snapshot in a test of Cargo.
 //!
 //! # What is stable
 //!
-//! The names at the root of this library, [`input`], and the files of JSON, whose `format` changes with them. The
-//! public fields that are vectors of nalgebra or numbers of dashu are not: read them by [`Solution::displacement`],
-//! [`Solution::stress_at`] and [`Solution::reaction`].
-//! The other modules are the parts of the program, each of which uses those above it only. Tests use them; they are
-//! private in the sense that they may change with any version.
+//! The names at the root of this library, [`input`], and the files of JSON, whose `format` changes with them.
+//! The public fields that are vectors of nalgebra or numbers of dashu are not: read them by
+//! [`Solution::displacement`], [`Solution::stress_at`] and [`Solution::reaction`]. The other modules are the
+//! parts of the program, each of which uses those above it only. Tests use them; they are private in the
+//! sense that they may change with any version.
 //!
 //! | part | what it has |
 //! |---|---|

@@ -102,8 +102,8 @@ impl Cli {
     }
 }
 
-/// Returns the grammar of the command line, in which the first page of help alone names the options that every
-/// command has.
+/// Returns the grammar of the command line, in which the first page of help alone names the options that
+/// every command has.
 fn grammar() -> clap::Command {
     let mut grammar = Cli::command();
     grammar.build();

@@ -1,4 +1,4 @@
-//! How the program ends: each of its exit statuses, with number, name and meaning. Help and README.md list them.
+//! How the program ends: each of its exit statuses, with number, name and meaning. Help lists them.
 
 use std::process::ExitCode;
 

@@ -136,8 +136,8 @@ pub struct SceneArgs {
     /// The tolerance of the contact search in place of the scene's, length.
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
     c_tll: Option<f64>,
-    /// Print every iteration, where there are many. With N: make N of them under printed, tied and stepped, in
-    /// place of the scene's number.
+    /// Print every iteration, where there are many. With N: make N of them under printed, tied and stepped,
+    /// in place of the scene's number.
     #[arg(long, value_name = "N")]
     iterations: Option<Option<usize>>,
     /// Multiply all loads of the scene.

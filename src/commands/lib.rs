@@ -1,5 +1,5 @@
-//! The frame of the command line: the arguments that several commands have, how a command prints, and the process in
-//! which it runs.
+//! The frame of the command line: the arguments that several commands have, how a command prints, and the
+//! process in which it runs.
 #![forbid(unsafe_code)]
 
 mod arguments;

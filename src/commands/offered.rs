@@ -9,7 +9,8 @@ use std::str::FromStr;
 use clap::builder::{PossibleValue, TypedValueParser};
 use paper::mirror::READINGS;
 
-/// Reads a value as its type does, whose messages say more than those of clap, and names the values there are.
+/// Reads a value as its type does, whose messages say more than those of clap, and names the values there
+/// are.
 #[derive(Clone)]
 pub struct Offered<T> {
     values: Vec<PossibleValue>,

@@ -105,7 +105,8 @@ pub fn report_error(error: &Error) -> ExitStatus {
     error.exit_status()
 }
 
-/// Prints the error that ends a command, where `json` asks for it to standard output too; returns its exit status.
+/// Prints the error that ends a command, where `json` asks for it to standard output too; returns its exit
+/// status.
 pub fn report_failure(error: &Error, json: bool) -> ExitStatus {
     print_failure(error, json);
     report_error(error)
@@ -195,8 +196,8 @@ pub fn print_either(
     if json { print(&document()) } else { print_report(report()) }
 }
 
-/// Returns the characters of a line: those of the terminal, at most those of a table; where there is none, of the variable
-/// COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
+/// Returns the characters of a line: those of the terminal, at most those of a table; where there is none, of
+/// the variable COLUMNS, else any number, so that files and pipes have whole lines. Below 40 they are 40.
 pub fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
     let terminal = terminal_size::terminal_size().map(|(width, _)| width.0.into());

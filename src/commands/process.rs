@@ -8,8 +8,9 @@ use std::thread::{Builder, available_parallelism};
 /// Bytes of the stack of each thread, whatever the environment (RUST_MIN_STACK) says; the default of Rust.
 const STACK: usize = 1 << 21;
 
-/// Starts the threads of the pool, one for each processor unless RAYON_NUM_THREADS says otherwise. Where the system
-/// does not start so many, this thread alone is the pool: rayon, which fails then, builds no second one.
+/// Starts the threads of the pool, one for each processor unless RAYON_NUM_THREADS says otherwise. Where the
+/// system does not start so many, this thread alone is the pool: rayon, which fails then, builds no second
+/// one.
 pub fn start_pool() {
     let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|count| count.parse().ok());
     let count = asked.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get);
@@ -34,9 +35,9 @@ pub fn start_pool() {
     built.expect("nothing used the pool before");
 }
 
-/// Has SIGHUP, SIGINT, SIGQUIT and SIGTERM end the process as they do by themselves, once nothing temporary and
-/// no program that it started is left;
-/// and has a file that may not grow further be an error of its writing, not the end of the process.
+/// Has SIGHUP, SIGINT, SIGQUIT and SIGTERM end the process as they do by themselves, once nothing temporary
+/// and no program that it started is left; and has a file that may not grow further be an error of its
+/// writing, not the end of the process.
 #[cfg(unix)]
 pub fn heed_signals() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};

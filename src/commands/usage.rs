@@ -8,8 +8,8 @@ use base::exit::ExitStatus;
 use base::plain::is_hidden;
 use engine::error::Error;
 
-/// Prints to standard error what is wrong with the command line, and where `json` asks for it to standard output too;
-/// returns its exit status.
+/// Prints to standard error what is wrong with the command line, and where `json` asks for it to standard
+/// output too; returns its exit status.
 pub fn report_usage(mut why: clap::Error, grammar: &clap::Command, json: bool) -> ExitStatus {
     if why.kind() == ErrorKind::InvalidUtf8 {
         return report_failure(&not_utf8(), json);
@@ -40,7 +40,8 @@ fn name_subcommands(why: &mut clap::Error, grammar: &clap::Command) {
     why.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
 }
 
-/// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as escapes.
+/// Writes what controls a terminal, or breaks a line, in the words of the user that an error repeats as
+/// escapes.
 fn escape(why: &mut clap::Error) {
     let escaped = |text: &String| text.escape_debug().to_string();
     let is_unsafe = |text: &String| text.contains(is_hidden);

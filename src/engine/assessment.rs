@@ -19,8 +19,8 @@ pub struct Assessment<'a> {
     pub bodies: Vec<BodySummary>,
     /// The estimated errors from the mesh; None where they are left out.
     pub estimates: Option<Estimates>,
-    /// What changes of the input in the last digits do to the run; None where that was not measured, and of exact
-    /// numbers.
+    /// What changes of the input in the last digits do to the run; None where that was not measured, and of
+    /// exact numbers.
     pub rounding: Option<Perturbed>,
     /// The largest difference of a displacement component from a path of half as many steps of the
     /// load, length: what is left of the size of the steps; or why that path has no end. None without a
@@ -46,9 +46,9 @@ pub struct SolutionDistance<'a> {
 }
 
 impl<'a> Assessment<'a> {
-    /// Assesses a solution, and solves for the reference solution and for the equilibrium
-    /// under the scene's own friction and geometry, unless it is one of them. What rounding does is measured under
-    /// the paper's variants; under `unilateral` that may take long, and is asked for.
+    /// Assesses a solution, and solves for the reference solution and for the equilibrium under the scene's
+    /// own friction and geometry, unless it is one of them. What rounding does is measured under the paper's
+    /// variants; under `unilateral` that may take long, and is asked for.
     pub fn new(solution: &'a Solution) -> Self {
         let request = &solution.request;
         let ((others, half), (estimates, rounding)) = rayon::join(
@@ -130,8 +130,8 @@ impl<'a> Assessment<'a> {
 /// Another solution, which may be the assessed one itself, or why there is none.
 type OtherSolution<'a> = Result<Cow<'a, Solution>, Error>;
 
-/// Returns the reference solution and the equilibrium under the scene's own friction and geometry; None without
-/// contact, and of an equilibrium that is the reference solution.
+/// Returns the reference solution and the equilibrium under the scene's own friction and geometry; None
+/// without contact, and of an equilibrium that is the reference solution.
 fn others<'a>(solution: &'a Solution) -> [Option<OtherSolution<'a>>; 2] {
     if solution.model.target().is_none() {
         return [None, None];

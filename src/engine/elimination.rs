@@ -106,8 +106,8 @@ impl<T: Scalar> Elimination<T> {
         t
     }
 
-    /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be
-    /// by the motion of target nodes. Where nothing can move, the constraint is left out. Restraints displace nodes
+    /// Builds T and s such that every constraint holds, also on restrained contact nodes, if need be by the
+    /// motion of target nodes. Where nothing can move, the constraint is left out. Restraints displace nodes
     /// by a `part` of what they do at last.
     pub fn closing(holds: &Holds, part: f64, constraints: &[Constraint<T>]) -> Self {
         let is_held = |c: &&Constraint<T>| !holds.of(c.node).is_empty();

@@ -236,8 +236,8 @@ impl<'a, T: Precision> Equations<'a, T> {
     }
 }
 
-/// Returns the model with its own restraints, or under reading R2 = printed, where `Km` reads the restraint of y in
-/// place of that of x, with those of `Km`.
+/// Returns the model with its own restraints, or under reading R2 = printed, where `Km` reads the restraint
+/// of y in place of that of x, with those of `Km`.
 fn restrained(model: &Arc<Model>, request: &Request) -> Arc<Model> {
     if request.variant != Variant::Printed || !request.reading.r2.takes_y_for_x() {
         return Arc::clone(model);

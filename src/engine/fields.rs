@@ -14,10 +14,11 @@ impl Solution {
         is_there.then(|| NodeId::from_number(node).components(&self.u))
     }
 
-    /// Returns sigma_x, sigma_y and tau_xy at a point of the undeformed shape, stress; None outside of all triangles.
+    /// Returns sigma_x, sigma_y and tau_xy at a point of the undeformed shape, stress; None outside of all
+    /// triangles.
     ///
-    /// Stress is constant in a triangle and jumps from one to the next: a point on a common edge has that of the
-    /// triangle which the mesh lists first.
+    /// Stress is constant in a triangle and jumps from one to the next: a point on a common edge has that of
+    /// the triangle which the mesh lists first.
     pub fn stress_at(&self, x: f64, y: f64) -> Option<[f64; 3]> {
         let has_point =
             |triangle: &TriangleId| is_in_triangle(self.model.corners(*triangle), [x, y]);
@@ -25,7 +26,8 @@ impl Solution {
         Some(self.elements[triangle.index()].sigma.into())
     }
 
-    /// Returns the force of the restraints of a group along x and y, force; None where the scene holds no such group.
+    /// Returns the force of the restraints of a group along x and y, force; None where the scene holds no
+    /// such group.
     ///
     /// `group`: what a restraint of the scene names: a group, or `node 7`.
     pub fn reaction(&self, group: &str) -> Option<[f64; 2]> {

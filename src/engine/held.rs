@@ -1,5 +1,6 @@
-//! The bodies under constraints, Tᵀ K u = Tᵀ F with u = T q + s: all equations, or those on the contact surfaces, to
-//! which the stiffness was reduced. One way solves both: what is left of the load corrects u until it is rounding.
+//! The bodies under constraints, Tᵀ K u = Tᵀ F with u = T q + s: all equations, or those on the contact
+//! surfaces, to which the stiffness was reduced. One way solves both: what is left of the load corrects u
+//! until it is rounding.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -73,8 +74,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Factors reduced equations under constraints; None where these hardly hold the bodies, and where they bind a
-    /// node that is not kept.
+    /// Factors reduced equations under constraints; None where these hardly hold the bodies, and where they
+    /// bind a node that is not kept.
     pub fn reduced(
         bodies: Loaded<'a>,
         (reduction, load): (&'a Reduction, &'a ReducedLoad),
@@ -97,8 +98,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Returns the displacements by degree of freedom, length, under the load and `more` on the contact surfaces,
-    /// force; and the relative residual. None where reduced equations do not serve.
+    /// Returns the displacements by degree of freedom, length, under the load and `more` on the contact
+    /// surfaces, force; and the relative residual. None where reduced equations do not serve.
     pub fn displacements(&self, more: &DVector<f64>) -> Option<(DVector<f64>, f64)> {
         let Held { bodies: Loaded { stiffness, load, .. }, t, .. } = self;
         let own = |rest: &DVector<f64>| t.motion(&self.factors.solve(&t.load(rest)));
@@ -133,8 +134,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Corrects u as long as that brings more: `times` returns K u, `left` what constraints leave of a residual, and
-    /// `correction` what a residual adds to u. Returns u and the relative size of what is left.
+    /// Corrects u as long as that brings more: `times` returns K u, `left` what constraints leave of a
+    /// residual, and `correction` what a residual adds to u. Returns u and the relative size of what is left.
     fn corrected(
         &self,
         mut u: DVector<f64>,
@@ -165,8 +166,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Returns for each of some loads on the contact surfaces, by degree of freedom, K u − f of the displacements
-    /// under it alone, without the shift of the constraints, force.
+    /// Returns for each of some loads on the contact surfaces, by degree of freedom, K u − f of the
+    /// displacements under it alone, without the shift of the constraints, force.
     pub fn responses(&self, loads: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let moved = |f: &[DVector<f64>]| -> Vec<DVector<f64>> {
             let f: Vec<DVector<f64>> = f.iter().map(|f| self.t.load(f)).collect();

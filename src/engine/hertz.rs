@@ -45,9 +45,9 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None
-    /// where the surfaces form no parabola there, the contact is too wide for the theory, as that of a pin in a hole
-    /// of its size, or too few nodes lie in it.
+    /// Returns Hertz's contact for the load that the contact surface of `solution` carries. None where the
+    /// surfaces form no parabola there, the contact is too wide for the theory, as that of a pin in a hole of
+    /// its size, or too few nodes lie in it.
     pub fn from_solution(solution: &Solution) -> Option<Self> {
         let Pressed { gaps, pairings, least, load, modulus, centre } = Pressed::of(solution)?;
         // The half width decides which gaps count for the radius, which decides the half width.
@@ -65,8 +65,8 @@ impl Hertz {
         (is_shallow && contact.fits(&gaps, least)).then_some(contact)
     }
 
-    /// Returns Hertz's contact of surfaces whose relative radius is known, where chords are too coarse to show it, about
-    /// the centre of the contact forces of `solution`.
+    /// Returns Hertz's contact of surfaces whose relative radius is known, where chords are too coarse to
+    /// show it, about the centre of the contact forces of `solution`.
     pub fn of_radius(solution: &Solution, radius: f64) -> Option<Self> {
         let Pressed { load, modulus, .. } = Pressed::of(solution)?;
         let moments = solution.in_contact().filter_map(|c| Some(c.force? * c.arc));
@@ -81,7 +81,8 @@ impl Hertz {
         self.peak * (1.0 - s * s).max(0.0).sqrt()
     }
 
-    /// Returns the angle by which the surface that turns more does so within the contact: its width over its radius.
+    /// Returns the angle by which the surface that turns more does so within the contact: its width over its
+    /// radius.
     fn turn(&self, model: &Model, gaps: &[Gap], pairings: &[Option<Pairing>]) -> f64 {
         let within = gaps.iter().filter(|g| (g.arc - self.centre).abs() <= self.half_width);
         let entries: Vec<usize> = within.map(|gap| gap.entry).collect();
@@ -135,8 +136,8 @@ impl Pressed {
         let pairings = surfaces.pairings(Coupling::Nts, &model.nodes);
         let gaps = gaps(model, &pairings);
         let first = gaps.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))?;
-        // Where the first point of contact is at the end of what faces the target, that is half of a symmetric scene, which
-        // carries half the load, or the edge of a body.
+        // Where the first point of contact is at the end of what faces the target, that is half of a
+        // symmetric scene, which carries half the load, or the edge of a body.
         let at_an_end =
             [&gaps[0], &gaps[gaps.len() - 1]].iter().any(|end| end.entry == first.entry);
         let on_line = surfaces.ends_on_symmetry(model.contact.nodes[first.entry]);
@@ -181,8 +182,8 @@ fn fit(gaps: &[Gap], centre: f64, least: f64, reach: f64) -> Option<f64> {
     (below > 0.0 && above > 0.0).then(|| above / (2.0 * below))
 }
 
-/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press, or not in one
-/// unbroken stretch.
+/// Returns the sum of the normal forces of the contact nodes, force; None where they do not press, or not in
+/// one unbroken stretch.
 fn normal_load(solution: &Solution) -> Option<f64> {
     let all: f64 = solution.in_contact().filter_map(|c| c.force).sum();
     let of = |stretch: &Stretch| {

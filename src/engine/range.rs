@@ -12,11 +12,11 @@ const LARGE_STRAIN: f64 = 0.1;
 /// The rotation, in radians, beyond which linear elements take it for a strain: of half its square, 0.005.
 const LARGE_ROTATION: f64 = 0.1;
 
-/// Poisson's ratio in plane strain beyond which a material is nearly incompressible: linear triangles lock, as their
-/// areas can hardly change. Nothing is known then of the error of the mesh: it looks small where displacements are
-/// far too small. The largest errors measured, in per cent, with 4, 8 and 16 edges on the length in question: of the
-/// pressure on three quarters of the half width under a roller (Hertz), and of the displacement of the bore of a tube
-/// under pressure (Lamé), of free and of regular meshes:
+/// Poisson's ratio in plane strain beyond which a material is nearly incompressible: linear triangles lock,
+/// as their areas can hardly change. Nothing is known then of the error of the mesh: it looks small where
+/// displacements are far too small. The largest errors measured, in per cent, with 4, 8 and 16 edges on the
+/// length in question: of the pressure on three quarters of the half width under a roller (Hertz), and of the
+/// displacement of the bore of a tube under pressure (Lamé), of free and of regular meshes:
 ///
 /// | ν               | 0.3       | 0.45      | 0.47       | 0.48       | 0.49       | 0.495       | 0.499      |
 /// |-----------------|-----------|-----------|------------|------------|------------|-------------|------------|
@@ -24,8 +24,8 @@ const LARGE_ROTATION: f64 = 0.1;
 /// | Lamé, free      | 4, 1, 0   | 9, 2, 0   | 13, 3, 1   | 16, 5, 1   | 24, 8, 1   | 33, 14, 2   | 49, 34, 9  |
 /// | Lamé, regular   | 2, 1, 0   | 7, 3, 1   | 10, 5, 2   | 12, 7, 3   | 16, 10, 4  | 20, 15, 7   | 23, 23, 17 |
 ///
-/// Up to 0.45 it is two to three times that at 0.3; a finer mesh helps, less and less towards 0.5. On a regular mesh a
-/// roller's peak was 2.2 times Hertz's at 0.499, with 8 edges on the half width.
+/// Up to 0.45 it is two to three times that at 0.3; a finer mesh helps, less and less towards 0.5. On a
+/// regular mesh a roller's peak was 2.2 times Hertz's at 0.499, with 8 edges on the half width.
 const INCOMPRESSIBLE: f64 = 0.45;
 
 /// Returns whether linear triangles of a material lock.

@@ -8,8 +8,9 @@ use super::elimination::{Constraint, Motion, sum};
 use numbers::scalar::Scalar;
 use problem::model::{Dof, Hold, Model, NodeId};
 
-/// Returns the bodies on either side of contact, by their indices: those of the contact surface and those of the target.
-/// A body that has both, as one in a stack, is on neither side where others are left. None without contact.
+/// Returns the bodies on either side of contact, by their indices: those of the contact surface and those of
+/// the target. A body that has both, as one in a stack, is on neither side where others are left. None
+/// without contact.
 pub(super) fn sides(model: &Model) -> Option<[Vec<usize>; 2]> {
     let with = |nodes: &[NodeId]| -> Vec<usize> {
         let has = |b: &usize| nodes.iter().any(|node| model.bodies[*b].has(*node));
@@ -25,8 +26,8 @@ pub(super) fn sides(model: &Model) -> Option<[Vec<usize>; 2]> {
     (!contact.is_empty()).then_some(sides)
 }
 
-/// Returns the bodies to which contact passes its force: those of the target, or those of the contact surface where the
-/// load acts on the target alone; none without contact.
+/// Returns the bodies to which contact passes its force: those of the target, or those of the contact surface
+/// where the load acts on the target alone; none without contact.
 fn receivers(model: &Model) -> Vec<usize> {
     let Some([contact, target]) = sides(model) else { return Vec::new() };
     let swapped = is_loaded(model, &target) && !is_loaded(model, &contact);
@@ -107,9 +108,9 @@ pub fn reactions_of_restraints(model: &Model, reactions: &DVector<f64>) -> Vec<[
     sums
 }
 
-/// Returns which part of the load a force along it, as `transmitted_force` has it, is. None where that says nothing:
-/// no load acts, or not on one side of contact alone, the loads cancel each other, or a lever makes the force larger
-/// than the load, or turns it round.
+/// Returns which part of the load a force along it, as `transmitted_force` has it, is. None where that says
+/// nothing: no load acts, or not on one side of contact alone, the loads cancel each other, or a lever makes
+/// the force larger than the load, or turns it round.
 pub fn share_of_load(model: &Model, force: f64) -> Option<f64> {
     /// How far a share may be beyond 0 and 1: what is left of loads that cancel, and solving, round.
     const ROUNDING: f64 = 1e-6;

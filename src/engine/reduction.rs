@@ -50,8 +50,8 @@ pub struct ReducedLoad {
 
 impl Reduction {
     /// Reduces the stiffness of a model to the nodes of its surfaces, or those about the least gaps of
-    /// `pairings`; None where these do not hold what is left, without contact, and where a restraint follows no
-    /// axis or displaces its node, as inner nodes that are held stay where they are here.
+    /// `pairings`; None where these do not hold what is left, without contact, and where a restraint follows
+    /// no axis or displaces its node, as inner nodes that are held stay where they are here.
     pub fn new(stiffness: &Stiffness, model: &Model, pairings: &[Option<Pairing>]) -> Option<Self> {
         if model.holds.iter().any(|hold| hold.dof().is_none()) {
             return None;

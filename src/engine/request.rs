@@ -50,8 +50,8 @@ impl Request {
         }
     }
 
-    /// Returns the same request with another variant, and with the coupling that the scene has under it unless
-    /// another one is asked for.
+    /// Returns the same request with another variant, and with the coupling that the scene has under it
+    /// unless another one is asked for.
     #[must_use]
     pub fn variant(self, variant: Variant) -> Self {
         let [own, other] = [self.variant, variant].map(|variant| self.scene.coupling(variant));

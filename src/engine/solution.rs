@@ -31,8 +31,8 @@ pub struct Step {
     pub shape: Arc<Vec<[f64; 2]>>,
     /// The constraints on contact nodes, by elimination; empty under `printed`.
     pub constraints: Vec<Constraint>,
-    /// The number of entries of the contact surface in contact, of a published variant in the shape from which the
-    /// step started.
+    /// The number of entries of the contact surface in contact, of a published variant in the shape from
+    /// which the step started.
     pub in_contact: usize,
     /// The largest total displacement |u| of a node, length.
     pub max_displacement: f64,
@@ -123,7 +123,8 @@ pub struct Unilateral {
     pub statuses: Vec<Status>,
     /// The pairing of each entry in the shape in which contact was measured.
     pub pairings: Arc<Vec<Option<Pairing>>>,
-    /// The largest friction coefficient that a pressed node needs not to slide; nothing where none is pressed.
+    /// The largest friction coefficient that a pressed node needs not to slide; nothing where none is
+    /// pressed.
     pub friction_needed: Option<f64>,
     /// The friction of sliding nodes, force, on each degree of freedom on which it acts.
     pub friction: Vec<(Dof, f64)>,
@@ -167,14 +168,14 @@ pub enum Start {
     Held,
     /// They do, once nodes that overlapped the target closed in a step of their own.
     Closed,
-    /// They overlapped, and contact alone holds them: they were moved apart as rigid ones, to where a vanishing
-    /// load holds them without friction, or by their only motion.
+    /// They overlapped, and contact alone holds them: they were moved apart as rigid ones, to where a
+    /// vanishing load holds them without friction, or by their only motion.
     Released,
-    /// They overlapped, and neither contact nor the load holds them without friction: they were moved apart as rigid
-    /// ones, so that all nodes that overlapped touch and none slipped.
+    /// They overlapped, and neither contact nor the load holds them without friction: they were moved apart
+    /// as rigid ones, so that all nodes that overlapped touch and none slipped.
     Unslipped,
-    /// They overlapped, and the load holds them by friction alone: a first small part of it is a step of its own, in
-    /// which no other contact state is in equilibrium.
+    /// They overlapped, and the load holds them by friction alone: a first small part of it is a step of its
+    /// own, in which no other contact state is in equilibrium.
     Pressed,
     /// Nothing holds the bodies: the first step moves them to where contact does, and how long that step is
     /// changes the result.
@@ -233,8 +234,8 @@ pub enum Uniqueness {
         /// A node that can move.
         node: NodeId,
     },
-    /// Whether there is another one is not known: contact is measured in the current geometry, where the problem is not
-    /// convex.
+    /// Whether there is another one is not known: contact is measured in the current geometry, where the
+    /// problem is not convex.
     Unknown {
         /// A node that can move without work as long as the normals of contact stay as they are.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -354,15 +355,16 @@ pub struct Solution {
     pub factored: usize,
     /// All significant digits of `u`, where the scalar has more than an `f64`.
     pub digits: Option<Vec<RBig>>,
-    /// Where bodies lie in each other though no group of contact keeps them apart, under `unilateral`; None where they
-    /// do not, and where triangles are turned inside out.
+    /// Where bodies lie in each other though no group of contact keeps them apart, under `unilateral`; None
+    /// where they do not, and where triangles are turned inside out.
     pub overlap: Option<Overlap>,
     /// What `unilateral` knows beside its solution; None under the other variants.
     pub equilibrium: Option<Equilibrium>,
 }
 
-/// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups, or beyond
-/// the end of the other one. What was found is then an equilibrium of bodies that pass through each other there.
+/// Nodes of outlines that lie inside another body where contact does not watch them: in none of its groups,
+/// or beyond the end of the other one. What was found is then an equilibrium of bodies that pass through each
+/// other there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overlap {
     /// How many they are: those deeper than rounding and than the height of the arcs over the edges there.
@@ -400,14 +402,14 @@ pub struct Equilibrium {
     /// thousandth of the model's size.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unseen: Option<(NodeId, f64)>,
-    /// The contact node that lies deepest inside the target's body in the shape reached though it faces an edge of the
-    /// target, and its distance from the body's outline, length; None where none lies deeper than a thousandth of the
-    /// model's size.
+    /// The contact node that lies deepest inside the target's body in the shape reached though it faces an
+    /// edge of the target, and its distance from the body's outline, length; None where none lies deeper than
+    /// a thousandth of the model's size.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inside: Option<(NodeId, f64)>,
-    /// The height of the arcs over the edges of curved surfaces in contact, and how far the gaps there differ before
-    /// any load, from each other and overlaps from none, length; with no node in contact, that of all that face the target,
-    /// and the smallest gap left. None where the height is a small part of this.
+    /// The height of the arcs over the edges of curved surfaces in contact, and how far the gaps there differ
+    /// before any load, from each other and overlaps from none, length; with no node in contact, that of all
+    /// that face the target, and the smallest gap left. None where the height is a small part of this.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub facets: Option<[f64; 2]>,
     /// The largest change of a displacement component when contact was last measured in the shape
@@ -420,9 +422,9 @@ pub struct Equilibrium {
 }
 
 impl Solution {
-    /// Returns a solution of the same model with other displacements, by degree of freedom, length, and the states
-    /// of each triangle. The digits of its own displacements are not kept;
-    /// the contact surface, the reactions and the steps stay those of this solution.
+    /// Returns a solution of the same model with other displacements, by degree of freedom, length, and the
+    /// states of each triangle. The digits of its own displacements are not kept; the contact surface, the
+    /// reactions and the steps stay those of this solution.
     #[must_use]
     pub fn with_fields(&self, u: DVector<f64>, elements: Vec<State>) -> Self {
         Solution { u, elements, digits: None, ..self.clone() }
@@ -439,15 +441,15 @@ impl Solution {
         self.equilibrium.as_ref().is_some_and(|found| found.uniqueness.is_refuted())
     }
 
-    /// Returns whether displacements turn a triangle inside out, so that they are no equilibrium's; what the paper's
-    /// variants end with is judged elsewhere.
+    /// Returns whether displacements turn a triangle inside out, so that they are no equilibrium's; what the
+    /// paper's variants end with is judged elsewhere.
     pub fn is_inside_out(&self) -> bool {
         let shape = || self.model.shape(&self.u);
         self.equilibrium.is_some() && inside_out(&self.model, &shape()).next().is_some()
     }
 
-    /// Returns why it is not the equilibrium of the scene: triangles are turned inside out, bodies lie in each other,
-    /// or other equilibria are known; None where none of these is so.
+    /// Returns why it is not the equilibrium of the scene: triangles are turned inside out, bodies lie in
+    /// each other, or other equilibria are known; None where none of these is so.
     pub fn doubt(&self) -> Option<NoEquilibrium> {
         let (cause, what) = if self.is_inside_out() {
             (Cause::OutOfRange, "triangles are turned inside out by the displacements")
@@ -463,7 +465,8 @@ impl Solution {
         Some(NoEquilibrium { cause, what: what.into() })
     }
 
-    /// Returns the exit status of the process, which is one of its own where it is not the equilibrium of the scene.
+    /// Returns the exit status of the process, which is one of its own where it is not the equilibrium of the
+    /// scene.
     pub fn exit_status(&self) -> ExitStatus {
         if self.doubt().is_some() { ExitStatus::Equilibrium } else { ExitStatus::Done }
     }
@@ -478,9 +481,10 @@ impl Solution {
         self.last().target_force
     }
 
-    /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has
-    /// contact, and a load or a displaced node: an audit result under `printed`, which couples nothing (finding K1).
-    /// Under `unilateral` no contact node is pressed: contact may act across the load, or between parts of one body.
+    /// Returns whether contact passes no load on at the end, beyond rounding, though the scene has contact,
+    /// and a load or a displaced node: an audit result under `printed`, which couples nothing (finding K1).
+    /// Under `unilateral` no contact node is pressed: contact may act across the load, or between parts of
+    /// one body.
     pub fn transmits_nothing(&self) -> bool {
         let [fx, fy] = self.model.total_load();
         let load = if self.equilibrium.is_some() { self.model.load.amax() } else { fx.hypot(fy) };
@@ -510,7 +514,8 @@ impl Solution {
         self.contact.iter().filter(|node| node.in_contact)
     }
 
-    /// Returns whether a contact node is apart from the target, by more than a millionth of the largest displacement.
+    /// Returns whether a contact node is apart from the target, by more than a millionth of the largest
+    /// displacement.
     pub fn is_apart(&self, contact: &ContactNode) -> bool {
         contact.gap > APART * max_displacement(&self.u)
     }

@@ -47,8 +47,9 @@ pub fn solve(request: &Request, watch: &mut dyn FnMut(&Step)) -> Result<Solution
     Ok(solution)
 }
 
-/// Returns the error of a run by what is at fault. Of a scalar with fewer digits than the paper's worksheets have, no
-/// failure is one of the print; nor is a singular matrix of an edited listing where that of the print is none.
+/// Returns the error of a run by what is at fault. Of a scalar with fewer digits than the paper's worksheets
+/// have, no failure is one of the print; nor is a singular matrix of an edited listing where that of the
+/// print is none.
 fn blamed(request: &Request, why: Error) -> Error {
     let scalar = request.arithmetic.scalar;
     let is_coarser = scalar.properties().digits < ScalarName::F64.properties().digits;

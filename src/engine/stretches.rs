@@ -1,4 +1,5 @@
-//! Contact as a reader looks at it: unbroken stretches of nodes in contact, how wide each is and what it passes on.
+//! Contact as a reader looks at it: unbroken stretches of nodes in contact, how wide each is and what it
+//! passes on.
 
 use std::collections::HashMap;
 
@@ -16,8 +17,8 @@ use problem::model::{Model, NodeId};
 pub struct Resultant {
     /// The force on the target along x and y, force.
     pub force: [f64; 2],
-    /// The point of its line of action next to where contact presses on average, in the undeformed shape, length;
-    /// None where it vanishes.
+    /// The point of its line of action next to where contact presses on average, in the undeformed shape,
+    /// length; None where it vanishes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub through: Option<[f64; 2]>,
 }
@@ -68,8 +69,8 @@ pub fn stretches(solution: &Solution) -> Vec<Stretch> {
     (0..nodes.len()).filter(|k| first[*k] == *k).filter_map(stretch).collect()
 }
 
-/// Returns what contact passes to the bodies of the target that rest on no other target. None without contact, where
-/// both surfaces are one body's, and where nothing is passed on.
+/// Returns what contact passes to the bodies of the target that rest on no other target. None without
+/// contact, where both surfaces are one body's, and where nothing is passed on.
 pub fn resultant(solution: &Solution) -> Option<Resultant> {
     let [contact, target] = sides(&solution.model)?;
     if solution.transmits_nothing() || contact.iter().any(|body| target.contains(body)) {

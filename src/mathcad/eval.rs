@@ -269,8 +269,8 @@ impl Run<'_, '_, '_> {
         Ok(Value::grid(Grid::column(entries)))
     }
 
-    /// Assigns a value to a name or to an entry; or its entries to names that stand as they do, or to a column
-    /// of an array. It is that of an expression at `span`.
+    /// Assigns a value to a name or to an entry; or its entries to names that stand as they do, or to a
+    /// column of an array. It is that of an expression at `span`.
     fn assign(&mut self, target: &Expr, value: &Value, span: &Span) -> Fallible<()> {
         match target.kind {
             Kind::Name(name) => self.store(name, value.clone()),
@@ -443,9 +443,9 @@ impl Run<'_, '_, '_> {
         }
     }
 
-    /// Returns whether the comparisons of each operand with the next are all true; after a false one the rest is
-    /// evaluated only if `∧` evaluates everything. A number is compared with a number, a string with a string
-    /// by the codes of their characters.
+    /// Returns whether the comparisons of each operand with the next are all true; after a false one the rest
+    /// is evaluated only if `∧` evaluates everything. A number is compared with a number, a string with a
+    /// string by the codes of their characters.
     fn compared(&mut self, comparisons: &[Comparison], operands: &[Expr]) -> Fallible<bool> {
         let (mut left, mut all) = (self.eval(&operands[0])?, true);
         for (comparison, pair) in comparisons.iter().zip(operands.windows(2)) {

@@ -33,8 +33,8 @@ pub struct Builtin {
 
 /// What a function makes of its arguments.
 pub enum Meaning {
-    /// A number of a number, and of an array each number's; where there is none, by the magnitude. Its last bit need
-    /// not be Mathcad's.
+    /// A number of a number, and of an array each number's; where there is none, by the magnitude. Its last
+    /// bit need not be Mathcad's.
     Elementary(fn(f64) -> f64, Option<f64>),
     /// A value of its arguments and `ORIGIN`.
     Values(fn(&[Value], i32) -> Result<Value, Cause>),

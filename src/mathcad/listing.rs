@@ -55,7 +55,8 @@ enum Use {
     Written,
 }
 
-/// Hands over the names that statements use; the variables of the series around them, `bound`, are the series' own.
+/// Hands over the names that statements use; the variables of the series around them, `bound`, are the
+/// series' own.
 fn uses(block: &[Statement], bound: &mut Vec<Slot>, used: &mut dyn FnMut(Slot, Use)) {
     for statement in block {
         statement.step.written().into_iter().for_each(|slot| used(slot, Use::Written));

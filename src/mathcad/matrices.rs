@@ -77,8 +77,8 @@ pub fn lsolve(a: &Value, b: &Value) -> Result<Value, Cause> {
     substituted(&factor(a), &numbers(b)).map(|x| Array::column(x).into())
 }
 
-/// Returns the inverse of a square matrix L·U, as LAPACK's `getri` does: that of U, from which the columns of X·L = U^−1
-/// follow, the last one first.
+/// Returns the inverse of a square matrix L·U, as LAPACK's `getri` does: that of U, from which the columns of
+/// X·L = U^−1 follow, the last one first.
 /// ```
 /// assert_eq!(plane_contact_mathcad::evaluate("(2 0; 0 4)^−1").unwrap().to_string(), "0.5 0; 0 0.25");
 /// ```
@@ -142,11 +142,12 @@ fn over_pivot(x: f64, pivot: f64) -> f64 {
     if reciprocal.is_finite() { x * reciprocal } else { x / pivot }
 }
 
-/// The rows of an eliminated matrix in the order in which they are pivots, each the largest of its column, with the
-/// factors left of the pivot; their places before; and the sign of that order.
+/// The rows of an eliminated matrix in the order in which they are pivots, each the largest of its column,
+/// with the factors left of the pivot; their places before; and the sign of that order.
 type Factors = (Vec<Vec<f64>>, Vec<usize>, f64);
 
-/// Factors a square matrix by elimination; the products of an entry are added up before they are subtracted from it.
+/// Factors a square matrix by elimination; the products of an entry are added up before they are subtracted
+/// from it.
 fn factor(a: &Array) -> Factors {
     let n = a.rows();
     let mut rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| *a.at(i, j)).collect()).collect();

@@ -321,8 +321,8 @@ impl Comparison {
 }
 
 impl Expr {
-    /// Returns the names that an assignment to it writes to: of `x`, `x[i,j]` and `x⟨j⟩` one, of `(x   y)` those
-    /// of its entries; nothing of what cannot be assigned to.
+    /// Returns the names that an assignment to it writes to: of `x`, `x[i,j]` and `x⟨j⟩` one, of `(x   y)`
+    /// those of its entries; nothing of what cannot be assigned to.
     pub fn targets(&self) -> Option<Vec<Slot>> {
         match self.kind {
             Kind::Name(slot) => Some(vec![slot]),

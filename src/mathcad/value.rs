@@ -21,7 +21,8 @@ pub enum Value {
     Text(Rc<str>),
 }
 
-/// A matrix, a column when `cols` is 1. Its entries stand row by row in blocks, each shared until it is written to.
+/// A matrix, a column when `cols` is 1. Its entries stand row by row in blocks, each shared until it is
+/// written to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid<T> {
     rows: usize,
@@ -30,8 +31,8 @@ pub struct Grid<T> {
     blocks: Vec<Rc<Vec<T>>>,
 }
 
-/// The entries of a block. Each iteration writes some thousand entries to a copy of a stiffness matrix of 5 million:
-/// `audit strand --prices` takes 24 s of CPU time in place of the 31 s of whole copies.
+/// The entries of a block. Each iteration writes some thousand entries to a copy of a stiffness matrix of 5
+/// million: `audit strand --prices` takes 24 s of CPU time in place of the 31 s of whole copies.
 const BLOCK: usize = 512;
 
 /// A matrix of numbers.
@@ -143,7 +144,8 @@ impl<T: Clone + Default> Grid<T> {
 impl Array {
     /// Takes the entries of a square array, zeros left out.
     pub fn sparse(&self) -> SparseSquare {
-        /// So many entries are compared at once: of the CPU time of `audit strand` 2.2 s in place of 3.0 go into this.
+        /// So many entries are compared at once: of the CPU time of `audit strand` 2.2 s in place of 3.0 go
+        /// into this.
         const AT_ONCE: usize = 16;
         assert_eq!(self.rows(), self.cols(), "a square array");
         let mut matrix = SparseSquare::zeros(self.rows());

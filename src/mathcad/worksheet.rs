@@ -485,8 +485,8 @@ fn spelled(saved: &Saved) -> String {
     }
 }
 
-/// Returns whether arrays agree but for what Mathcad chooses of eigenvectors: the order and the signs of the columns,
-/// or of one column the order of its entries. Each is paired with the nearest that is left.
+/// Returns whether arrays agree but for what Mathcad chooses of eigenvectors: the order and the signs of the
+/// columns, or of one column the order of its entries. Each is paired with the nearest that is left.
 fn agree_unordered(saved: &Value, ours: &Value) -> bool {
     let (Value::Array(saved), Value::Array(ours)) = (saved, ours) else { return false };
     let (rows, cols) = saved.size();

@@ -1,5 +1,5 @@
-//! Numbers: the scalar types that a run may be done in, sparse matrices and their factors, the largest of several
-//! values, numbers that are finite, and what is joined.
+//! Numbers: the scalar types that a run may be done in, sparse matrices and their factors, the largest of
+//! several values, numbers that are finite, and what is joined.
 #![forbid(unsafe_code)]
 
 pub mod joined;

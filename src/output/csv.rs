@@ -49,7 +49,8 @@ const SEPARATORS: [char; 4] = [';', '\t', '\n', '|'];
 const STARTS: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
 
 /// Returns words as a spreadsheet shows them and no more: an apostrophe stands before what it would take for
-/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a terminal.
+/// a formula, also where it has another separator than the comma; U+FFFD in place of what controls a
+/// terminal.
 fn words(text: &str) -> String {
     let text = text.replace(controls_a_terminal, "\u{fffd}");
     let mut shown = String::from(if text.starts_with(['\t', '\n']) { "'" } else { "" });

@@ -21,8 +21,8 @@ pub fn json(outcome: &Ended) -> String {
     json::streamed(&Evaluation { value: Written(&outcome.value), trace: &outcome.trace_output })
 }
 
-/// Returns why a program failed, and where: the function, its line and where the failed expression starts in it, from
-/// 1 and indentation aside, that expression and the whole line.
+/// Returns why a program failed, and where: the function, its line and where the failed expression starts in
+/// it, from 1 and indentation aside, that expression and the whole line.
 pub fn error_json(failure: &Failure) -> String {
     let Failure { listing, line, column, text, statement, cause } = failure;
     let error = json!({

@@ -39,7 +39,8 @@ impl From<&Error> for Failure {
                 "line": why.line,
                 "cause": why.cause.to_string(),
             }),
-            // The matrix of an iteration, from 1, is singular: at which equation, and how many nodes were in contact.
+            // The matrix of an iteration, from 1, is singular: at which equation, and how many nodes were in
+            // contact.
             Error::Singular(why) => json!({
                 "kind": "singular",
                 "variant": why.variant,

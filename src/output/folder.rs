@@ -58,8 +58,8 @@ enum File {
     Pressure,
 }
 
-/// Returns the files that a run may leave with their names; the last is `result.json`. There are pictures of the
-/// quantities that are scalars.
+/// Returns the files that a run may leave with their names; the last is `result.json`. There are pictures of
+/// the quantities that are scalars.
 fn files(wanted: FolderOptions) -> Vec<(String, File)> {
     let mut files = vec![("fields.vtu".into(), File::Fields)];
     if wanted.pictures {

@@ -14,8 +14,8 @@ use base::xml::escape;
 const UNFOLDING: RangeInclusive<usize> = 2..=3;
 
 impl Report {
-    /// Writes the report as the content of a page: sections and their parts unfold, notes are lists, a table has a
-    /// caption and the scope of its headings, a figure is an image that nothing of the page reaches.
+    /// Writes the report as the content of a page: sections and their parts unfold, notes are lists, a table
+    /// has a caption and the scope of its headings, a figure is an image that nothing of the page reaches.
     pub fn html(&self) -> String {
         let (mut html, mut previous) = (String::new(), 0);
         // The levels of the headings that are unfolded where the text has got to.

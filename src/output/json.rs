@@ -18,7 +18,8 @@ pub struct Head {
     pub format: u32,
     /// The version of the program.
     pub version: &'static str,
-    /// The names of the units of the scene that it is on, each empty where the scene names none; absent without one.
+    /// The names of the units of the scene that it is on, each empty where the scene names none; absent
+    /// without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<Units>,
     /// The SHA-256 of the scene, as a snapshot has it; absent for half a scene, which no file describes.
@@ -64,8 +65,8 @@ pub fn line(scene: Option<&Scene>, own: &impl Serialize) -> String {
     visible(document(scene, own).to_string()) + "\n"
 }
 
-/// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than its
-/// digits.
+/// Writes such a document, which has no nulls, as its values come: a number of an array takes no more than
+/// its digits.
 pub fn streamed(own: &impl Serialize) -> String {
     let document = Document { head: Head::new(None), own };
     visible(serde_json::to_string(&document).expect("a document has string keys only")) + "\n"
@@ -140,9 +141,9 @@ fn explain(value: &Value, field: &str, nulls: &mut BTreeMap<String, &'static str
     }
 }
 
-/// Returns what one call of `c_cnt` found: of each contact node its number, the `elem` number of its target edge (0 =
-/// none), the vertical distance from its target line, length, and whether it is in contact, 1 or 0; by node mate,
-/// weight, mate, weight.
+/// Returns what one call of `c_cnt` found: of each contact node its number, the `elem` number of its target
+/// edge (0 = none), the vertical distance from its target line, length, and whether it is in contact, 1 or 0;
+/// by node mate, weight, mate, weight.
 pub fn found(Call { sheet, pairs, .. }: &Call) -> Value {
     let row = |n| [1, 2, 3, 4].map(|j| pairs.k_cnt[(n, j)]);
     json!({

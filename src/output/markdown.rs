@@ -65,8 +65,8 @@ impl<R> Table<R> {
     }
 }
 
-/// Returns the folder of the figures of a page, beside it, so that those of another page stay: a name that is a link as
-/// it stands.
+/// Returns the folder of the figures of a page, beside it, so that those of another page stay: a name that is
+/// a link as it stands.
 pub fn figures_of(page: &str) -> String {
     page.replace(|c: char| !c.is_alphanumeric() && !"_-".contains(c), "-") + "-figures"
 }

@@ -43,8 +43,8 @@ fn named<'a>(runs: &[&'a Solution]) -> Vec<(String, &'a Solution)> {
     runs.iter().map(|run| (name(run), *run)).collect()
 }
 
-/// Draws the quantity of contact nodes that has this name: a curve of each run, and `hertz`'s. A picture without
-/// captions stands among others.
+/// Draws the quantity of contact nodes that has this name: a curve of each run, and `hertz`'s. A picture
+/// without captions stands among others.
 fn along_surface(
     scene: &Scene,
     runs: &[(String, &Solution)],

@@ -30,9 +30,9 @@ impl Array {
     }
 }
 
-/// Returns a table of `rows` with a column for each component of each of `quantities` that has a
-/// title and is known in some row; a column has the digits that the part `error` of its largest number leaves,
-/// and places in the undeformed shape four digits of the farthest.
+/// Returns a table of `rows` with a column for each component of each of `quantities` that has a title and is
+/// known in some row; a column has the digits that the part `error` of its largest number leaves, and places
+/// in the undeformed shape four digits of the farthest.
 pub fn table<'r, 'q, T: 'static>(
     rows: &'r [T],
     quantities: impl IntoIterator<Item = &'q Quantity<T>>,

@@ -36,8 +36,8 @@ pub struct ResultFile<'a> {
     /// Whether no node is in contact at the end, though the scene has contact; absent where it is not so.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub nothing_in_contact: bool,
-    /// Where bodies lie in each other though no group of contact keeps them apart: extend the groups; absent where they
-    /// do not.
+    /// Where bodies lie in each other though no group of contact keeps them apart: extend the groups; absent
+    /// where they do not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<&'a Overlap>,
     /// Why it is not the equilibrium of the scene, in words, and the exit status is 4; absent where it is.

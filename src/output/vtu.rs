@@ -76,8 +76,9 @@ pub fn document(
 ) -> Vec<u8> {
     let mut arrays = Arrays::default();
     let coordinates = Array::new("Points", "", 2, points.as_flattened().to_vec());
-    // The last array is stored first: meshio 5 rewrites the offsets one by one as it reads, and takes the first
-    // element with an offset for the one that it looks for, which must be one that it has not rewritten.
+    // The last array is stored first: meshio 5 rewrites the offsets one by one as it reads, and takes the
+    // first element with an offset for the one that it looks for, which must be one that it has not
+    // rewritten.
     let cells = arrays.cells(triangles);
     let places = Element::new("Points").with(arrays.floats(&coordinates));
     let of_triangles = arrays.results("CellData", at_triangles, triangles.len());

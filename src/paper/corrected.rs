@@ -204,7 +204,8 @@ pub fn check(model: &Model) -> Result<(), InputError> {
     }
 }
 
-/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model: [`Worksheet::iterate`].
+/// Executes the iterations, at most `steps`, on the initial shape and the whole load of a model:
+/// [`Worksheet::iterate`].
 ///
 /// # Errors
 /// A program fails.
@@ -219,8 +220,8 @@ pub fn iterate(
 
 /// Lines of a program that read nothing which iterations change: their value is computed once.
 ///
-/// `audit golden/strand` takes 39 s of CPU time so, 9 s more where each iteration searches again, and 31 s more where
-/// it assembles the bodies again.
+/// `audit golden/strand` takes 39 s of CPU time so, 9 s more where each iteration searches again, and 31 s
+/// more where it assembles the bodies again.
 struct Once {
     program: Program,
     /// What their value is called.
@@ -256,8 +257,8 @@ impl Once {
         lines.filter(|line| self.lines.contains(&line.printed)).cloned().collect()
     }
 
-    /// Returns the lines' value; None where they fail, as the whole program does then and says why, or read what
-    /// iterations change.
+    /// Returns the lines' value; None where they fail, as the whole program does then and says why, or read
+    /// what iterations change.
     fn value(&self, edits: &[&str], sheet: &Sheet) -> Option<Value> {
         let alone = edited(self.program, &[&[self.alone], edits].concat())?;
         Some(alone.runner_in(sheet, &Settings::default(), &limits()).call(&[]).ok()?.value)

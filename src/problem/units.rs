@@ -44,8 +44,8 @@ pub fn length_in_metres(name: &str) -> Option<f64> {
     in_si(&LENGTHS, name)
 }
 
-/// Returns the size of a unit by its name, which may have capitals elsewhere where that leaves one: mN and MN are two,
-/// MM and mpa are mm and MPa, but mPa and Mm, with m for milli and M for mega, are neither.
+/// Returns the size of a unit by its name, which may have capitals elsewhere where that leaves one: mN and MN
+/// are two, MM and mpa are mm and MPa, but mPa and Mm, with m for milli and M for mega, are neither.
 pub(crate) fn in_si(units: &[(&str, f64)], name: &str) -> Option<f64> {
     let exact = units.iter().find(|(known, _)| *known == name);
     let is_mixed = name != name.to_uppercase() && name != name.to_lowercase();
@@ -57,7 +57,8 @@ pub(crate) fn in_si(units: &[(&str, f64)], name: &str) -> Option<f64> {
     exact.or(only).map(|(_, size)| *size)
 }
 
-/// Returns the size of a unit of stress: one of its own, or a force per area, as N/mm², N/mm^2, kN/cm2 and lbf/in**2.
+/// Returns the size of a unit of stress: one of its own, or a force per area, as N/mm², N/mm^2, kN/cm2 and
+/// lbf/in**2.
 #[cfg(feature = "scenes")]
 pub(crate) fn stress_in_si(name: &str) -> Option<f64> {
     let plain = name.replace('²', "2").replace([' ', '^', '*', '(', ')'], "");

@@ -1,4 +1,5 @@
-//! `plane-contact guide`: the guide, and the pages and tables that it and messages name, where the program is.
+//! `plane-contact guide`: the guide, and the pages and tables that it and messages name, where the program
+//! is.
 
 use base::exit::ExitStatus;
 use clap::builder::PossibleValuesParser;

@@ -219,7 +219,8 @@ fn check_size(axes: &[Axis], count: usize) -> Result<()> {
     limits::JOBS.check(bytes.fold(0, usize::saturating_add), "grid and list")
 }
 
-/// Checks that no pointer of a job leads to a part of what another one sets: the later one would undo the earlier.
+/// Checks that no pointer of a job leads to a part of what another one sets: the later one would undo the
+/// earlier.
 fn check_pointers(axes: &[Axis]) -> Result<()> {
     // All turns of an axis of the grid have one pointer.
     let of_grid = || axes[1..].iter().filter_map(|axis| axis.first()).flat_map(Map::keys);

@@ -14,8 +14,8 @@ pub const MOST: u64 = crate::limits::FILE;
 /// What this process has opened to read.
 static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// What a file is known by, whatever it is called: its device, its number there, and when it was made, as the number
-/// of a file that is gone is given to another one.
+/// What a file is known by, whatever it is called: its device, its number there, and when it was made, as the
+/// number of a file that is gone is given to another one.
 #[cfg(unix)]
 type Identity = (u64, u64, Option<SystemTime>);
 /// What a file is known by: its path without links.

@@ -1,9 +1,10 @@
 //! The one way in which files are written: beside their target, and then renamed.
 //!
-//! No link is followed but those of an absolute path, no device is written to, and what the run has read is not replaced.
-//! Only what is the program's own is replaced: a file that has the *mark* of its kind, and in a folder files of the same
-//! names where the last of them, the mark of the folder, is already there and was written by this program. The mark is
-//! renamed first, so that a run that is killed leaves no file without it.
+//! No link is followed but those of an absolute path, no device is written to, and what the run has read is
+//! not replaced. Only what is the program's own is replaced: a file that has the *mark* of its kind, and in a
+//! folder files of the same names where the last of them, the mark of the folder, is already there and was
+//! written by this program. The mark is renamed first, so that a run that is killed leaves no file without
+//! it.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -101,7 +102,8 @@ pub fn write(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<()> {
     written.map_err(|why| unwritable(path, &why))
 }
 
-/// Checks that a file of a kind, which has that `mark`, can be written to `path`, before its content is computed.
+/// Checks that a file of a kind, which has that `mark`, can be written to `path`, before its content is
+/// computed.
 ///
 /// # Errors
 /// There is a link, a device, a folder, a file that this run reads, or one without the mark.
@@ -163,8 +165,8 @@ pub fn check_new(path: &Path) -> Result<()> {
     checked.map(drop).map_err(|why| unwritable(path, &why))
 }
 
-/// Writes `content` to a new file at `path`, and creates its folder where it is missing; returns whether there
-/// was none.
+/// Writes `content` to a new file at `path`, and creates its folder where it is missing; returns whether
+/// there was none.
 ///
 /// # Errors
 /// Those of [`check_new`], or it cannot be written.
@@ -273,8 +275,8 @@ fn head(path: &Path) -> io::Result<Vec<u8>> {
     read_from(io::Read::take(fs::File::open(path)?, HEAD), HEAD)
 }
 
-/// Returns whether this program wrote the file, which marks a folder: a page, or a document that can be made again,
-/// as a snapshot cannot.
+/// Returns whether this program wrote the file, which marks a folder: a page, or a document that can be made
+/// again, as a snapshot cannot.
 fn marks_a_folder(path: &Path) -> io::Result<bool> {
     let head = head(path)?;
     let is_document = || Ok(kind_of(&fs::read(path)?) != Some("a snapshot"));
@@ -335,9 +337,9 @@ fn is_same(path: &Path, content: &[u8]) -> io::Result<bool> {
     Ok(is_as_long && fs::read(path)? == content)
 }
 
-/// Writes a temporary file beside `target`, with the owner and the mode of the file that is there, else those of other
-/// files, and with their errors: files that tempfile makes are the owner's alone, and its errors hold names that no
-/// two runs share.
+/// Writes a temporary file beside `target`, with the owner and the mode of the file that is there, else those
+/// of other files, and with their errors: files that tempfile makes are the owner's alone, and its errors
+/// hold names that no two runs share.
 fn staged(target: &Path, content: &[u8]) -> io::Result<(TempPath, PathBuf)> {
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

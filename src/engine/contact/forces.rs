@@ -30,7 +30,8 @@ pub(crate) struct ContactForce {
     pub(crate) tangent: f64,
 }
 
-/// A closed contact node, and whether it sticks: its tangential force is a reaction then, else part of `friction`.
+/// A closed contact node, and whether it sticks: its tangential force is a reaction then, else part of
+/// `friction`.
 type Contact<'a> = (&'a Pairing, bool);
 
 impl ContactForce {
@@ -40,8 +41,8 @@ impl ContactForce {
     }
 }
 
-/// Returns the forces of all entries from `reaction`, which is K u − F − friction by degree of freedom; 0 where an
-/// entry is open.
+/// Returns the forces of all entries from `reaction`, which is K u − F − friction by degree of freedom; 0
+/// where an entry is open.
 pub(crate) fn contact_forces(
     model: &Model,
     pairings: &[Option<Pairing>],

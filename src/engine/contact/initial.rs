@@ -29,7 +29,8 @@ pub enum InitialGaps {
         node: NodeId,
         /// Its depth, length.
         depth: f64,
-        /// The height of the arcs over the edges there, by which curved surfaces that fit enter each other, length.
+        /// The height of the arcs over the edges there, by which curved surfaces that fit enter each other,
+        /// length.
         facet_height: f64,
     },
     /// All contact nodes are farther from the target than a tenth of the smaller body's size.
@@ -68,10 +69,10 @@ impl Surfaces {
     }
 
     /// Checks that no contact node lies deep in the target before the loads act: deeper than 1 % of the
-    /// scene's larger extent, and nearer to a side of the target's body that looks the other way, so that it may
-    /// have come from there. How long the edges are does not count: two
-    /// rings of radii 5, 10 and 20 with an interference of 0.5, one to six edges deep, have Lamé's pressure within 3 %
-    /// (7 % in the initial geometry).
+    /// scene's larger extent, and nearer to a side of the target's body that looks the other way, so that it
+    /// may have come from there. How long the edges are does not count: two rings of radii 5, 10 and 20 with
+    /// an interference of 0.5, one to six edges deep, have Lamé's pressure within 3 % (7 % in the initial
+    /// geometry).
     ///
     /// # Errors
     /// A contact node lies deep in the target; the error names the deepest.
@@ -114,8 +115,8 @@ impl Surfaces {
         self.nodes.iter().filter_map(faced).collect()
     }
 
-    /// Returns those that lie inside the body that they face, the deepest first. The line of an edge does not tell: a
-    /// node beside a body may lie behind the line of a side that it looks past.
+    /// Returns those that lie inside the body that they face, the deepest first. The line of an edge does not
+    /// tell: a node beside a body may lie behind the line of a side that it looks past.
     fn inside_at_rest<'a>(
         &self,
         model: &Model,

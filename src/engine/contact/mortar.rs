@@ -15,8 +15,9 @@
 //! Seitz, M. W. Gee, W. A. Wall, Comput. Methods Appl. Mech. Engrg. 264 (2013) 67-80 (edges covered
 //! in part).
 //!
-//! What a contact edge sees behind a jump of the target, as the bottom of a slot, it does not cover: a dual function is
-//! negative at the far end of its edge, so that the average of a gap that jumps is an overlap where nothing overlaps.
+//! What a contact edge sees behind a jump of the target, as the bottom of a slot, it does not cover: a dual
+//! function is negative at the far end of its edge, so that the average of a gap that jumps is an overlap
+//! where nothing overlaps.
 //!
 //! ```text
 //!  contact edge     o---------------o
@@ -49,17 +50,17 @@ const ROUNDING: f64 = 1e-12;
 /// The share of what its edges could cover below which a contact node does not face the target.
 const COVERED: f64 = 0.05;
 
-/// The cosine of the angle between a contact edge and a target edge beyond which the latter is a wall that joins no
-/// others: 60 degrees.
+/// The cosine of the angle between a contact edge and a target edge beyond which the latter is a wall that
+/// joins no others: 60 degrees.
 const WALL: f64 = 0.5;
 
-/// How far one target edge may lie behind the line of another, over the distance between them: a target that bends
-/// there.
+/// How far one target edge may lie behind the line of another, over the distance between them: a target that
+/// bends there.
 const BEHIND: f64 = 0.5;
 
 impl Surfaces {
-    /// Returns, for each contact surface entry, the average of the target that its edges cover in a shape, given as
-    /// the coordinates of each node, length.
+    /// Returns, for each contact surface entry, the average of the target that its edges cover in a shape,
+    /// given as the coordinates of each node, length.
     pub fn mortar<T: Scalar>(&self, shape: &[[T; 2]]) -> Vec<Option<Pairing<T>>> {
         let target: Vec<PlacedEdge<T>> =
             self.target.edges.iter().map(|edge| edge.in_shape(shape)).collect();
@@ -144,8 +145,9 @@ struct Search<'a, T> {
 }
 
 impl<T: Scalar> Search<'_, T> {
-    /// Returns the stretches of a contact edge that face a target edge; `middle` is that of the contact edge in the
-    /// undeformed shape, length. Where several target edges face the same stretch, the nearest one counts.
+    /// Returns the stretches of a contact edge that face a target edge; `middle` is that of the contact edge
+    /// in the undeformed shape, length. Where several target edges face the same stretch, the nearest one
+    /// counts.
     ///
     /// Which edges face each other is decided in the shape itself, other than under node to segment:
     /// by the normals of the undeformed shape, a contact edge that an iteration has turned over would
@@ -184,8 +186,9 @@ impl<T: Scalar> Search<'_, T> {
         self.before_jumps(contact, covered)
     }
 
-    /// Returns, of the stretches of a contact edge, the nearest of which is the first, those that no jump of the target
-    /// parts from that one. A wall joins no others, and lies behind one where either of its ends does.
+    /// Returns, of the stretches of a contact edge, the nearest of which is the first, those that no jump of
+    /// the target parts from that one. A wall joins no others, and lies behind one where either of its ends
+    /// does.
     fn before_jumps(&self, contact: &PlacedEdge<T>, covered: Vec<Stretch<T>>) -> Vec<Stretch<T>> {
         let Some(&nearest) = covered.first() else { return covered };
         let is_before = |k: &usize| in_order(covered[*k].from, nearest.from).is_lt();
@@ -214,8 +217,8 @@ impl<T: Scalar> Search<'_, T> {
         kept.map(|(stretch, _)| stretch).collect()
     }
 
-    /// Returns whether node `node`, 0 or 1, of a contact edge does not count for what the edge covers, as that lies behind
-    /// what the other contact edge at the node covers.
+    /// Returns whether node `node`, 0 or 1, of a contact edge does not count for what the edge covers, as
+    /// that lies behind what the other contact edge at the node covers.
     fn is_cut_off(&self, [own, other]: [&Covered<T>; 2], node: usize) -> bool {
         let last = |stretches: &[Stretch<T>], end: usize| {
             let nearer = |a: &&Stretch<T>, b: &&Stretch<T>| match end {
@@ -236,9 +239,9 @@ impl<T: Scalar> Search<'_, T> {
         edges[edge].nodes.iter().any(|n| edges[other].nodes.contains(n))
     }
 
-    /// Returns whether a place on the target lies behind a jump of it: behind the line of the edge that was covered `last`,
-    /// farther than by `bend` of the distance between them. So in this shape and in the undeformed one, in which bodies side by
-    /// side may be flush. `length` is that of the contact edge.
+    /// Returns whether a place on the target lies behind a jump of it: behind the line of the edge that was
+    /// covered `last`, farther than by `bend` of the distance between them. So in this shape and in the
+    /// undeformed one, in which bodies side by side may be flush. `length` is that of the contact edge.
     fn is_behind(&self, length: T, last: Foot<T>, next: Foot<T>, bend: f64) -> bool {
         let depth = |[line, other]: [PlacedEdge<T>; 2]| {
             let (from, to) = (line.at(last.eta), other.at(next.eta));

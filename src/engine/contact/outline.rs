@@ -93,8 +93,8 @@ impl<'a> Outline<'a> {
         Outline { surface, placed, normals, tree, tie }
     }
 
-    /// Returns what a node at `p` faces, `at_rest` in the undeformed shape; `own` is the normal out of the node's own body in the
-    /// undeformed shape, None where it bounds no edge and so faces every edge.
+    /// Returns what a node at `p` faces, `at_rest` in the undeformed shape; `own` is the normal out of the
+    /// node's own body in the undeformed shape, None where it bounds no edge and so faces every edge.
     pub(super) fn closest_point(
         &self,
         p: Vector,
@@ -297,8 +297,8 @@ impl FacingNode<'_> {
         FacedPoint { edge, masters, normal, gap, over: true, corner }
     }
 
-    /// Returns the tangent of half the angle between the normals of two edges that face the node and meet in a
-    /// concave corner at a vertex; 0 at any other vertex.
+    /// Returns the tangent of half the angle between the normals of two edges that face the node and meet in
+    /// a concave corner at a vertex; 0 at any other vertex.
     fn corner_at(&self, v: NodeId) -> f64 {
         let outline = self.outline;
         let [k, l] = outline.surface.at[&v][..] else { return 0.0 };

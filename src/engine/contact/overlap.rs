@@ -1,4 +1,5 @@
-//! Nodes of a body's outline that lie inside another body in the shape reached, whether contact watches them or not.
+//! Nodes of a body's outline that lie inside another body in the shape reached, whether contact watches them
+//! or not.
 //!
 //! ```text
 //!      . . another body . .
@@ -23,8 +24,8 @@ pub struct InsideNode {
     pub node: NodeId,
     /// Its distance from the outline of that body, length.
     pub depth: f64,
-    /// The height of the arcs over the edges of both outlines there, in the undeformed shape, length; 0 where they
-    /// are straight.
+    /// The height of the arcs over the edges of both outlines there, in the undeformed shape, length; 0 where
+    /// they are straight.
     pub height: f64,
     /// What contact knows of it.
     pub watched: Watched,
@@ -48,9 +49,10 @@ pub(super) struct PlacedTriangles {
 }
 
 impl Surfaces {
-    /// Returns the nodes of all outlines that lie inside another body in a shape, given as the coordinates of each
-    /// node, length, the deepest first; where both surfaces are one body's, inside that body too. `facing` are the
-    /// contact nodes that face the target, `closed` those of them that are in contact; without contact there are none.
+    /// Returns the nodes of all outlines that lie inside another body in a shape, given as the coordinates of
+    /// each node, length, the deepest first; where both surfaces are one body's, inside that body too.
+    /// `facing` are the contact nodes that face the target, `closed` those of them that are in contact;
+    /// without contact there are none.
     pub fn inside(
         &self,
         model: &Model,
@@ -105,14 +107,15 @@ impl Surfaces {
 }
 
 impl Surface {
-    /// Returns the largest height of the arcs over the edges that meet at a node, from either of their ends, length.
+    /// Returns the largest height of the arcs over the edges that meet at a node, from either of their ends,
+    /// length.
     fn height_near(&self, node: NodeId, shape: &[Vector]) -> f64 {
         let ends = self.at[&node].iter().flat_map(|k| self.edges[*k].nodes);
         ends.map(|end| self.height_at(end, shape)).fold(0.0, f64::max)
     }
 
-    /// Returns the distance of a node from the nearest edge of a body's outline that does not end at it, length, and
-    /// the edge.
+    /// Returns the distance of a node from the nearest edge of a body's outline that does not end at it,
+    /// length, and the edge.
     fn nearest(&self, body: &Body, node: NodeId, shape: &[Vector]) -> Option<(f64, &Edge)> {
         let edges =
             self.edges.iter().filter(|edge| body.has(edge.nodes[0]) && !edge.nodes.contains(&node));

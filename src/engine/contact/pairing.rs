@@ -39,8 +39,8 @@ pub struct Pairing<T = f64> {
     pub gap: T,
     /// The length of the contact surface that the node represents, length.
     pub length: T,
-    /// At a concave corner, on both of whose edges the node rests, the tangent of the angle from the normal to either
-    /// edge's; 0 elsewhere.
+    /// At a concave corner, on both of whose edges the node rests, the tangent of the angle from the normal
+    /// to either edge's; 0 elsewhere.
     #[serde(skip)]
     pub corner: f64,
 }
@@ -56,8 +56,8 @@ impl Pairing {
         [-self.normal[1], self.normal[0]]
     }
 
-    /// Returns the pairing of a node in a concave corner with one of its two edges alone: that whose normal is turned from
-    /// the mean normal to the left (1) or to the right (-1).
+    /// Returns the pairing of a node in a concave corner with one of its two edges alone: that whose normal
+    /// is turned from the mean normal to the left (1) or to the right (-1).
     pub(crate) fn on_edge(&self, side: f64) -> Self {
         let ([nx, ny], turn) = (self.normal, side * self.corner);
         let normal = unit([nx - turn * ny, ny + turn * nx]);

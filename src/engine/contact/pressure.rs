@@ -19,8 +19,8 @@ pub fn pulling(surface: &[ContactNode], load: f64) -> Vec<NodeId> {
     surface.iter().filter(|node| node.in_contact).filter(pulls).map(|node| node.node).collect()
 }
 
-/// Returns for each node the force up to which what the stresses about it leave of its equation is rounding, as after
-/// a motion that strains nothing: some digits' end of |K| |u|.
+/// Returns for each node the force up to which what the stresses about it leave of its equation is rounding,
+/// as after a motion that strains nothing: some digits' end of |K| |u|.
 pub fn rounding(model: &Model, u: &DVector<f64>) -> Vec<f64> {
     /// How often the end of a digit is lost in the six products of a triangle's equation and its coordinates.
     const LOST: f64 = 32.0 * f64::EPSILON;
@@ -56,9 +56,9 @@ pub struct NodeEnd {
 }
 
 impl Surfaces {
-    /// Returns the contact nodes that face the target after displacements `u` of a model, length, in order along the
-    /// surface. `pairings` are those in the shape in which contact is measured, which has the coordinates of each node,
-    /// length; `end` is told each of them with its entry.
+    /// Returns the contact nodes that face the target after displacements `u` of a model, length, in order
+    /// along the surface. `pairings` are those in the shape in which contact is measured, which has the
+    /// coordinates of each node, length; `end` is told each of them with its entry.
     pub fn nodes_at_end<'a>(
         &self,
         (model, u): (&Model, &DVector<f64>),

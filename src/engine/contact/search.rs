@@ -26,7 +26,8 @@ pub fn is_in_triangle([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> bool {
     [[a, b], [b, c], [c, a]].iter().all(|[from, to]| f64::orientation(*from, *to, p) >= 0.0)
 }
 
-/// Returns whether a point lies inside closed outlines, given by their sides: a line from it upwards crosses an odd number.
+/// Returns whether a point lies inside closed outlines, given by their sides: a line from it upwards crosses
+/// an odd number.
 pub fn is_inside(sides: impl Iterator<Item = [[f64; 2]; 2]>, p: [f64; 2]) -> bool {
     let is_above = |[a, b]: &[[f64; 2]; 2]| {
         (a[0] > p[0]) != (b[0] > p[0]) && (f64::orientation(*a, *b, p) > 0.0) == (b[0] < a[0])

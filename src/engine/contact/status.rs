@@ -130,8 +130,8 @@ fn sides(model: &Model, n: NodeId) -> BTreeSet<NodeId> {
     triangles.flatten().filter(|other| *other != n).collect()
 }
 
-/// Returns +1 where the segment from `c` to `q` crosses the edge from `a` to `b` outwards, −1 inwards, and 0 where it
-/// does not cross. A corner of two edges is crossed once. A segment that starts on the edge starts
+/// Returns +1 where the segment from `c` to `q` crosses the edge from `a` to `b` outwards, −1 inwards, and 0
+/// where it does not cross. A corner of two edges is crossed once. A segment that starts on the edge starts
 /// inside; one that ends on it ends outside.
 fn crossing<T: Scalar>([a, b]: [[T; 2]; 2], c: [T; 2], q: [T; 2]) -> i32 {
     if apart([a, b], [c, q]) {

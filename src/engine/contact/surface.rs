@@ -10,15 +10,16 @@ use base::error::InputError;
 use numbers::scalar::Scalar;
 use problem::model::{BEND, Body, EdgeId, Model, NodeId, unordered};
 
-/// The difference of two places or directions, over the size of what is compared, up to which they are one: far
-/// above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
+/// The difference of two places or directions, over the size of what is compared, up to which they are one:
+/// far above rounding, also at a thousand sizes from the origin, and far below any gap that matters.
 pub(super) const SAME: f64 = 1e-9;
 
 /// The cosine between a contact surface's normal and the reverse of a target edge's, below which
 /// the two do not face each other.
 pub(super) const FACING: f64 = 0.1;
 
-/// The distance from another side of a body, over the depth behind an edge, up to which a point is beside that side.
+/// The distance from another side of a body, over the depth behind an edge, up to which a point is beside
+/// that side.
 const BESIDE: f64 = 0.1;
 
 /// The nodes and edges that may touch, and the side of each edge on which its body lies.
@@ -38,12 +39,13 @@ pub(super) struct Surface {
     pub(super) once: Vec<usize>,
     /// Those at each node.
     pub(super) at: FxHashMap<NodeId, Vec<usize>>,
-    /// The edges in the undeformed shape. An intermediate shape of the iterations may be folded, so that its normals
-    /// do not decide which surfaces face each other.
+    /// The edges in the undeformed shape. An intermediate shape of the iterations may be folded, so that its
+    /// normals do not decide which surfaces face each other.
     pub(super) undeformed: Vec<PlacedEdge>,
     /// The unit mean normal at each node over its edges, weighted by length.
     pub(super) node_normals: FxHashMap<NodeId, Vector>,
-    /// The direction across the line of symmetry on which the surface ends, as that of half a scene, by the node there.
+    /// The direction across the line of symmetry on which the surface ends, as that of half a scene, by the
+    /// node there.
     across: FxHashMap<NodeId, Vector>,
     /// The sides that bound the surface's bodies, in the undeformed shape.
     outline: Vec<[Vector; 2]>,
@@ -86,9 +88,10 @@ impl Surface {
         Surface { edges, once, at, undeformed, node_normals, across, outline }
     }
 
-    /// Returns whether edge `k` is seen from behind, through its body, from a place in the undeformed shape: from deeper behind
-    /// it than it is long, and from no body of the surface, or from beside another side of it. An intermediate shape of the
-    /// iterations, in which bodies may have passed through each other, does not decide that.
+    /// Returns whether edge `k` is seen from behind, through its body, from a place in the undeformed shape:
+    /// from deeper behind it than it is long, and from no body of the surface, or from beside another side of
+    /// it. An intermediate shape of the iterations, in which bodies may have passed through each other, does
+    /// not decide that.
     pub(super) fn is_seen_through(&self, k: usize, p: Vector) -> bool {
         let edge = &self.undeformed[k];
         let depth = -edge.outside(p);
@@ -101,8 +104,8 @@ impl Surface {
         !is_inside(self.outline.iter().copied(), p) || self.outline.iter().any(is_beside)
     }
 
-    /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of symmetry: along that
-    /// line; elsewhere, and where the two images meet in a corner, as it is.
+    /// Returns the normal at a node as its mirror image leaves it where the surface ends on a line of
+    /// symmetry: along that line; elsewhere, and where the two images meet in a corner, as it is.
     pub(super) fn mirrored<T: Scalar>(&self, node: NodeId, normal: [T; 2]) -> [T; 2] {
         let Some(across) = self.across.get(&node).map(|across| across.map(T::from_f64)) else {
             return normal;
@@ -113,21 +116,23 @@ impl Surface {
         if is_bend { unit(along) } else { normal }
     }
 
-    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the surface ends.
+    /// Returns the two edges that meet at a node in a shape, in order along the outline; None where the
+    /// surface ends.
     fn meeting(&self, node: NodeId, shape: &[Vector]) -> Option<[PlacedEdge; 2]> {
         let [k, l] = self.at.get(&node)?[..] else { return None };
         let order = if self.edges[k].nodes[1] == node { [k, l] } else { [l, k] };
         Some(order.map(|k| self.edges[k].in_shape(shape)))
     }
 
-    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth surface: an
-    /// eighth of an edge's length times the angle between their normals, length; 0 where they meet in no bend.
+    /// Returns the height of the arc of a circle over the edges that meet at a node in a bend of a smooth
+    /// surface: an eighth of an edge's length times the angle between their normals, length; 0 where they
+    /// meet in no bend.
     pub(super) fn height_at(&self, node: NodeId, shape: &[Vector]) -> f64 {
         self.bend_at(node, shape).map_or(0.0, |[_, height]| height)
     }
 
-    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface, rad, and
-    /// [`Surface::height_at`] there; None where they meet in no bend.
+    /// Returns the angle between the normals of the edges that meet at a node in a bend of a smooth surface,
+    /// rad, and [`Surface::height_at`] there; None where they meet in no bend.
     fn bend_at(&self, node: NodeId, shape: &[Vector]) -> Option<[f64; 2]> {
         let [a, b] = self.meeting(node, shape)?;
         let angle = dot(a.tangent, b.normal).abs().atan2(dot(a.normal, b.normal));
@@ -143,8 +148,8 @@ impl Surface {
     }
 }
 
-/// Returns the direction along which a node at the end of a surface is held, where the outline goes on from it along a line
-/// across that direction that is held so too.
+/// Returns the direction along which a node at the end of a surface is held, where the outline goes on from
+/// it along a line across that direction that is held so too.
 fn across(
     model: &Model,
     edges: &[Edge],
@@ -268,8 +273,8 @@ impl Surfaces {
         self.contact.across.contains_key(&node)
     }
 
-    /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length; 0 where
-    /// edges meet at less than an angle, rad.
+    /// Returns the largest height of an arc over an edge at some nodes of either surface in a shape, length;
+    /// 0 where edges meet at less than an angle, rad.
     pub fn facet_height(&self, nodes: &[NodeId], shape: &[Vector], least: f64) -> f64 {
         let bend = |node: &NodeId| {
             self.contact.bend_at(*node, shape).or_else(|| self.target.bend_at(*node, shape))

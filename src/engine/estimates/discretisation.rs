@@ -11,7 +11,8 @@
 //! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Methods Eng. 33 (1992) 1331 and 1365.
 //!
 //! It is an estimate of the whole: at a re-entrant corner, under a point load or at the edge of a sticking
-//! contact it is too low, and it says little of one displacement or stress, which `trade --only mesh` measures.
+//! contact it is too low, and it says little of one displacement or stress, which `trade --only mesh`
+//! measures.
 #![allow(non_snake_case, reason = "the paper's own names")]
 
 use nalgebra::Matrix3;

@@ -34,8 +34,8 @@ pub struct Estimates {
     pub mesh: Discretisation,
 }
 
-/// How far the mesh leaves the numbers of a run from the truth; nothing where that is not known. What it does to
-/// one displacement or stress is not estimated: `trade --only mesh` measures it.
+/// How far the mesh leaves the numbers of a run from the truth; nothing where that is not known. What it does
+/// to one displacement or stress is not estimated: `trade --only mesh` measures it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorEstimates {
     /// The node at which the largest displacement has no limit as the mesh is refined, and why.

@@ -1,14 +1,14 @@
-//! What rounding does to a solution, measured: the run is repeated in double-doubles, where these are offered, and
-//! with coordinates, loads and moduli changed at random in their last digits. What that changes, rounding may change
-//! too, as every later rounding acts like such a change.
+//! What rounding does to a solution, measured: the run is repeated in double-doubles, where these are
+//! offered, and with coordinates, loads and moduli changed at random in their last digits. What that changes,
+//! rounding may change too, as every later rounding acts like such a change.
 //!
-//! A coordinate is changed in the last digit that a coordinate of the scene's size has: a node that lies on an
-//! axis is as uncertain as one that does not. Loads that are 0 stay 0.
+//! A coordinate is changed in the last digit that a coordinate of the scene's size has: a node that lies on
+//! an axis is as uncertain as one that does not. Loads that are 0 stay 0.
 //!
 //! The measurement is of a few runs with the same random numbers every time: no bound, but it does not call
-//! unknown what it can try. A decision that three runs on changed inputs miss by chance is still the right one where
-//! double-doubles take it too. The audit repeats all that it prints on the same inputs ([`equivalent`]), two of
-//! them with another load too: a load is not known to nine digits.
+//! unknown what it can try. A decision that three runs on changed inputs miss by chance is still the right
+//! one where double-doubles take it too. The audit repeats all that it prints on the same inputs
+//! ([`equivalent`]), two of them with another load too: a load is not known to nine digits.
 //!
 //! Source: D. S. Parker, "Monte Carlo arithmetic", UCLA CSD-970002 (1997); J. Vignes, Math. Comput. Simul. 35
 //! (1993) 233-261 (CESTAC).
@@ -232,8 +232,8 @@ pub fn certain(solution: Solution) -> (Solution, Certainty) {
     }
 }
 
-/// Returns the requests of the runs: with changed inputs, then in double-doubles where these are offered and have more
-/// digits.
+/// Returns the requests of the runs: with changed inputs, then in double-doubles where these are offered and
+/// have more digits.
 pub fn perturbed_requests(request: &Request) -> Vec<Request> {
     let own = request.arithmetic;
     let changed = (0..RUNS as u64).map(|seed| changed(request, seed, 1.0));
@@ -244,7 +244,8 @@ pub fn perturbed_requests(request: &Request) -> Vec<Request> {
     changed.chain(Some(finer).filter(|finer| is_finer && check(finer).is_ok())).collect()
 }
 
-/// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor` too.
+/// Returns a request whose coordinates, loads and moduli differ in their last digits, the loads by a `factor`
+/// too.
 fn changed(request: &Request, seed: u64, factor: f64) -> Request {
     let last_digit = match request.arithmetic.scalar {
         ScalarName::F32 => f64::from(f32::EPSILON),

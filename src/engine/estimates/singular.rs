@@ -183,8 +183,9 @@ fn forces(solution: &Solution) -> Vec<NodeId> {
     model.node_ids().filter(|node| node.dofs().into_iter().any(acts_alone)).collect()
 }
 
-/// Returns the nodes of the contact surface at which contact that sticks ends, each with a target node: beside an open
-/// node that which carries most of it, and where both bodies end in corners of unlike materials the target's.
+/// Returns the nodes of the contact surface at which contact that sticks ends, each with a target node:
+/// beside an open node that which carries most of it, and where both bodies end in corners of unlike
+/// materials the target's.
 fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
     let (model, last) = (&*solution.model, solution.last());
     let nodes = &model.contact.nodes;
@@ -211,8 +212,8 @@ fn ends(solution: &Solution, turns: &Turns) -> Vec<[NodeId; 2]> {
     (0..nodes.len()).filter(|k| sticks(*k)).filter_map(end).collect()
 }
 
-/// Returns whether bodies that are bonded at the corners of both make a point without a limit there. Where their
-/// sides are flush and at right angles to the bond, that is where Dundurs' α (α − 2 β) > 0.
+/// Returns whether bodies that are bonded at the corners of both make a point without a limit there. Where
+/// their sides are flush and at right angles to the bond, that is where Dundurs' α (α − 2 β) > 0.
 ///
 /// Source: D. B. Bogy, "Two edge-bonded elastic wedges of different materials and wedge angles under surface
 /// tractions", J. Appl. Mech. 38 (1971) 377-386.
@@ -228,7 +229,8 @@ fn are_unlike_corners(model: &Model, corners: [&Turn; 2]) -> bool {
     corners.iter().all(|turn| turn.is_convex()) && is_flush && alpha * (alpha - 2.0 * beta) > UNLIKE
 }
 
-/// Returns the nodes at which contact ends in a point without a limit, each with the cause and a target node there.
+/// Returns the nodes at which contact ends in a point without a limit, each with the cause and a target node
+/// there.
 pub fn contact_ends(solution: &Solution) -> Vec<(Cause, [NodeId; 2])> {
     contact_ends_at(solution, &turns(&solution.model))
 }
@@ -238,8 +240,9 @@ fn contact_ends_at(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2
     edges(solution, turns).into_iter().chain(sticking).collect()
 }
 
-/// Returns the nodes in contact at which a body ends while the other goes on, or a contact group while both do, each
-/// with the target node there. A body that goes on past the end of a group may enter the other unseen.
+/// Returns the nodes in contact at which a body ends while the other goes on, or a contact group while both
+/// do, each with the target node there. A body that goes on past the end of a group may enter the other
+/// unseen.
 fn edges(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2])> {
     let model = &*solution.model;
     let Ok(surfaces) = Surfaces::new(model) else { return Vec::new() };

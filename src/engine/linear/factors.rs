@@ -63,8 +63,8 @@ pub fn backward_error<T: Scalar>(
     if residual == 0.0 { 0.0 } else { residual / (norm * x + b) }
 }
 
-/// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors, 0 when x and b are
-/// 0.
+/// Returns the relative residual |A x − b| / (|A| |x| + |b|) in the largest-entry norm of vectors, 0 when x
+/// and b are 0.
 pub fn residual(matrix: &SparseSquare, x: &DVector<f64>, b: &DVector<f64>) -> f64 {
     let (mut rest, mut row_sums) = (-b, DVector::<f64>::zeros(x.len()));
     for (i, j, a) in matrix.entries() {

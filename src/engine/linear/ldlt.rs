@@ -1,8 +1,8 @@
 //! Sparse LDLᵀ without pivoting, for `f32`, double-doubles and rationals.
 //!
-//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS
-//! 31(4), 2005 (up-looking, by the elimination tree, which tells where rows have entries: J. W. H. Liu, *The
-//! role of elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11(1), 1990); the order of the
+//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31(4),
+//! 2005 (up-looking, by the elimination tree, which tells where rows have entries: J. W. H. Liu, *The role of
+//! elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11(1), 1990); the order of the
 //! equations is that of `ordering`.
 
 use super::factors::Singular;

@@ -46,8 +46,9 @@ fn rounding(n: usize, epsilon: f64) -> f64 {
     16.0 * n as f64 * epsilon
 }
 
-/// Returns the size of a factor of an equation, relative to the largest, below which it may be rounding alone (1e-10
-/// in f64): normals are differences of coordinates, which have few of their digits where nodes are near each other.
+/// Returns the size of a factor of an equation, relative to the largest, below which it may be rounding alone
+/// (1e-10 in f64): normals are differences of coordinates, which have few of their digits where nodes are
+/// near each other.
 pub(crate) fn negligible(epsilon: f64) -> f64 {
     (1 << 19) as f64 * epsilon
 }

@@ -1,10 +1,12 @@
-//! The order of the equations of a sparse symmetric matrix in which its factors fill little, by the library faer.
+//! The order of the equations of a sparse symmetric matrix in which its factors fill little, by the library
+//! faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-/// Returns the equations in an order of small fill (approximate minimum degree), from the lower triangle of the matrix.
+/// Returns the equations in an order of small fill (approximate minimum degree), from the lower triangle of
+/// the matrix.
 pub(super) fn order(pattern: SymbolicSparseColMatRef<'_, usize>) -> Vec<usize> {
     let n = pattern.ncols();
     let (mut order, mut place) = (vec![0; n], vec![0; n]);

@@ -7,8 +7,8 @@ use super::factors::{Factors, Singular};
 use super::inverse_norm::inverse_norm;
 use super::symmetric::SparseSymmetric;
 
-/// Displacements beyond this (5e14) under a load of the size of the stiffness mean a singular matrix; both are
-/// scaled to a unit diagonal.
+/// Displacements beyond this (5e14) under a load of the size of the stiffness mean a singular matrix; both
+/// are scaled to a unit diagonal.
 const UNBOUNDED: f64 = 0.1 / f64::EPSILON;
 
 /// Where every pivot is large and one trial load moves less than this part of what means a singular

@@ -159,8 +159,8 @@ impl<'a> Condensed<'a> {
         found
     }
 
-    /// Eliminates the next node, in each of its statuses, from the forces by gaps, slips and 1 that are `left`;
-    /// keeps the contact states in equilibrium.
+    /// Eliminates the next node, in each of its statuses, from the forces by gaps, slips and 1 that are
+    /// `left`; keeps the contact states in equilibrium.
     fn eliminate(
         &self,
         left: &DMatrix<f64>,

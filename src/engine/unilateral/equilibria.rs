@@ -12,8 +12,8 @@ use problem::model::NodeId;
 /// The number of equations that may be factored in all to try the neighbours of a contact state.
 const WORK: usize = 500_000;
 
-/// The number of contact states up to which all of them are tried, on the contact nodes alone: those of ten nodes
-/// under friction, in about a second.
+/// The number of contact states up to which all of them are tried, on the contact nodes alone: those of ten
+/// nodes under friction, in about a second.
 const ALL: usize = 1 << 20;
 
 /// Contact states that were tried.
@@ -117,8 +117,8 @@ fn indifferent(problem: &Problem, found: &Equilibrium, setting: &Setting) -> Opt
 }
 
 impl StateSearch<'_> {
-    /// Looks for statuses in equilibrium on the contact nodes alone: by pivots, then among all that there are;
-    /// None where there are none, and where there are too many to be tried.
+    /// Looks for statuses in equilibrium on the contact nodes alone: by pivots, then among all that there
+    /// are; None where there are none, and where there are too many to be tried.
     pub(super) fn condensed(&self) -> Option<Vec<Status>> {
         let holds = |statuses: &Vec<Status>| self.try_statuses(statuses).is_some();
         let condensed = Condensed::new(self)?;
@@ -130,8 +130,8 @@ impl StateSearch<'_> {
 }
 
 impl Problem<'_> {
-    /// Returns the number of all contact states in a place; None where those of so many steps are too many to be
-    /// tried.
+    /// Returns the number of all contact states in a place; None where those of so many steps are too many to
+    /// be tried.
     pub(super) fn number_of_states(&self, config: &Configuration, steps: usize) -> Option<usize> {
         let mut choices = (0..config.pairings.len()).map(|i| self.choices(config, i).len());
         choices.try_fold(1_usize, usize::checked_mul).filter(|number| *number <= ALL / steps)

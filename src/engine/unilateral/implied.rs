@@ -1,4 +1,5 @@
-//! What displacements from elsewhere imply on the mesh of a solution: stresses, gaps, contact forces, reactions.
+//! What displacements from elsewhere imply on the mesh of a solution: stresses, gaps, contact forces,
+//! reactions.
 
 use nalgebra::DVector;
 
@@ -14,8 +15,8 @@ use problem::modelling::{Coupling, Variant};
 pub struct Implied {
     /// The solution with these displacements in place of its own, and all that follows from them.
     pub solution: Solution,
-    /// The node inside the bodies with the largest force that nothing balances, and that force over the largest of
-    /// a node's forces by its triangles; None where nothing is deformed.
+    /// The node inside the bodies with the largest force that nothing balances, and that force over the
+    /// largest of a node's forces by its triangles; None where nothing is deformed.
     pub unbalanced: Option<(NodeId, f64)>,
 }
 
@@ -65,8 +66,9 @@ pub fn implied(reference: &Solution, u: DVector<f64>) -> Result<Implied> {
     Ok(Implied { solution, unbalanced })
 }
 
-/// Returns the node, neither held nor of a contact surface, on which what is left of the forces is largest, and that
-/// over the largest of `inner`, the forces by which triangles keep their shape; None where there are none.
+/// Returns the node, neither held nor of a contact surface, on which what is left of the forces is largest,
+/// and that over the largest of `inner`, the forces by which triangles keep their shape; None where there are
+/// none.
 fn unbalanced(
     reference: &Solution,
     inner: &DVector<f64>,

@@ -61,7 +61,8 @@ impl StateSearch<'_> {
         }
     }
 
-    /// Solves for the displacements and forces under imposed statuses; None where statuses leave a body free, or their friction jams.
+    /// Solves for the displacements and forces under imposed statuses; None where statuses leave a body free,
+    /// or their friction jams.
     pub(super) fn solved_state(
         &self,
         statuses: &[Status],
@@ -157,6 +158,6 @@ impl StateSearch<'_> {
     }
 }
 
-/// What friction does to nodes that slide: by degree of freedom, and along the tangent of each entry that slides,
-/// force.
+/// What friction does to nodes that slide: by degree of freedom, and along the tangent of each entry that
+/// slides, force.
 type Slide = (DVector<f64>, Vec<(usize, f64)>);

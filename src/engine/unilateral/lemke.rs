@@ -4,16 +4,16 @@
 //!   w = M z + d z0 + r      d > 0; z0 enters first, then the complement of what left, until z0 is 0
 //! ```
 //!
-//! Source: C. E. Lemke, Management Sci. 11 (1965) 681-689; ties by the lexicographic rule, R. W. Cottle, J.-S.
-//! Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 4.9.
+//! Source: C. E. Lemke, Management Sci. 11 (1965) 681-689; ties by the lexicographic rule, R. W. Cottle,
+//! J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 4.9.
 
 use std::cmp::Ordering;
 
 use nalgebra::{DMatrix, DVector};
 
-/// A pivot, over the largest entry of M, up to which it is rounding, and what of z0, over its first value: z0 leaves
-/// although another unknown came to 0 as it did. Measured where one node carries a body that turns: z0 is 1e-6 before
-/// that pivot, 1e-14 after it.
+/// A pivot, over the largest entry of M, up to which it is rounding, and what of z0, over its first value: z0
+/// leaves although another unknown came to 0 as it did. Measured where one node carries a body that turns: z0
+/// is 1e-6 before that pivot, 1e-14 after it.
 const ROUNDING: f64 = 1e-11;
 
 /// The number of pivots for each unknown after which the search ends: three are usual.

@@ -14,9 +14,9 @@
 //! In each step the statuses are looked for by these methods, in this order. What each of them finds is
 //! checked against the same conditions.
 //!
-//! The search goes on with the stiffness on the contact surfaces alone ([`reduction`](crate::reduction)) where
-//! there is one; the contact state with which the path ends is solved again on the whole bodies, and must ask
-//! for itself there too.
+//! The search goes on with the stiffness on the contact surfaces alone ([`reduction`](crate::reduction))
+//! where there is one; the contact state with which the path ends is solved again on the whole bodies, and
+//! must ask for itself there too.
 //!
 //! 1. A primal-dual active set (`search`): each iteration imposes statuses, and takes as the next ones those
 //!    that the forces, gaps and slips ask for. Statuses that return, other than the last, would return
@@ -44,8 +44,8 @@
 //! | up to which shear does a node stick, in a corner too? | `problem.rs`, `holding` |
 //! | which status comes next where statuses return? | `status.rs`, `History::next` |
 //!
-//! In the current geometry a node in a concave corner of the target, under node to segment, is held there while its
-//! force lies between the normals of both edges; its normal is then that of its force.
+//! In the current geometry a node in a concave corner of the target, under node to segment, is held there
+//! while its force lies between the normals of both edges; its normal is then that of its force.
 //!
 //! A node sticks beyond μ p in the result by rounding alone (`CONE` in `problem.rs`), or under `stick`, where
 //! no node slides. In an iteration on the way it may wait until other nodes have changed.

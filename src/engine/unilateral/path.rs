@@ -27,8 +27,8 @@ const CLOSINGS: usize = 16;
 /// ones do not then either.
 const AT_THE_END: f64 = 1e-3;
 
-/// The part of the first stage that is a step of its own where friction alone holds bodies that overlap: so small
-/// that hardly anything slips in it, and its forces are far above rounding.
+/// The part of the first stage that is a step of its own where friction alone holds bodies that overlap: so
+/// small that hardly anything slips in it, and its forces are far above rounding.
 const FIRST: f64 = 1e-3;
 
 /// A point of the path: what the next step starts from.
@@ -107,9 +107,9 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Returns where the path starts. Under friction nodes that overlap come to touch before any load, as they would
-    /// slip with its first part otherwise: the bodies as rigid ones where nothing presses them together, else in a
-    /// step of its own.
+    /// Returns where the path starts. Under friction nodes that overlap come to touch before any load, as
+    /// they would slip with its first part otherwise: the bodies as rigid ones where nothing presses them
+    /// together, else in a step of its own.
     ///
     /// # Errors
     /// They come to touch in several ways.
@@ -144,7 +144,8 @@ impl<'a> Run<'a> {
                 if let Some(none) = no_end {
                     return Err(none.into());
                 }
-                // In the initial geometry all contact states of a first small step say whether there is one way alone.
+                // In the initial geometry all contact states of a first small step say whether there is one
+                // way alone.
                 match self.step(&rest, FIRST, Problem::equilibrium) {
                     Ok(held) if !problem.is_current() => {
                         self.take(&rest, FIRST, &held);
@@ -184,12 +185,12 @@ impl<'a> Run<'a> {
         Ok(end.expect("a path has a step"))
     }
 
-    /// Goes to a load: in two parts where a node closes in between, as friction counts its slip from there, and in two
-    /// halves where no equilibrium is found. Whatever stops the first part, the whole way counts if it was found; the
-    /// second one does not go back behind the first.
+    /// Goes to a load: in two parts where a node closes in between, as friction counts its slip from there,
+    /// and in two halves where no equilibrium is found. Whatever stops the first part, the whole way counts
+    /// if it was found; the second one does not go back behind the first.
     ///
-    /// Source: backward Euler with steps at events, as of E. Hairer, G. Wanner, *Solving Ordinary Differential
-    /// Equations II* (1996).
+    /// Source: backward Euler with steps at events, as of E. Hairer, G. Wanner, *Solving Ordinary
+    /// Differential Equations II* (1996).
     fn reach(
         &mut self,
         from: &Point,

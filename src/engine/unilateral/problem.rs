@@ -32,16 +32,19 @@ const RESOLVED: f64 = 4.0 * f64::EPSILON / CLOSED;
 /// How much of |q| over μ p is rounding.
 pub(super) const CONE: f64 = 1e-12;
 
-/// The depth inside the other body, over the model's size, from which a node that contact watches is reported: mortar
-/// closes averaged gaps, and where curved surfaces lie on each other their nodes stand inside by the height of an arc.
+/// The depth inside the other body, over the model's size, from which a node that contact watches is
+/// reported: mortar closes averaged gaps, and where curved surfaces lie on each other their nodes stand
+/// inside by the height of an arc.
 const UNSEEN: f64 = 1e-3;
 
-/// How deep bodies that fit exactly lie in each other where coordinates are written with six significant digits, over
-/// the farthest coordinate: half a unit of the sixth digit, 5e-6, of both bodies, along both axes.
+/// How deep bodies that fit exactly lie in each other where coordinates are written with six significant
+/// digits, over the farthest coordinate: half a unit of the sixth digit, 5e-6, of both bodies, along both
+/// axes.
 const WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * 5e-6;
 
-/// The height of an arc over its edge, over the span of the gaps that contact closes, beyond which pressures may be far
-/// off. Errors measured of the peak pressure, over that of Hertz, Lamé, and Ciavarella, Hills and Monno (1998):
+/// The height of an arc over its edge, over the span of the gaps that contact closes, beyond which pressures
+/// may be far off. Errors measured of the peak pressure, over that of Hertz, Lamé, and Ciavarella, Hills and
+/// Monno (1998):
 ///
 /// | height over span | up to 0.02 | 0.04 | 0.06 | 0.10 | 0.14 | 0.25      | 0.43 | 0.83  | more        |
 /// |------------------|------------|------|------|------|------|-----------|------|-------|-------------|
@@ -49,8 +52,9 @@ const WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * 5e-6;
 /// | press fit        | 7 %        |      |      | 12 % |      |           | 43 % | 183 % |             |
 /// | rounded punch    |            |      | 18 % |      |      | 5 to 28 % |      |       | 5 to 69 %   |
 ///
-/// A roller has 0.05 with four to five edges on its whole width of contact, a punch with two on the part of its rounding
-/// that is in contact. Flat surfaces have no arcs; a press fit whose nodes lie on each other has no such error.
+/// A roller has 0.05 with four to five edges on its whole width of contact, a punch with two on the part of
+/// its rounding that is in contact. Flat surfaces have no arcs; a press fit whose nodes lie on each other has
+/// no such error.
 const COARSE: f64 = 0.05;
 
 /// The coefficient of friction beyond which a node slides at a pressure that is rounding: it sticks.
@@ -302,8 +306,8 @@ impl<'a> Problem<'a> {
         gaps.iter().enumerate().map(status).collect()
     }
 
-    /// Returns the tangential over the normal force up to which a node does not slide: that of friction, whose cone
-    /// in a concave corner is widened by the angle to the normals of both edges.
+    /// Returns the tangential over the normal force up to which a node does not slide: that of friction,
+    /// whose cone in a concave corner is widened by the angle to the normals of both edges.
     pub(super) fn holding(&self, pairing: &Pairing) -> f64 {
         let friction = if self.transmits_shear(pairing) { self.friction } else { 0.0 };
         // tan (a + b), without end from a right angle on.
@@ -317,8 +321,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Turns the normal of each node that rests in a corner to its force, as far as the normals of the edges; without
-    /// friction its force has no other direction.
+    /// Turns the normal of each node that rests in a corner to its force, as far as the normals of the edges;
+    /// without friction its force has no other direction.
     pub(super) fn along_forces(&self, config: &mut Configuration, last: &mut Iteration) {
         for i in 0..last.statuses.len() {
             let force = &mut last.solution.forces[i];
@@ -338,9 +342,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node
-    /// and a node of its target along the same axis, more along the surface than across it, it does not: the normal
-    /// of an end of the surface is that of its last edge, and may be inclined to that line.
+    /// Returns whether friction acts on a pairing. On a line of symmetry, which restrains the node and a node
+    /// of its target along the same axis, more along the surface than across it, it does not: the normal of
+    /// an end of the surface is that of its last edge, and may be inclined to that line.
     pub(super) fn transmits_shear(&self, pairing: &Pairing) -> bool {
         let across = [0, 1].map(|d| pairing.normal[1 - d].abs() > pairing.normal[d].abs());
         let on_line = |d: usize| {
@@ -384,11 +388,11 @@ impl<'a> Problem<'a> {
         self.gaps(config, &DVector::zeros(self.model.dofs()))
     }
 
-    /// Returns the height of the arcs over the edges of curved surfaces at the nodes in contact, and how far the gaps
-    /// there differ before any load, from each other and overlaps from none, length, where the one is more than
-    /// [`COARSE`] of the other; where no node is in contact the height at those that face the target and the smallest
-    /// gap left, where arcs on both sides may close it. None where edges meet at less than the largest strain, rad, which
-    /// irons them out.
+    /// Returns the height of the arcs over the edges of curved surfaces at the nodes in contact, and how far
+    /// the gaps there differ before any load, from each other and overlaps from none, length, where the one
+    /// is more than [`COARSE`] of the other; where no node is in contact the height at those that face the
+    /// target and the smallest gap left, where arcs on both sides may close it. None where edges meet at less
+    /// than the largest strain, rad, which irons them out.
     pub(super) fn coarse_facets(&self, last: &Iteration, strain: f64) -> Option<[f64; 2]> {
         let at_rest = self.at_rest();
         let is_apart = !last.statuses.iter().any(|status| status.is_closed());
@@ -408,8 +412,9 @@ impl<'a> Problem<'a> {
         (height > part * compared).then_some([height, compared])
     }
 
-    /// Returns the nodes that lie inside another body in the shape reached, the deepest first: those that contact
-    /// does not watch deeper than rounding and the facets of curved surfaces, the others deeper than [`UNSEEN`].
+    /// Returns the nodes that lie inside another body in the shape reached, the deepest first: those that
+    /// contact does not watch deeper than rounding and the facets of curved surfaces, the others deeper than
+    /// [`UNSEEN`].
     pub(super) fn inside(&self, config: &Configuration, last: &Iteration) -> Vec<InsideNode> {
         let facing = config.pairings.iter().flatten().map(|pairing| pairing.node).collect();
         let closed = config.pairings.iter().zip(&last.statuses);
@@ -417,7 +422,8 @@ impl<'a> Problem<'a> {
         let closed = closed.filter_map(|(pairing, _)| Some(pairing.as_ref()?.node)).collect();
         let u = &last.solution.u;
         let shape = self.model.shape(u);
-        // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own says so.
+        // Displacements of the initial geometry may be too large to be drawn as a shape: a note of its own
+        // says so.
         if inside_out(self.model, &shape).next().is_some() {
             return Vec::new();
         }
@@ -441,9 +447,9 @@ impl<'a> Problem<'a> {
         found
     }
 
-    /// Returns how deep nodes lie inside other bodies in the undeformed shape as the digits of their coordinates have
-    /// it, length: the deepest of those within [`WRITTEN`]. 0 where all coordinates have all their digits: no part
-    /// of what the load does is taken for rounding.
+    /// Returns how deep nodes lie inside other bodies in the undeformed shape as the digits of their
+    /// coordinates have it, length: the deepest of those within [`WRITTEN`]. 0 where all coordinates have all
+    /// their digits: no part of what the load does is taken for rounding.
     fn written(&self) -> f64 {
         let facing = self.initial.iter().flatten().map(|pairing| pairing.node).collect();
         let shape = &self.model.nodes;

@@ -8,8 +8,8 @@ use crate::contact::Pairing;
 use crate::elimination::{Constraint, Motion};
 use problem::model::{Body, Dof, FREE, Model, NodeId, RigidBody};
 
-/// The part of forces, or of their moments about the farthest node, below which what is left of them is rounding:
-/// coordinates and loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
+/// The part of forces, or of their moments about the farthest node, below which what is left of them is
+/// rounding: coordinates and loads have 16 digits, and a pressure along 10,000 nodes loses 4 of them.
 pub(super) const BALANCED: f64 = 1e-9;
 
 /// The gap, over the deepest overlap, beyond which bodies are apart.
@@ -18,8 +18,8 @@ const ROOM: f64 = 1e-3;
 /// The load, over the one that moves bodies by their deepest overlap on springs.
 const VANISHING: f64 = 1e-6;
 
-/// The number of edges that make an arc, and half an edge over the radius up to which it is a facet of one: of
-/// a circle of twelve edges, and no body's corner.
+/// The number of edges that make an arc, and half an edge over the radius up to which it is a facet of one:
+/// of a circle of twelve edges, and no body's corner.
 const ARC: usize = 3;
 const FACET: f64 = 0.28;
 
@@ -110,9 +110,9 @@ pub(super) enum Release {
     Anywhere(DVector<f64>),
 }
 
-/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, or else without
-/// slip, where they can come apart; None where they cannot, and where nothing is known. `pairings` have their gaps,
-/// length, are `closed` up to one of these, and hold within the `reach` of a motion.
+/// Returns the motion of rigid bodies in a shape by which they come to touch under a vanishing load, or else
+/// without slip, where they can come apart; None where they cannot, and where nothing is known. `pairings`
+/// have their gaps, length, are `closed` up to one of these, and hold within the `reach` of a motion.
 ///
 /// ```text
 ///   the least ½ ε dᵀ d − fᵀ d with A d + g ≥ 0
@@ -121,8 +121,8 @@ pub(super) enum Release {
 ///
 /// f is the load in the free motions, of unit length. Without it d is the least motion.
 ///
-/// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4; O. L. Mangasarian,
-/// R. R. Meyer, SIAM J. Control Optim. 17 (1979) 745-752 (a small ε leaves the solution exact).
+/// Source: C. L. Lawson, R. J. Hanson, *Solving Least Squares Problems* (1974), section 23.4; O. L.
+/// Mangasarian, R. R. Meyer, SIAM J. Control Optim. 17 (1979) 745-752 (a small ε leaves the solution exact).
 pub(super) fn release(
     (model, shape): (&Model, &[[f64; 2]]),
     pairings: &[(&Pairing, f64)],
@@ -182,7 +182,8 @@ pub(super) fn release(
 }
 
 /// Returns a body that can turn as a rigid one while its part of some edges, an arc of a circle, slides along
-/// itself, and the place about which it turns; None where there is none. `edges` have their normal and their length.
+/// itself, and the place about which it turns; None where there is none. `edges` have their normal and their
+/// length.
 pub(super) fn turns(
     model: &Model,
     edges: &[([NodeId; 2], [f64; 2], f64)],
@@ -250,8 +251,8 @@ struct RigidMotions<'a> {
     body: Vec<Option<usize>>,
     /// The bodies under their restraints.
     bodies: Vec<RigidBody>,
-    /// A basis of the motions of each body that its restraints leave free, behind the number of those of the bodies
-    /// before it.
+    /// A basis of the motions of each body that its restraints leave free, behind the number of those of the
+    /// bodies before it.
     bases: Vec<(usize, Matrix3xX<f64>)>,
     /// The number of free motions of all bodies.
     free: usize,
@@ -314,8 +315,8 @@ impl<'a> RigidMotions<'a> {
         DVector::from_iterator(self.model.dofs(), u)
     }
 
-    /// Returns the component along `direction` of a node's motion less that of its masters in the rigid motions of
-    /// their bodies.
+    /// Returns the component along `direction` of a node's motion less that of its masters in the rigid
+    /// motions of their bodies.
     fn relative(
         &self,
         node: NodeId,

@@ -96,8 +96,8 @@ impl Problem<'_> {
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
-    /// Finds the statuses of a place. Where there are none while nodes rest on both edges of a concave corner, each of them
-    /// rests on one edge in turn, and stays on its side of the other.
+    /// Finds the statuses of a place. Where there are none while nodes rest on both edges of a concave
+    /// corner, each of them rests on one edge in turn, and stays on its side of the other.
     ///
     /// # Errors
     /// No statuses were found.

@@ -18,7 +18,8 @@ use problem::modelling::Coupling;
 /// The ratio of moduli beyond which they, and not the units, make a held matrix singular.
 const FAR_APART: f64 = 1e6;
 
-/// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with them.
+/// How often bodies that overlap are moved apart as rigid ones: in the current geometry normals turn with
+/// them.
 const RELEASES: usize = 20;
 
 impl Problem<'_> {
@@ -124,8 +125,9 @@ impl Problem<'_> {
         Some(NoEquilibrium { cause: self.cause(), what })
     }
 
-    /// Returns the displacements with which bodies that overlap, and that contact alone keeps in place, come to
-    /// touch as rigid ones, before any load, and how; None where restraints or other contacts press them together.
+    /// Returns the displacements with which bodies that overlap, and that contact alone keeps in place, come
+    /// to touch as rigid ones, before any load, and how; None where restraints or other contacts press them
+    /// together.
     ///
     /// # Errors
     /// They come apart in several ways, the load presses them together in none, and friction counts from there.
@@ -201,9 +203,10 @@ impl Problem<'_> {
         Err(InputError::new("restraints, contact.friction", what, fix))
     }
 
-    /// Returns why a body that can turn about a place does not stay there: the whole load, which keeps its direction,
-    /// turns it by its moment, or topples it, as it does more work the further the body turns; or restraints hold one
-    /// node at most: several hold a body that has turned by a finite angle. None where none of these is so, to rounding.
+    /// Returns why a body that can turn about a place does not stay there: the whole load, which keeps its
+    /// direction, turns it by its moment, or topples it, as it does more work the further the body turns; or
+    /// restraints hold one node at most: several hold a body that has turned by a finite angle. None where
+    /// none of these is so, to rounding.
     fn turned(&self, body: usize, centre: [f64; 2]) -> Option<&'static str> {
         let (load, body) = (self.load(1.0), &self.model.bodies[body]);
         let (mut moment, mut outwards, mut forces, mut farthest) = (0.0, 0.0, 0.0, 0.0_f64);
@@ -229,8 +232,8 @@ impl Problem<'_> {
         }
     }
 
-    /// Says of two shapes between which the search goes to and fro which node makes it: one that faces edges at a
-    /// corner in turn, faces the target in one of them alone, or else moves most; and what helps.
+    /// Says of two shapes between which the search goes to and fro which node makes it: one that faces edges
+    /// at a corner in turn, faces the target in one of them alone, or else moves most; and what helps.
     pub(super) fn torn(&self, before: &Configuration, after: &Configuration) -> String {
         let pairs = before.pairings.iter().zip(&*after.pairings);
         let turn = |(a, b): (&Option<Pairing>, &Option<Pairing>)| {

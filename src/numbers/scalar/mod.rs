@@ -7,7 +7,8 @@
 //! | `F64x2` | 31 | a reference for scenes of any size |
 //! | `Exact` | all | rational numbers: a reference without doubt, for small scenes |
 //!
-//! The traits are in `number`, which imports none of the others. Those below `f64` have the feature `precise`.
+//! The traits are in `number`, which imports none of the others. Those below `f64` have the feature
+//! `precise`.
 
 mod native;
 mod number;

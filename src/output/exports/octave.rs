@@ -141,7 +141,8 @@ fn head(title: &str, about: &str) -> String {
     )
 }
 
-/// Translates listings that the paper does not print, and adds the functions that Octave has under other names.
+/// Translates listings that the paper does not print, and adds the functions that Octave has under other
+/// names.
 fn own(texts: &[&str], globals: &Globals) -> String {
     let translated = |text: &&str| function(&listing(text), "", Conjunction::Guarded, globals);
     texts.iter().map(translated).collect::<String>() + HELPERS
@@ -373,7 +374,8 @@ impl Translator<'_> {
         format!("{x} {sign} {}", y())
     }
 
-    /// Writes a conjunction; where a false operand decides though another fails, those that cannot fail come first.
+    /// Writes a conjunction; where a false operand decides though another fails, those that cannot fail come
+    /// first.
     fn all(&self, operands: &[Expr]) -> String {
         let mut operands: Vec<&Expr> = operands.iter().collect();
         match self.conjunction {

@@ -19,8 +19,9 @@ pub fn short(x: f64) -> String {
     if x.abs() < 1e9 && x.fract() == 0.0 { format!("{:.0}", x + 0.0) } else { figure(x, None) }
 }
 
-/// Writes a whole number as it is, another one with five decimals, and one that is very large or very small in
-/// scientific notation; `-` stands for what is no number: an input or a place, of which no digit is to be lost.
+/// Writes a whole number as it is, another one with five decimals, and one that is very large or very small
+/// in scientific notation; `-` stands for what is no number: an input or a place, of which no digit is to be
+/// lost.
 pub fn long(x: f64) -> String {
     if !x.is_finite() || x.fract() == 0.0 {
         short(x)

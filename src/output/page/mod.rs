@@ -1,8 +1,8 @@
 //! Pages of HTML: each one file that opens offline, with nothing from outside.
 //!
-//! A page is a shell (title, style, script; its content policy names both by their hashes) and its data as JSON, which the script shows by
-//! `textContent` alone: nothing that a scene or a listing says is ever read as HTML. The script is
-//! the files of a folder one behind the other, in one scope.
+//! A page is a shell (title, style, script; its content policy names both by their hashes) and its data as
+//! JSON, which the script shows by `textContent` alone: nothing that a scene or a listing says is ever read
+//! as HTML. The script is the files of a folder one behind the other, in one scope.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -69,7 +69,8 @@ impl Page<'_> {
     }
 }
 
-/// Returns the source of a content policy that allows this script or style alone, by its hash (CSP level 3, 2.3.1).
+/// Returns the source of a content policy that allows this script or style alone, by its hash (CSP level 3,
+/// 2.3.1).
 fn hash(text: &str) -> String {
     format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)))
 }

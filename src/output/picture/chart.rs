@@ -131,8 +131,8 @@ fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
         }
     }
 
-    // The names stand in the order of the ends from above, as they are written: of ends that rounding parts, the
-    // first curve's name comes first. None stands so low that those after it do not fit above the axis.
+    // The names stand in the order of the ends from above, as they are written: of ends that rounding parts,
+    // the first curve's name comes first. None stands so low that those after it do not fit above the axis.
     ends.sort_by_key(|(end, ..)| (100.0 * end[1]).round() as i64);
     let [mut y, x] = [top - LINE, pixel(1.0, 0.0)[0] + 14.0];
     let (mut names, count) = (group(), ends.len());

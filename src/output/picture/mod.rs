@@ -73,8 +73,8 @@ fn numbers(triangles: &[[usize; 3]], pixels: &[Pixel]) -> Element {
     group().fill(DARK).with_all(corners.iter().map(number))
 }
 
-/// Returns what is shown of a mesh where its contact matters: the contact surface and what lies about it; the whole
-/// where that is not much more.
+/// Returns what is shown of a mesh where its contact matters: the contact surface and what lies about it; the
+/// whole where that is not much more.
 fn around_contact(drawing: &Drawing) -> Bounds {
     let whole = Bounds::around(&drawing.points);
     let nodes = drawing.contact.as_ref().map_or(&[][..], |contact| &contact.nodes);
@@ -86,8 +86,8 @@ fn around_contact(drawing: &Drawing) -> Bounds {
     if zone.larger_side() < ENLARGED_UP_TO * whole.larger_side() { zone } else { whole }
 }
 
-/// Draws a quantity of the triangles under several names side by side on the undeformed mesh, all in the colours of
-/// one scale, as pixels.
+/// Draws a quantity of the triangles under several names side by side on the undeformed mesh, all in the
+/// colours of one scale, as pixels.
 pub fn beside(
     drawing: &Drawing,
     quantity: &str,

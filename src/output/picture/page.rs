@@ -84,8 +84,8 @@ impl Page {
         self.y += 3.0;
     }
 
-    /// Puts the whole, and beside it the contact zone where that is enlarged, grown to the shape of its panel;
-    /// `draw` fills a panel, and `unit` is that of lengths.
+    /// Puts the whole, and beside it the contact zone where that is enlarged, grown to the shape of its
+    /// panel; `draw` fills a panel, and `unit` is that of lengths.
     pub fn panels(
         &mut self,
         whole: &Bounds,
@@ -113,8 +113,8 @@ impl Page {
         self.put(text([right.corner[0], top + 18.0], Anchor::Start, &words));
         self.put(draw(&whole));
         self.scale_bar(&whole, unit);
-        // The enlargement is cut at the panel's edge and has a frame. The title keeps names apart where several
-        // pictures stand in one web page.
+        // The enlargement is cut at the panel's edge and has a frame. The title keeps names apart where
+        // several pictures stand in one web page.
         let id = format!("clip-{}", self.title.replace(|c: char| !c.is_alphanumeric(), "-"));
         self.put(Element::new("clipPath").set("id", &id).with(rect(right.corner, size)));
         self.put(group().set("clip-path", format!("url(#{id})")).with(draw(&enlarged)));

@@ -25,8 +25,8 @@ pub struct Raster {
     colours: Vec<u8>,
 }
 
-/// Quicker than the usual compression, for a file that is up to a half larger; and what a picture of few pixels has,
-/// of which a page has several.
+/// Quicker than the usual compression, for a file that is up to a half larger; and what a picture of few
+/// pixels has, of which a page has several.
 const QUICK: DeflateCompression = DeflateCompression::Level(1);
 const SMALL: DeflateCompression = DeflateCompression::Level(9);
 

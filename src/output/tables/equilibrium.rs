@@ -148,8 +148,8 @@ pub fn initial_gaps(model: &Model, units: &Units) -> Option<String> {
     })
 }
 
-/// Says that triangles are turned inside out, or bodies lie in each other where contact does not watch them; None where
-/// neither is so.
+/// Says that triangles are turned inside out, or bodies lie in each other where contact does not watch them;
+/// None where neither is so.
 pub fn overlap(solution: &Solution) -> Option<String> {
     if solution.is_inside_out() {
         let beyond = beyond_range(&solution.model, &solution.elements, &solution.u)?;

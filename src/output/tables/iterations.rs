@@ -43,8 +43,8 @@ pub fn iterations(solution: &Solution, assessment: &Assessment, all: bool) -> Re
     }
 }
 
-/// Leaves of many rows the first, the changes and the last; where these are many too, the first and the last of
-/// them. Says how many there are.
+/// Leaves of many rows the first, the changes and the last; where these are many too, the first and the last
+/// of them. Says how many there are.
 fn shortened<R>(
     rows: Vec<R>,
     all: bool,

@@ -17,7 +17,8 @@ use problem::modelling::Variant;
 /// What is said of the estimate of the error of the mesh.
 pub const PROBABLY_MORE: &str = "probably more";
 
-/// The cosine of the angle from the load up to which a contact force carries it, rather than acts across it: 45 degrees.
+/// The cosine of the angle from the load up to which a contact force carries it, rather than acts across it:
+/// 45 degrees.
 const ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// The most stretches of contact that have a line each.
@@ -125,7 +126,8 @@ fn towards([fx, fy]: [f64; 2]) -> String {
     }
 }
 
-/// Names the nodes in contact at the end, and why there is none where the target's edges have the wrong direction.
+/// Names the nodes in contact at the end, and why there is none where the target's edges have the wrong
+/// direction.
 fn in_contact(solution: &Solution) -> Vec<String> {
     let (request, model, last) = (&solution.request, &solution.model, solution.last());
     if model.target().is_none() {
@@ -181,8 +183,8 @@ fn peak(solution: &Solution, ends: &[(Cause, [NodeId; 2])], error: Option<f64>) 
     ))
 }
 
-/// Says that contact reaches the end of a contact group where the bodies go on, unless they are known to enter each
-/// other there.
+/// Says that contact reaches the end of a contact group where the bodies go on, unless they are known to
+/// enter each other there.
 fn group_ends(solution: &Solution, ends: &[(Cause, [NodeId; 2])]) -> Option<String> {
     let ends = ends.iter().filter(|(cause, _)| *cause == Cause::Group);
     let nodes: BTreeSet<NodeId> = ends.map(|(_, [node, _])| *node).collect();
@@ -196,8 +198,8 @@ fn group_ends(solution: &Solution, ends: &[(Cause, [NodeId; 2])]) -> Option<Stri
     })
 }
 
-/// Says where the mesh, or a contact group, decides the pressure of a node: it carries contact alone, or stands at the
-/// edge of a body, as that of a punch, or at the end of a group, or in the next place.
+/// Says where the mesh, or a contact group, decides the pressure of a node: it carries contact alone, or
+/// stands at the edge of a body, as that of a punch, or at the end of a group, or in the next place.
 fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId) -> String {
     if solution.in_contact().count() == 1 {
         return "; one node alone is in contact: the finer its edges the higher its pressure, and its force is what counts".into();
@@ -213,8 +215,8 @@ fn of_the_mesh(solution: &Solution, ends: &[(Cause, [NodeId; 2])], node: NodeId)
     })
 }
 
-/// Says how wide the contact is: from its first node to its last, whose edges leave the error; of several unbroken
-/// stretches also what each passes on.
+/// Says how wide the contact is: from its first node to its last, whose edges leave the error; of several
+/// unbroken stretches also what each passes on.
 fn width(solution: &Solution) -> Vec<String> {
     let (units, stretches) = (&solution.request.scene.units, engine::stretches(solution));
     let span = |Stretch { nodes, width, .. }: &Stretch| {
@@ -333,8 +335,8 @@ fn end(solution: &Solution) -> Option<String> {
     ))
 }
 
-/// Says how far the run is from the equilibrium under the scene's own friction, or the reference solution where
-/// that is the same.
+/// Says how far the run is from the equilibrium under the scene's own friction, or the reference solution
+/// where that is the same.
 fn from_equilibrium(assessment: &Assessment) -> Option<String> {
     let other = assessment.equilibrium.as_ref().or(assessment.reference.as_ref())?;
     Some(match other {

@@ -13,7 +13,8 @@ const MOST_NAMES: usize = 10;
 /// A part of the mesh that shares no node with another part.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Body {
-    /// The names of its materials, at most ten, joined by `+`; numbered where two bodies would share the name.
+    /// The names of its materials, at most ten, joined by `+`; numbered where two bodies would share the
+    /// name.
     pub name: String,
     /// The triangles of the body, ascending.
     pub triangles: Vec<TriangleId>,

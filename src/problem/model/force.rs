@@ -38,7 +38,8 @@ impl Force {
         }
     }
 
-    /// Returns the force on each of its nodes along x and y: linear edges have half of their load on each end.
+    /// Returns the force on each of its nodes along x and y: linear edges have half of their load on each
+    /// end.
     pub fn on_each_node<T: Scalar>(&self, model: &Model, number: &impl Fn(f64) -> T) -> [T; 2] {
         let (edge, pressure, traction) = match *self {
             Force::Node(_, force) => return force.map(number),

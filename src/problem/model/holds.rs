@@ -16,8 +16,8 @@ pub struct Hold {
     pub direction: [f64; 2],
     /// The displacement along it at the end of the first stage, length.
     pub displacement: f64,
-    /// The place of the restraint in the scene that gives it; None for a node that belongs to no triangle, and on a
-    /// line of symmetry.
+    /// The place of the restraint in the scene that gives it; None for a node that belongs to no triangle,
+    /// and on a line of symmetry.
     pub restraint: Option<usize>,
 }
 

@@ -30,7 +30,8 @@ pub use sides::{BEND, Sides, TriangleSide, unordered};
 use super::element::{Corners, Plane};
 use numbers::scalar::Scalar;
 
-/// The sum of forces, over the sum of their sizes, up to which it is the rounding of forces that cancel each other.
+/// The sum of forces, over the sum of their sizes, up to which it is the rounding of forces that cancel each
+/// other.
 pub(crate) const CANCELLED: f64 = 1e-13;
 
 /// An isotropic elastic material.

@@ -61,8 +61,8 @@ impl RigidBody {
     }
 }
 
-/// Returns how the part with these nodes can still move as a rigid body under its restraints, and with some of its
-/// nodes `pinned`, in words; None where it cannot move.
+/// Returns how the part with these nodes can still move as a rigid body under its restraints, and with some
+/// of its nodes `pinned`, in words; None where it cannot move.
 pub fn freedom(model: &Model, nodes: &[NodeId], pinned: &[NodeId]) -> Option<String> {
     let mut body = RigidBody::new(nodes.iter().map(|&n| model.coordinates(n)));
     let inside: HashSet<NodeId> = nodes.iter().copied().collect();

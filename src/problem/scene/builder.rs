@@ -164,8 +164,8 @@ impl SceneBuilder {
         self
     }
 
-    /// Checks the scene and builds it. Nodes that belong to no triangle are refused, or dropped with the points and
-    /// edges on them; every node keeps its number.
+    /// Checks the scene and builds it. Nodes that belong to no triangle are refused, or dropped with the
+    /// points and edges on them; every node keeps its number.
     ///
     /// # Errors
     /// The mesh, the description, or the two together are at fault.

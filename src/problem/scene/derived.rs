@@ -10,8 +10,8 @@ use crate::model::{NodeId, TriangleId};
 pub struct Derived {
     /// The scene.
     pub scene: Scene,
-    /// For each of its nodes, the two nodes of the other mesh halfway between which it stands: the same one twice
-    /// where it is that node.
+    /// For each of its nodes, the two nodes of the other mesh halfway between which it stands: the same one
+    /// twice where it is that node.
     pub nodes: Vec<[NodeId; 2]>,
     /// For each of its triangles, the triangle of the other mesh in which it lies.
     pub triangles: Vec<TriangleId>,

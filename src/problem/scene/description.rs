@@ -82,7 +82,8 @@ impl Description {
         restraints.chain(loads).chain(contact).collect()
     }
 
-    /// Returns the variant that is run: a scene of one's own asks for contact as it is, not for the paper's algorithm.
+    /// Returns the variant that is run: a scene of one's own asks for contact as it is, not for the paper's
+    /// algorithm.
     pub(super) fn variant(&self) -> Variant {
         self.variant.unwrap_or(Variant::Unilateral)
     }
@@ -286,13 +287,13 @@ pub struct Contact {
     /// The tolerance of the contact search, the text's c_tol, length.
     #[serde(rename = "c_tll")]
     pub tolerance: f64,
-    /// The method that binds a contact node to the target; where none is given, mortar if no variant is named, else
-    /// that of `c_cnt`.
+    /// The method that binds a contact node to the target; where none is given, mortar if no variant is
+    /// named, else that of `c_cnt`.
     #[serde(default, deserialize_with = "some_by_name", skip_serializing_if = "is_default")]
     #[schemars(with = "Coupling")]
     pub coupling: Option<Coupling>,
-    /// The friction between the surfaces under `unilateral`: a coefficient, or "stick". A scene file has to say it;
-    /// in code nothing slides where it is not set.
+    /// The friction between the surfaces under `unilateral`: a coefficient, or "stick". A scene file has to
+    /// say it; in code nothing slides where it is not set.
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(with = "Friction")]
     pub friction: Option<Friction>,

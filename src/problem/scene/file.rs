@@ -112,7 +112,8 @@ const OPEN: [(&str, &str); 4] = [
 /// The bytes of a scene file beyond which nothing is looked for in it: a first scene has no tables.
 const MOST: usize = 1 << 20;
 
-/// Names the fields that are still to be chosen, which are null; None where there are none, or the text is no JSON.
+/// Names the fields that are still to be chosen, which are null; None where there are none, or the text is no
+/// JSON.
 fn to_be_chosen(text: &[u8]) -> Option<InputError> {
     let has_null = |text: &&[u8]| text.windows(4).any(|word| word == b"null");
     let text = Some(text).filter(|text| text.len() <= MOST).filter(has_null)?;

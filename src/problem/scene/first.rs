@@ -1,5 +1,5 @@
-//! A first scene for a mesh of Gmsh, to be edited: the groups that the mesh has, each in the place for which it
-//! looks most likely.
+//! A first scene for a mesh of Gmsh, to be edited: the groups that the mesh has, each in the place for which
+//! it looks most likely.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt::Write;
@@ -191,8 +191,8 @@ fn choose(value: &mut Value, field: &str) {
     }
 }
 
-/// Returns the groups of triangles that get a material: the smaller first, without those of which others have a
-/// triangle too.
+/// Returns the groups of triangles that get a material: the smaller first, without those of which others have
+/// a triangle too.
 ///
 /// # Errors
 /// There is none, or not each triangle is in one of them.
@@ -332,8 +332,8 @@ fn length([[ax, ay], [bx, by]]: &Ends) -> f64 {
     (bx - ax).hypot(by - ay)
 }
 
-/// Returns for each edge that faces one of `others` the distance from its middle to the nearest of those along its
-/// normal, length, < 0 where they overlap, and how many times as long as that one it is.
+/// Returns for each edge that faces one of `others` the distance from its middle to the nearest of those
+/// along its normal, length, < 0 where they overlap, and how many times as long as that one it is.
 fn facing(edges: &[Ends], others: &[Ends]) -> Vec<[f64; 2]> {
     let reach = edges.iter().chain(others).map(length).fold(0.0, f64::max);
     let nearest = |edge: &Ends| {
@@ -345,8 +345,8 @@ fn facing(edges: &[Ends], others: &[Ends]) -> Vec<[f64; 2]> {
     edges.iter().filter_map(nearest).collect()
 }
 
-/// Returns how many times as long as the edges that they face edges are, by the middle one of a sample; None where
-/// none faces another.
+/// Returns how many times as long as the edges that they face edges are, by the middle one of a sample; None
+/// where none faces another.
 fn relative_length(edges: &[Ends], others: &[Ends]) -> Option<f64> {
     let sample: Vec<Ends> = edges.iter().step_by(1 + edges.len() / SAMPLE).copied().collect();
     let mut ratios: Vec<f64> = facing(&sample, others).iter().map(|[_, ratio]| *ratio).collect();
@@ -377,8 +377,8 @@ pub fn fine_contact(model: &Model) -> Option<String> {
     ))
 }
 
-/// Returns the distance from the middle of an edge to another along the outward normal, length; None where the
-/// normal does not meet it, or its outer side looks away.
+/// Returns the distance from the middle of an edge to another along the outward normal, length; None where
+/// the normal does not meet it, or its outer side looks away.
 fn gap([a, b]: &Ends, [c, d]: &Ends) -> Option<f64> {
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]]];
     let across = u[0] * v[0] + u[1] * v[1];
@@ -412,8 +412,8 @@ pub fn not_facing(mesh: &Mesh, groups: &Groups, file: &Description) -> Option<St
     })
 }
 
-/// Returns the smallest distance of the two curves of different bodies that look like a contact, their places, and why
-/// the first is the contact surface: most of their edges face the other one within an edge.
+/// Returns the smallest distance of the two curves of different bodies that look like a contact, their
+/// places, and why the first is the contact surface: most of their edges face the other one within an edge.
 fn pair(curves: &[Curve]) -> Option<(f64, [usize; 2], String)> {
     let pairs = (0..curves.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
     let facing = pairs.filter_map(|[a, b]| {
@@ -434,8 +434,8 @@ fn pair(curves: &[Curve]) -> Option<(f64, [usize; 2], String)> {
     })
 }
 
-/// Returns whether `a` rather than `b` is the contact surface, and why: the one that its name says, unless its edges are
-/// much the shorter ones; else the one with the longer edges, of equal ones the shorter.
+/// Returns whether `a` rather than `b` is the contact surface, and why: the one that its name says, unless
+/// its edges are much the shorter ones; else the one with the longer edges, of equal ones the shorter.
 fn contact_surface(a: &Curve, b: &Curve) -> (bool, String) {
     let ratio = relative_length(&a.edges, &b.edges).unwrap_or(1.0);
     let is_named = |own: &Curve, other: &Curve| own.is_called(&CONTACT) || other.is_called(&TARGET);

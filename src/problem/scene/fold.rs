@@ -32,7 +32,8 @@ impl Faces {
         Faces { of_node, sides }
     }
 
-    /// Returns whether two nodes are of two bodies on which contact surfaces lie: either may be inside the other.
+    /// Returns whether two nodes are of two bodies on which contact surfaces lie: either may be inside the
+    /// other.
     pub fn may_overlap(&self, a: NodeId, b: NodeId) -> bool {
         let [a, b] = [a, b].map(|n| self.of_node[n.index()]);
         a != b && [a, b].iter().all(|body| self.sides[*body].contains(&true))

@@ -11,8 +11,8 @@ use crate::model::{CANCELLED, Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
 
-/// Puts `loads` on the model: their parts, their sum, and what each stage adds. Returns the place of the load of each
-/// part in the scene file.
+/// Puts `loads` on the model: their parts, their sum, and what each stage adds. Returns the place of the load
+/// of each part in the scene file.
 ///
 /// # Errors
 /// An edge of a load bounds no triangle or two, a number is not finite, or no load belongs to a stage
@@ -89,8 +89,8 @@ fn drop_cancelled(model: &mut Model) {
         .zip_apply(&sizes, |load, size| *load = if is_left(*load, size) { *load } else { 0.0 });
 }
 
-/// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the contact surfaces.
-/// `of` is the place of the load of each part.
+/// Says which parts of loads restraints take alone, and which loads and restraints lie on edges of the
+/// contact surfaces. `of` is the place of the load of each part.
 pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
     let is_taken = |part: &Force| {
         let loaded = part.on_each_node(model, &|x| x).map(|force| force != 0.0);

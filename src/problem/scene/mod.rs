@@ -57,7 +57,8 @@ use base::plain::{shell_word, six_digits};
 pub struct Scene {
     /// The name for folders and reports.
     pub name: String,
-    /// The word by which a command opens it: the name of an embedded scene, else its path as a shell takes it.
+    /// The word by which a command opens it: the name of an embedded scene, else its path as a shell takes
+    /// it.
     #[serde(skip)]
     pub word: String,
     /// The title of the scene for people.
@@ -145,8 +146,8 @@ impl Scene {
         (&self.source.description, &self.source.mesh)
     }
 
-    /// Returns the coupling under a variant: of a scene that names neither mortar under `unilateral`, as contact is
-    /// asked for as it is, and that of `c_cnt` under the paper's.
+    /// Returns the coupling under a variant: of a scene that names neither mortar under `unilateral`, as
+    /// contact is asked for as it is, and that of `c_cnt` under the paper's.
     pub fn coupling(&self, variant: Variant) -> Coupling {
         let own = &self.source.description;
         let says = own.contact.as_ref().is_none_or(|contact| contact.coupling.is_some());
@@ -158,8 +159,8 @@ impl Scene {
         }
     }
 
-    /// Says what the mesh file has in another form than the mesh here, where the mesh has slits, and what looks like a
-    /// mistake of units, in sentences.
+    /// Says what the mesh file has in another form than the mesh here, where the mesh has slits, and what
+    /// looks like a mistake of units, in sentences.
     pub fn adapted(&self) -> &[String] {
         &self.source.notes
     }
@@ -259,8 +260,8 @@ impl Scene {
     }
 }
 
-/// Says that the tolerance of the contact search is longer than the edges in which it searches, as where it is in
-/// another unit.
+/// Says that the tolerance of the contact search is longer than the edges in which it searches, as where it
+/// is in another unit.
 fn wide_tolerance(model: &Model) -> Option<String> {
     let shortest = model.target_edges().map(|edge| model.length(edge)).reduce(f64::min)?;
     let tolerance = model.contact.tolerance;

@@ -18,9 +18,9 @@ use crate::model::NodeId;
 use base::error::Result;
 
 impl Scene {
-    /// Returns the scene on a mesh of half the element size, with everything else unchanged. Nodes keep their numbers, and new ones follow, each of
-    /// which halves an edge; triangle n (row of `EL`) becomes 4n − 3 .. 4n. A restraint or a force on
-    /// a single node stays on that node.
+    /// Returns the scene on a mesh of half the element size, with everything else unchanged. Nodes keep their
+    /// numbers, and new ones follow, each of which halves an edge; triangle n (row of `EL`) becomes 4n − 3 ..
+    /// 4n. A restraint or a force on a single node stays on that node.
     ///
     /// # Errors
     /// The finer scene cannot be built.
@@ -68,8 +68,8 @@ impl Scene {
         let mut description = description.clone();
         if let Some(contact) = &mut description.contact {
             if let Surface::Numbers(nodes) = &mut contact.contact {
-                // The outline's edges between listed nodes; those that do not follow the list, as one that closes a
-                // surface, come last.
+                // The outline's edges between listed nodes; those that do not follow the list, as one that
+                // closes a surface, come last.
                 let listed: HashSet<usize> = nodes.iter().copied().collect();
                 let outline = self.model.sides.outline();
                 let outline = outline.map(|side| side.nodes.map(NodeId::number));

@@ -68,7 +68,8 @@ impl SceneFile {
         Self::from_read(&folder.join(name), text, asked)
     }
 
-    /// Reads the scene file that a snapshot in `folder` names, which may lie above it; None where none is there.
+    /// Reads the scene file that a snapshot in `folder` names, which may lie above it; None where none is
+    /// there.
     ///
     /// # Errors
     /// The name is absolute or leads through a link, or the file cannot be read or is no scene, of which nothing is

@@ -15,16 +15,16 @@ use crate::model::{BEND, Bounds, Hold, Holds, Model, NodeId, Sides, crossing};
 use base::error::{InputError, Result};
 use base::plain::six_digits;
 
-/// The sine of the angle up to which two directions are one, as coordinates are rounded, and the one from which
-/// they are two: between these a node would be held twice along what was meant to be one direction.
+/// The sine of the angle up to which two directions are one, as coordinates are rounded, and the one from
+/// which they are two: between these a node would be held twice along what was meant to be one direction.
 const SAME: f64 = 1e-9;
 const TWO: f64 = 0.05;
 
 /// How far a node may be from the coordinates that name it, over the larger side of the mesh.
 const NEAR: f64 = 1e-6;
 
-/// Returns the names of what restraints hold, and what each holds and no restraint before it does; what belongs to
-/// no triangle is held along both axes.
+/// Returns the names of what restraints hold, and what each holds and no restraint before it does; what
+/// belongs to no triangle is held along both axes.
 ///
 /// # Errors
 /// A restraint names no place or several, or a node or a group that does not exist; a direction or a displacement
@@ -60,8 +60,8 @@ pub fn holds(
     Ok((names, holds))
 }
 
-/// Names the first node that two restraints hold along directions that are nearly one, as where a smooth curve is in
-/// two groups; it then cannot move at all.
+/// Names the first node that two restraints hold along directions that are nearly one, as where a smooth
+/// curve is in two groups; it then cannot move at all.
 pub fn narrow(mesh: &Mesh, model: &Model) -> Option<String> {
     let nearly_one = model.node_ids().filter_map(|node| {
         let [one, other] = model.holds.of(node) else { return None };
@@ -213,8 +213,8 @@ fn directions(
     Ok(nodes.into_iter().map(|n| (NodeId::from_number(n), vector)).collect())
 }
 
-/// Returns the outward normals of the nodes of a group of edges, of length 1: their mean by the lengths of the
-/// edges, or those of all edges where these meet in a corner.
+/// Returns the outward normals of the nodes of a group of edges, of length 1: their mean by the lengths of
+/// the edges, or those of all edges where these meet in a corner.
 fn normals(
     mesh: &Mesh,
     groups: &Groups,

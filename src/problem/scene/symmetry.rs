@@ -41,8 +41,8 @@ pub fn half(scene: &Scene) -> Option<Derived> {
     Some(Derived { scene, nodes: nodes.into_iter().map(|node| [node; 2]).collect(), triangles })
 }
 
-/// Returns the mesh of a half with its `nodes`, under the scene's numbers: a part of the scene's, and edges along the
-/// line.
+/// Returns the mesh of a half with its `nodes`, under the scene's numbers: a part of the scene's, and edges
+/// along the line.
 fn mesh(scene: &Scene, line: &Line, triangles: &[TriangleId], nodes: &BTreeSet<NodeId>) -> Mesh {
     let (_, whole) = scene.source();
     let is_inside = |n: &usize| nodes.contains(&NodeId::from_number(*n));

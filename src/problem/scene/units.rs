@@ -16,8 +16,8 @@ impl Units {
     }
 }
 
-/// Says that a stress times the square of a length is no force in the unit that the scene names, or which unit is not
-/// known; None where it is, or the scene does not name all three.
+/// Says that a stress times the square of a length is no force in the unit that the scene names, or which
+/// unit is not known; None where it is, or the scene does not name all three.
 pub fn misfit(units: &Units) -> Option<String> {
     let Units { length, stress, force } = units;
     if [length, stress, force].iter().any(|name| name.is_empty()) {

@@ -162,7 +162,8 @@ impl Case {
         solve(&request.contact(contact), &mut |_| ())
     }
 
-    /// The largest friction coefficient that a node in contact needs on the path of the load, where none slides.
+    /// The largest friction coefficient that a node in contact needs on the path of the load, where none
+    /// slides.
     pub fn friction_needed(&self) -> Option<f64> {
         let sticking = self.sticking().ok()?;
         let ends = last_under_each_load(&sticking.steps).into_iter();

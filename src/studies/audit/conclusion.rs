@@ -1,5 +1,5 @@
-//! What follows from the results of an audit: whether the print couples the bodies, which run comes nearest, how far
-//! its fields are off, and how far what the paper leaves open moves that.
+//! What follows from the results of an audit: whether the print couples the bodies, which run comes nearest,
+//! how far its fields are off, and how far what the paper leaves open moves that.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};

@@ -75,7 +75,8 @@ pub struct Audit {
     /// What the scene shows of each finding, in the order of the register.
     #[serde(serialize_with = "tables::rows")]
     pub findings: Vec<(&'static Finding, Evidence)>,
-    /// What each printed fault costs, reintroduced alone into the corrected algorithm; or why that is not known.
+    /// What each printed fault costs, reintroduced alone into the corrected algorithm; or why that is not
+    /// known.
     pub prices: Outcome<Vec<Price>>,
     /// The end of each variant, in the order of `Variant::ALL`.
     pub variants: Vec<VariantRow>,
@@ -132,9 +133,10 @@ pub fn steps() -> usize {
 }
 
 /// Audits a scene: claims, readings, findings and variants, each against the default, and what each printed
-/// fault costs; claims also at the `places` of the range of what the paper leaves open. Where it `is_whole`, not for
-/// the first screen alone, also the claims under each other reading, the contact under other coefficients of
-/// friction, and what rounding does to the solutions that others are compared with. `watch` is called after each step.
+/// fault costs; claims also at the `places` of the range of what the paper leaves open. Where it `is_whole`,
+/// not for the first screen alone, also the claims under each other reading, the contact under other
+/// coefficients of friction, and what rounding does to the solutions that others are compared with. `watch`
+/// is called after each step.
 pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();

@@ -162,8 +162,8 @@ fn beside_weight<S: Serializer>(
     }
 }
 
-/// Returns the request for the solution that the corrected algorithm has: without friction, node to segment, in the
-/// initial geometry.
+/// Returns the request for the solution that the corrected algorithm has: without friction, node to segment,
+/// in the initial geometry.
 pub fn reference(request: &Request) -> Request {
     let reference = request.reference();
     let contact = ContactModel { coupling: Coupling::Nts, ..reference.contact };
@@ -369,8 +369,8 @@ pub fn runs_of_repairs() -> usize {
     1 + FAULTS.len() * (FAULTS.len() + 1) / 2
 }
 
-/// Leaves out the figures of the runs whose repetitions on the inputs that mean the same, a row of them for each
-/// input, lead to others.
+/// Leaves out the figures of the runs whose repetitions on the inputs that mean the same, a row of them for
+/// each input, lead to others.
 fn each_confirmed(
     own: impl IntoIterator<Item = Outcome<CorrectedRun>>,
     others: &[Vec<Outcome<CorrectedRun>>],
@@ -380,7 +380,8 @@ fn each_confirmed(
     })
 }
 
-/// Returns how many repairs the way from the print to the solution takes; nothing where it does not lead there.
+/// Returns how many repairs the way from the print to the solution takes; nothing where it does not lead
+/// there.
 pub fn needed(repairs: &[Price]) -> Option<usize> {
     let last = repairs.iter().rposition(|price| price.weight != Weight::Free);
     let needed = last.map_or(0, |k| k + 1);

@@ -44,7 +44,8 @@ pub struct Effect {
     /// Whether the reading has another plane problem, with an equilibrium of its own (R6).
     #[serde(skip)]
     pub apart: bool,
-    /// Whether the contact state of the run alternates, so that its figures are those of one of several states.
+    /// Whether the contact state of the run alternates, so that its figures are those of one of several
+    /// states.
     pub unsettled: bool,
     /// What differs, and under which variant; or that the listings were executed once.
     pub of: String,

@@ -149,8 +149,8 @@ impl PressedAcross {
     }
 }
 
-/// Returns how far the displacements are from their mirror image, over the largest; nothing where the scene is
-/// not its own mirror image.
+/// Returns how far the displacements are from their mirror image, over the largest; nothing where the scene
+/// is not its own mirror image.
 fn asymmetry(solution: &Solution) -> Option<f64> {
     let images = images(&solution.model)?;
     let u = solution.displacements();
@@ -180,7 +180,8 @@ pub(super) fn apart(solution: &Solution, equilibrium: &Solution) -> Distance {
     }
 }
 
-/// Returns the force that contact passes on at the end over the size of the whole load; None where that says nothing.
+/// Returns the force that contact passes on at the end over the size of the whole load; None where that says
+/// nothing.
 pub(super) fn target_share(solution: &Solution) -> Option<f64> {
     share_of_load(&solution.model, solution.target_force())
 }

@@ -1,5 +1,6 @@
-//! What an audit says: a verdict to quote, the runs beside the equilibrium, the claims by how far their verdicts
-//! reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests on.
+//! What an audit says: a verdict to quote, the runs beside the equilibrium, the claims by how far their
+//! verdicts reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests
+//! on.
 
 use crate::audit::claims::claim_tables as claims;
 use crate::audit::claims::{ClaimId, JudgedClaim, Scope, Verdict};
@@ -130,8 +131,8 @@ pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
     sections
 }
 
-/// Reports what the first screen rests on: what the verdict leaves out, the claims, what the printed faults cost and
-/// the way of `repairs` where that was asked for, readings, findings, variants, friction.
+/// Reports what the first screen rests on: what the verdict leaves out, the claims, what the printed faults
+/// cost and the way of `repairs` where that was asked for, readings, findings, variants, friction.
 pub fn evidence(audit: &Audit, repairs: &[Price]) -> Report {
     let Audit { scene, conclusion, claims, by_reading, prices, .. } = audit;
     let beside = beside(audit);
@@ -220,8 +221,8 @@ fn coupling(coupled: Option<&Coupled>) -> String {
     }
 }
 
-/// Says what the verdict leaves out: what is wrong with the other runs, those that have no result or solve another
-/// problem, the fields of the nearest, the findings without a price, and what the paper leaves open.
+/// Says what the verdict leaves out: what is wrong with the other runs, those that have no result or solve
+/// another problem, the fields of the nearest, the findings without a price, and what the paper leaves open.
 fn beside(audit: &Audit) -> Vec<String> {
     let Audit { scene, conclusion, .. } = audit;
     let mut said = others(audit);
@@ -262,7 +263,8 @@ fn beside(audit: &Audit) -> Vec<String> {
     said
 }
 
-/// Says how far the largest stress and strain of the nearest run are off, and where they stand in the equilibrium.
+/// Says how far the largest stress and strain of the nearest run are off, and where they stand in the
+/// equilibrium.
 fn fields(audit: &Audit, Fields { variants, difference, errors }: &Fields) -> Vec<String> {
     let scene = &audit.scene;
     let off = difference.map(|difference| {
@@ -314,8 +316,8 @@ fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
     runs.any(|run| run.reading.is_none() && run.variant == row.variant)
 }
 
-/// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which ends inside
-/// the target, how many pull, and how far a symmetric scene answers unsymmetrically.
+/// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which
+/// ends inside the target, how many pull, and how far a symmetric scene answers unsymmetrically.
 fn wrong_with(row: &VariantRow, scene: &Scene) -> Option<String> {
     let run = row.outcome.as_ref().ok().filter(|run| !run.transmits_nothing)?;
     let VariantRun { penetration, pulling, across, asymmetry, mesh_error, .. } = run;

@@ -17,8 +17,8 @@ pub struct Beside<'a> {
     /// The field, and all that follows from it on the mesh.
     #[serde(skip)]
     pub field: Solution,
-    /// The node inside the bodies with the largest force that nothing balances in the field, and its part of the
-    /// largest force that the triangles put on a node; None where nothing is deformed.
+    /// The node inside the bodies with the largest force that nothing balances in the field, and its part of
+    /// the largest force that the triangles put on a node; None where nothing is deformed.
     pub unbalanced: Option<AtNode>,
     /// The distance of the field from the reference solution.
     pub distance: Distance,
@@ -68,7 +68,8 @@ impl<'a> Beside<'a> {
         Ok(Beside { reference, field, unbalanced, distance, bodies, differences })
     }
 
-    /// Returns whether the field is the reference solution within a part of it, in the energy norm and in displacements.
+    /// Returns whether the field is the reference solution within a part of it, in the energy norm and in
+    /// displacements.
     pub fn is_within(&self, part: f64) -> bool {
         self.distance.energy_relative <= part && self.distance.displacement_relative <= part
     }

@@ -165,7 +165,8 @@ fn check_size(request: &Request, u: &DVector<f64>) -> Result<(), String> {
     }
 }
 
-/// Says that there is nothing to compare with where the published algorithm fails: that is no verdict on it here.
+/// Says that there is nothing to compare with where the published algorithm fails: that is no verdict on it
+/// here.
 fn without_reference(why: Error, request: &Request) -> Error {
     match why {
         Error::Listing(_) | Error::Execution(_) | Error::Singular(_) => {

@@ -33,8 +33,8 @@ pub struct Compared<'a> {
     /// How CalculiX came to it; nothing of a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub calculix: Option<ByCalculix>,
-    /// The largest difference that counts as none, over the largest displacement and in the energy norm; without
-    /// one, differences are not judged.
+    /// The largest difference that counts as none, over the largest displacement and in the energy norm;
+    /// without one, differences are not judged.
     #[serde(rename = "rtol", skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// The field beside the reference solution.
@@ -102,8 +102,8 @@ fn verdict(compared: &Compared) -> [String; 2] {
     ]
 }
 
-/// Names the body in which the largest von Mises stress differs by more than ten times the tolerance, where both norms,
-/// which are those of all bodies together, take the field for the same.
+/// Names the body in which the largest von Mises stress differs by more than ten times the tolerance, where
+/// both norms, which are those of all bodies together, take the field for the same.
 fn hidden(compared: &Compared) -> Option<String> {
     let Beside { distance, .. } = &compared.beside;
     let bodies = distance.bodies.iter();
@@ -124,7 +124,8 @@ fn part(part: f64) -> String {
     if is_handy { percent(part) } else { figure(part, None) }
 }
 
-/// Says where the field is not in equilibrium inside the bodies, so that its tractions are not those of contact.
+/// Says where the field is not in equilibrium inside the bodies, so that its tractions are not those of
+/// contact.
 fn unbalanced(beside: &Beside) -> Option<String> {
     let AtNode { node, value } = beside.unbalanced.filter(|at| at.value > UNBALANCED)?;
     Some(format!(

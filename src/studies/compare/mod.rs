@@ -77,7 +77,8 @@ impl Rows {
         csv::read(bytes, &place)
     }
 
-    /// Returns the displacements by degree of freedom of the scene's model, and how their nodes were found, in words.
+    /// Returns the displacements by degree of freedom of the scene's model, and how their nodes were found,
+    /// in words.
     ///
     /// # Errors
     /// A row belongs to no node or to several, a node has no row or several, or a displacement is no number.

@@ -18,8 +18,8 @@ fn solve(scene: &SceneBuilder, variant: Variant, scalar: ScalarName) -> Result<S
     engine::solve(&request, &mut |_| ())
 }
 
-/// The largest error of a body's displacements over its largest displacement; infinite where the exact one is 0
-/// and this is not.
+/// The largest error of a body's displacements over its largest displacement; infinite where the exact one is
+/// 0 and this is not.
 fn error(body: &Body, found: &[RBig], exact: &[RBig]) -> f64 {
     let dofs = || body.nodes.iter().flat_map(|node| node.dofs()).map(|dof| dof.index());
     let abs = |x: RBig| if x < RBig::ZERO { -x } else { x };

@@ -44,7 +44,8 @@ fn carried(scalar: ScalarName) -> f64 {
 /// Judges a quantity of a search.
 type OfSearch = fn(Quantity, Search) -> Result<Kept, Error>;
 
-/// The scalars that are tried, each with how it judges a search: exact numbers are what all are compared with.
+/// The scalars that are tried, each with how it judges a search: exact numbers are what all are compared
+/// with.
 fn tried() -> impl Iterator<Item = (ScalarName, OfSearch)> {
     let of = |scalar: &ScalarName| -> Option<(ScalarName, OfSearch)> {
         match scalar {

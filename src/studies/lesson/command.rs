@@ -85,7 +85,8 @@ fn lesson(args: &Args) -> Result<String> {
     Ok(page::html(&chapters, args.lang))
 }
 
-/// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such way.
+/// Returns the chapter that goes from the print to the right answer, on fig. 1 where the scene has no such
+/// way.
 fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     let found = Repairs::new(scene).map(|found| (scene.clone(), nodes, found));
     let (scene, nodes, (repairs, u)) = match found {
@@ -103,7 +104,8 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     Ok(Chapter { scene, runs, nodes, finding: None, repairs, reference: Some(u) })
 }
 
-/// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on fig1.
+/// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
+/// fig1.
 fn chapter(finding: &'static Finding, fig1: &Case) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
@@ -117,8 +119,8 @@ fn chapter(finding: &'static Finding, fig1: &Case) -> Result<Chapter> {
     Ok(opened(case.scene, runs, vec![], Some(measured)))
 }
 
-/// Returns what a finding's faults cost on a scene; nothing where the corrected algorithm itself has no result that is
-/// sure.
+/// Returns what a finding's faults cost on a scene; nothing where the corrected algorithm itself has no
+/// result that is sure.
 fn prices(case: &Case, finding: &Finding) -> Vec<Price> {
     let faults: Vec<_> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
     let prices = prices::of_faults(case, &faults, &|| ()).unwrap_or_default();

@@ -12,9 +12,9 @@ use problem::scene::Scene;
 /// The most nodes of a scene whose iterations the page makes, in some tenths of a second.
 pub const MOST_SOLVED: usize = 100;
 
-/// Returns the displacements of the reference solution of a scene whose model a run may have changed, without friction,
-/// node to segment, in the initial geometry, by degree of freedom, length; nothing where there is none, or no page iterates
-/// the scene.
+/// Returns the displacements of the reference solution of a scene whose model a run may have changed, without
+/// friction, node to segment, in the initial geometry, by degree of freedom, length; nothing where there is
+/// none, or no page iterates the scene.
 pub fn reference(scene: &Scene, model: &Arc<Model>) -> Option<DVector<f64>> {
     let mut scene = scene.clone();
     scene.model = Arc::clone(model);

@@ -69,8 +69,8 @@ impl Measured {
 pub const ITERATE: [&str; 2] =
     [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
 
-/// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those that border
-/// MJS), the name, and what it is; a later row comes before an earlier one.
+/// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those
+/// that border MJS), the name, and what it is; a later row comes before an earlier one.
 pub fn meanings() -> impl Iterator<Item = [&'static str; 3]> {
     let rows = include_str!("page/teaching/meanings.tsv").lines().skip(1);
     rows.filter_map(|row| row.split('\t').collect::<Vec<_>>().try_into().ok())

@@ -16,8 +16,8 @@ pub struct Repairs {
 }
 
 impl Repairs {
-    /// Returns the repairs of a scene, and the solution with which its iterations are compared; nothing where no page iterates
-    /// the scene, or where they lead to no solution.
+    /// Returns the repairs of a scene, and the solution with which its iterations are compared; nothing where
+    /// no page iterates the scene, or where they lead to no solution.
     pub fn new(scene: &Scene) -> Option<(Self, DVector<f64>)> {
         if scene.model.nodes.len() > MOST_SOLVED {
             return None;

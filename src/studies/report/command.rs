@@ -29,7 +29,8 @@ const MOST_NODES: usize = 500;
 base::choices! {
     /// How an audit report is written.
     Format {
-        /// A page of one file that opens offline, with the fields of every run under the pointer; prints as A4 pages.
+        /// A page of one file that opens offline, with the fields of every run under the pointer; prints as
+        /// A4 pages.
         Html = "html",
         /// Markdown, with its figures as files of SVG beside it.
         Markdown = "markdown",
@@ -149,8 +150,8 @@ fn repairs(args: &Args, case: &Case, audit: &Audit) -> Vec<Price> {
     prices::repairs(case, alone, &|| ()).unwrap_or_default()
 }
 
-/// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and the
-/// equilibrium, for which the audit measured what rounding does.
+/// Returns the runs that are shown: those of the variants that do not fail, then the reference solution and
+/// the equilibrium, for which the audit measured what rounding does.
 fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
     let ran = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
     let others = [case.reference(), case.equilibrium()];

@@ -1,5 +1,5 @@
-//! The first page of a report as HTML: the parts of the audit's first page beside two pictures. An id links to its
-//! place below and names its meaning; printed, a key names it.
+//! The first page of a report as HTML: the parts of the audit's first page beside two pictures. An id links
+//! to its place below and names its meaning; printed, a key names it.
 
 use std::collections::BTreeSet;
 
@@ -37,7 +37,8 @@ const PAPER: &str = "<h1>Audit of A. M. Filipov, M. V. Khomenko, <cite lang=\"ru
     конечных элементов»</cite> (plane contact by the finite element method), <span lang=\"ru\">Инженерный вестник \
     Дона</span></h1>\n";
 
-/// Returns the parts of the audit's first page, each in a box, and the meanings of the ids that none of them explains.
+/// Returns the parts of the audit's first page, each in a box, and the meanings of the ids that none of them
+/// explains.
 fn audited(audit: &Audit) -> String {
     let mut unexplained = String::new();
     let boxes =

@@ -133,7 +133,8 @@ fn named<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
     runs.filter_map(|(k, run)| Some((name((k, run))?, run.solution))).collect()
 }
 
-/// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not known.
+/// Returns the nearest of the paper's runs and the equilibrium; the first run and the last where that is not
+/// known.
 fn two<'a>(contents: &Contents<'a>) -> Vec<(String, &'a Solution)> {
     let fields = contents.audit.conclusion.fields.as_ref();
     let nearest = fields.and_then(|fields| fields.variants.first());

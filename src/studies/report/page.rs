@@ -1,8 +1,8 @@
 //! The page of an audit report: the first screen, the report as a document, then the fields of every run.
 //!
 //! Its data: one `mesh`, and `runs`, each with tables of its `result`, and fields as numbers in base64,
-//! little-endian: `u` in 32 bits, and `triangles` (all components of a quantity by its name) in the first 24 of 32,
-//! which keep five digits. `quantities` says what there is, and in which units.
+//! little-endian: `u` in 32 bits, and `triangles` (all components of a quantity by its name) in the first 24
+//! of 32, which keep five digits. `quantities` says what there is, and in which units.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

@@ -65,7 +65,8 @@ impl Difference {
         !matches!(self.kind, Kind::Numbers(_))
     }
 
-    /// Returns whether it is one of what was found, other than of the edge that a node has at a corner of two.
+    /// Returns whether it is one of what was found, other than of the edge that a node has at a corner of
+    /// two.
     pub fn is_of_contact(&self) -> bool {
         matches!(self.kind, Kind::Fact { .. })
             && !matches!(self.entry.quantity, Quantity::Ct | Quantity::Mates)
@@ -142,8 +143,9 @@ fn unit(was: &Numbers, is: &Numbers) -> Option<Kind> {
     (was.unit != is.unit).then(|| Kind::Unit { was: was.unit.clone(), is: is.unit.clone() })
 }
 
-/// Returns how two arrays differ; None where they do not. What rounding does is the less of what either run says, so
-/// that one file's word alone lets nothing pass; it is that of the new run where the old one does not know.
+/// Returns how two arrays differ; None where they do not. What rounding does is the less of what either run
+/// says, so that one file's word alone lets nothing pass; it is that of the new run where the old one does
+/// not know.
 fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     if was.values == is.values {
         return None;

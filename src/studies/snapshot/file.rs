@@ -30,7 +30,8 @@ pub struct Snapshot {
     pub version: String,
     /// The units of the scene by quantity, each empty where the scene names none.
     pub units: Units,
-    /// The path of the scene file from the folder of the snapshot, with `/`; absent where the scene has none there.
+    /// The path of the scene file from the folder of the snapshot, with `/`; absent where the scene has none
+    /// there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene_file: Option<String>,
     /// The scene and its mesh, whole.
@@ -82,7 +83,8 @@ impl Snapshot {
         self.input.build().map_err(|error| error.within("the snapshot"))
     }
 
-    /// Leaves out all numbers but those of the end that `only` names (of [`FIELDS`](super::FIELDS)), and all iterations.
+    /// Leaves out all numbers but those of the end that `only` names (of [`FIELDS`](super::FIELDS)), and all
+    /// iterations.
     pub fn keep_only(&mut self, only: &[Quantity]) {
         self.runs.values_mut().for_each(|run| run.keep_only(Some(only.to_vec())));
     }

@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// The tolerance of numbers of which it is not known what rounding does, relative to the largest of the array.
+/// The tolerance of numbers of which it is not known what rounding does, relative to the largest of the
+/// array.
 pub const UNMEASURED: f64 = 1e-9;
 
 /// How many times what rounding was seen to do is no difference: few runs underestimate it.
@@ -20,8 +21,8 @@ pub struct Numbers {
     /// The unit, empty where the scene names none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// What rounding does to the numbers: the most that inputs changed in the last digit were seen to change of one;
-    /// null where that was not measured, or changes who is in contact.
+    /// What rounding does to the numbers: the most that inputs changed in the last digit were seen to change
+    /// of one; null where that was not measured, or changes who is in contact.
     pub bound: Option<f64>,
     /// What rounding does at the least, in files of earlier versions.
     #[serde(default, skip_serializing)]
@@ -168,8 +169,8 @@ impl Numbers {
         Numbers { unit: unit.into(), bound: None, floor: 0.0, tolerance: None, values }
     }
 
-    /// Notes what rounding does to the numbers: the most by which `others`, the same array of runs whose inputs
-    /// differ in the last digit, are away from them.
+    /// Notes what rounding does to the numbers: the most by which `others`, the same array of runs whose
+    /// inputs differ in the last digit, are away from them.
     pub fn measure<'a>(&mut self, others: impl Iterator<Item = &'a Numbers>) {
         let own = self.places();
         let away = |other: &Numbers| {
@@ -188,7 +189,8 @@ impl Numbers {
         measured.or((self.floor > 0.0).then(|| self.floor.max(UNMEASURED * self.largest())))
     }
 
-    /// Returns the largest difference that rounding may make where that is a thousandth of the numbers or more.
+    /// Returns the largest difference that rounding may make where that is a thousandth of the numbers or
+    /// more.
     pub fn most_of_noise(&self) -> Option<f64> {
         self.rounding().filter(|most| *most > 0.0 && *most >= 1e-3 * self.largest())
     }

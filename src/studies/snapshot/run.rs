@@ -37,7 +37,8 @@ pub struct Run {
     pub facts: IndexMap<Entry, Value>,
     /// What is the same but for rounding.
     pub numbers: IndexMap<Entry, Numbers>,
-    /// The decisions on who is in contact that rounding takes: those that another last digit of the inputs changes.
+    /// The decisions on who is in contact that rounding takes: those that another last digit of the inputs
+    /// changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub decided_by_rounding: Vec<Decision>,
 }
@@ -97,8 +98,9 @@ impl Run {
         self.numbers.retain(|entry, _| keeps(*entry));
     }
 
-    /// Notes what rounding does to the run, by `others` whose inputs differ in the last digit: the most that they change
-    /// of each array while they find the same, and the first decision on who is in contact that is another one.
+    /// Notes what rounding does to the run, by `others` whose inputs differ in the last digit: the most that
+    /// they change of each array while they find the same, and the first decision on who is in contact that
+    /// is another one.
     fn measure(&mut self, others: &[Run]) {
         let others: Vec<(&Run, Vec<Difference>)> =
             others.iter().map(|other| (other, compare(self, other).0)).collect();

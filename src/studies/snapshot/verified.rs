@@ -86,7 +86,8 @@ impl VerifiedRun {
         VerifiedRun { differences, compared, changes, first, ..run }
     }
 
-    /// Leaves out the path from iteration `first` on, which rounding decides, and compares the rest with `old`.
+    /// Leaves out the path from iteration `first` on, which rounding decides, and compares the rest with
+    /// `old`.
     fn without_path(self, old: &Run, first: usize) -> Self {
         let [old, new] = [old, &self.run].map(|run| {
             let mut run = run.clone();
@@ -163,7 +164,8 @@ fn given_or_own(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Scene> {
     Ok(scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?)
 }
 
-/// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what it was.
+/// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what
+/// it was.
 fn again(
     snapshot: &Snapshot,
     scene: &Scene,

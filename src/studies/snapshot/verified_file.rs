@@ -48,8 +48,8 @@ fn verdict(run: &VerifiedRun) -> String {
     }
 }
 
-/// Reports what verifying found: file by file its runs, and in what they differ; why a file could not be verified
-/// stands on a page, and on standard error beside a terminal's report.
+/// Reports what verifying found: file by file its runs, and in what they differ; why a file could not be
+/// verified stands on a page, and on standard error beside a terminal's report.
 pub fn report(checked: &[VerifiedFile], is_page: bool) -> Report {
     checked.iter().fold(Report::default(), |report, VerifiedFile { file, scene, verified }| {
         match verified {
@@ -128,8 +128,9 @@ fn outcome_of(kind: &'static str, message: String, words: &str) -> Element {
     Element::with_text(kind, rest).set("message", message)
 }
 
-/// Returns what verifying found as JSON: whether something was compared in every file and nothing differs, and file by
-/// file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has them; and [`report()`].
+/// Returns what verifying found as JSON: whether something was compared in every file and nothing differs,
+/// and file by file why it could not be verified, the scene that was run, and its runs as [`VerifiedRun`] has
+/// them; and [`report()`].
 pub fn json(checked: &[VerifiedFile]) -> String {
     let run = |run: &VerifiedRun| {
         json!({

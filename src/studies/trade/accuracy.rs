@@ -1,10 +1,10 @@
-//! The cheapest precision that meets an accuracy: each in turn runs, and its displacements are compared with those
-//! of the next one that has more digits. A precision that fails (a number that overflows or vanishes in it, an edge
-//! that collapses to a point) only passes on to the next one.
+//! The cheapest precision that meets an accuracy: each in turn runs, and its displacements are compared with
+//! those of the next one that has more digits. A precision that fails (a number that overflows or vanishes in
+//! it, an edge that collapses to a point) only passes on to the next one.
 //!
-//! Exact numbers round nothing. Where they would take too long, what rounding does in f64x2 is what it was seen to do
-//! in f64, times what a digit of the one is of a digit of the other. `unilateral` runs in f64 only: there is nothing
-//! to choose.
+//! Exact numbers round nothing. Where they would take too long, what rounding does in f64x2 is what it was
+//! seen to do in f64, times what a digit of the one is of a digit of the other. `unilateral` runs in f64
+//! only: there is nothing to choose.
 
 use std::cell::OnceCell;
 
@@ -100,7 +100,8 @@ struct Precision {
     run: OnceCell<Result<Solution>>,
 }
 
-/// The precisions, the cheapest first: none of `unilateral`, of mortar those that have its digits and its roots.
+/// The precisions, the cheapest first: none of `unilateral`, of mortar those that have its digits and its
+/// roots.
 fn precisions(request: &Request) -> Vec<Precision> {
     /// Degrees of freedom up to which `printed`, whose matrix may be indefinite, is solved by LU.
     const DENSE: usize = 600;
@@ -109,10 +110,12 @@ fn precisions(request: &Request) -> Vec<Precision> {
     }
     let is_printed = request.variant == Variant::Printed;
     let by_lu = is_printed && request.scene.model.dofs() <= DENSE;
-    // `f32` is dearer than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with equal peak
-    // memory, as f64 has the better solver.
+    // `f32` is dearer than f64: 1.5 to 2.8 times its time on the strand with 0.4 to 0.1 mm elements, with
+    // equal peak memory, as f64 has the better solver.
     let tried = [ScalarName::F64, ScalarName::F64x2, ScalarName::Exact].into_iter();
-    let runs = |scalar: &ScalarName| !request.is_bound_by_mortar() || scalar.properties().no_mortar.is_none();
+    let runs = |scalar: &ScalarName| {
+        !request.is_bound_by_mortar() || scalar.properties().no_mortar.is_none()
+    };
     let precision = |scalar: ScalarName| {
         let solver =
             if by_lu && !scalar.is_exact() { Solver::DenseLu } else { Solver::SparseCholesky };
@@ -167,8 +170,8 @@ impl Precision {
     }
 }
 
-/// Returns the largest difference of a displacement component from that of a solution with more digits, over the
-/// largest displacement of the latter.
+/// Returns the largest difference of a displacement component from that of a solution with more digits, over
+/// the largest displacement of the latter.
 fn away(solution: &Solution, finer: &Solution) -> f64 {
     let pairs = solution.exact_displacements().into_iter().zip(finer.exact_displacements());
     let away = pairs.map(|(a, b)| (a - b).to_f64().value().abs()).fold(0.0, f64::max);

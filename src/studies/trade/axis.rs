@@ -148,7 +148,8 @@ pub static AXES: [Axis; 8] = [
 ];
 
 impl Axis {
-    /// A trial for each of its values under each variant that is tried; none where the scene does not have it.
+    /// A trial for each of its values under each variant that is tried; none where the scene does not have
+    /// it.
     ///
     /// # Errors
     /// The scene cannot be refined.

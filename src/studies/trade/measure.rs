@@ -24,8 +24,8 @@ pub fn plan(request: &Request, only: &[String]) -> Result<Plan, InputError> {
     AXES.iter().filter(is_asked).map(with_trials).collect()
 }
 
-/// Measures trials of a request, each `runs` times in turn, A B C A B C ...; `watch` is called after each run with
-/// what was run. A trial that fails is a row that says why.
+/// Measures trials of a request, each `runs` times in turn, A B C A B C ...; `watch` is called after each run
+/// with what was run. A trial that fails is a row that says why.
 pub fn measure(request: &Request, plan: Plan, runs: usize, watch: impl Fn(&str)) -> Trade {
     let Request { scene, .. } = request;
     let equilibrium = scene.model.target().map(|_| solve(&request.equilibrium(), &mut |_| ()));
@@ -127,8 +127,8 @@ impl Bench<'_> {
         Some(Errors::new(on_finer.as_ref().or(own)?, on_half.as_ref().or(truth)?))
     }
 
-    /// The run at `from` on the mesh of that at `to`, in as many steps as that was made of its own; nothing where it
-    /// was not, and where one of them failed.
+    /// The run at `from` on the mesh of that at `to`, in as many steps as that was made of its own; nothing
+    /// where it was not, and where one of them failed.
     fn carried(&self, from: usize, to: usize) -> Option<Solution> {
         let [own, other] = [from, to].map(|k| self.runs[k].solution.as_ref().ok());
         let (mut meshes, mut at): (Vec<&Derived>, _) = (Vec::new(), to);
@@ -203,9 +203,9 @@ pub struct Point {
     pub error: f64,
 }
 
-/// Whether each point is on the Pareto front: no other is better in one and at least as good in the other, as far
-/// as noise tells: times of which the ranges meet are equal, and so are errors by rounding, below 1e-9, that are
-/// less than ten times each other.
+/// Whether each point is on the Pareto front: no other is better in one and at least as good in the other, as
+/// far as noise tells: times of which the ranges meet are equal, and so are errors by rounding, below 1e-9,
+/// that are less than ten times each other.
 pub fn pareto(points: &[Point]) -> Vec<bool> {
     const ROUNDING: f64 = 1e-9;
     let quicker = |a: &Point, b: &Point| a.seconds[1] < b.seconds[0];

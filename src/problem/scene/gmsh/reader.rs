@@ -228,8 +228,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads the nodes of an element of a kind, each by `int` or by `size` of the tokens, and keeps it, unless it has
-    /// a node that the file does not have, or its number is taken.
+    /// Reads the nodes of an element of a kind, each by `int` or by `size` of the tokens, and keeps it,
+    /// unless it has a node that the file does not have, or its number is taken.
     fn element(
         &mut self,
         number: usize,
@@ -274,8 +274,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads `$Elements` of MSH 2: a count, then `number kind tags nodes` each, or binary blocks, of which each has
-    /// the kind and the counts of elements and of tags first.
+    /// Reads `$Elements` of MSH 2: a count, then `number kind tags nodes` each, or binary blocks, of which
+    /// each has the kind and the counts of elements and of tags first.
     fn elements_2(&mut self) -> Result<()> {
         let declared = self.tokens.count_line("the number of elements")?;
         let is_text = self.tokens.encoding == Encoding::Text;
@@ -311,8 +311,8 @@ impl<'a> Reader<'a> {
         self.check_count("elements", declared, self.elements.len())
     }
 
-    /// Reads `$Entities`: counts of points, curves, surfaces and volumes, then each of them: tag, coordinates or box,
-    /// physical tags, and (except for a point) the tags of the entities that bound it.
+    /// Reads `$Entities`: counts of points, curves, surfaces and volumes, then each of them: tag, coordinates
+    /// or box, physical tags, and (except for a point) the tags of the entities that bound it.
     fn entities_4(&mut self) -> Result<()> {
         let mut counts = [0; 4];
         for count in &mut counts {
@@ -327,8 +327,8 @@ impl<'a> Reader<'a> {
             for _ in 0..if dim == 0 { 3 } else { 6 } {
                 self.tokens.double("a coordinate of the entity's box")?;
             }
-            // Each element of the entity gets a copy of its tags: without a limit a hostile file of some kilobytes
-            // would take gigabytes. 0 is none, as in format 2.2.
+            // Each element of the entity gets a copy of its tags: without a limit a hostile file of some
+            // kilobytes would take gigabytes. 0 is none, as in format 2.2.
             const MOST: usize = 32;
             let count = self.tokens.size("the number of physical tags")?;
             if count > MOST {
@@ -348,9 +348,9 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads `$Nodes` of MSH 4.1: the totals, then blocks: `dimension tag parametric count`, the nodes' numbers, then
-    /// their coordinates. On a parametric entity as many parameters as it has dimensions follow each node's
-    /// coordinates.
+    /// Reads `$Nodes` of MSH 4.1: the totals, then blocks: `dimension tag parametric count`, the nodes'
+    /// numbers, then their coordinates. On a parametric entity as many parameters as it has dimensions follow
+    /// each node's coordinates.
     fn nodes_4(&mut self) -> Result<()> {
         let (blocks, declared) = self.totals("node")?;
         for _ in 0..blocks {
@@ -374,8 +374,8 @@ impl<'a> Reader<'a> {
         self.check_count("nodes", declared, self.nodes.len())
     }
 
-    /// Reads `$Elements` of MSH 4.1: the totals, then blocks: `dimension tag kind count`, then `number nodes` of each
-    /// element.
+    /// Reads `$Elements` of MSH 4.1: the totals, then blocks: `dimension tag kind count`, then `number nodes`
+    /// of each element.
     fn elements_4(&mut self) -> Result<()> {
         let (blocks, declared) = self.totals("element")?;
         for _ in 0..blocks {

@@ -69,7 +69,8 @@ pub struct ClaimOnScene<'a> {
     /// The claim and its verdict.
     #[serde(flatten)]
     pub judged: &'a JudgedClaim,
-    /// The verdict where the paper is read otherwise; no claim in it where reading has no part in the verdict.
+    /// The verdict where the paper is read otherwise; no claim in it where reading has no part in the
+    /// verdict.
     pub by_reading: &'a [UnderReading],
 }
 

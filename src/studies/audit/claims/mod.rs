@@ -160,7 +160,8 @@ pub struct JudgedClaim {
     pub measured: Evidence,
     /// The arguments of a command that prints the number in JSON; none of what was measured on random scenes.
     pub command: Vec<String>,
-    /// Where it stands there: a JSON pointer, or two of which it is the quotient; none where there is no number.
+    /// Where it stands there: a JSON pointer, or two of which it is the quotient; none where there is no
+    /// number.
     pub at: Vec<String>,
     /// What the verdict rests on.
     pub scope: Scope,
@@ -232,7 +233,8 @@ impl Claim {
         &CLAIMS[id as usize]
     }
 
-    /// Measures the claim on a scene and on the inputs that mean the same. Where a run fails, the detail says so.
+    /// Measures the claim on a scene and on the inputs that mean the same. Where a run fails, the detail says
+    /// so.
     pub fn measure(&self, case: &Case) -> Evidence {
         match self.measure {
             Measure::Refuted(id) => by_finding(id, Verdict::False, None, *case.reading()),

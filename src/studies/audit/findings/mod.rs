@@ -1,9 +1,8 @@
 //! The register of findings: what the listings do that the text does not say.
 //!
-//! A finding is one entry of the register: data (where it stands, why it matters, its repair), a
-//! measure, and the smallest scene that shows it (`golden/findings/<id>/`). A measure is an experiment
-//! with the listings as printed, under the case's reading, that runs on any scene. C: `c_cnt`; K: `Km` and the
-//! iterations.
+//! A finding is one entry of the register: data (where it stands, why it matters, its repair), a measure, and
+//! the smallest scene that shows it (`golden/findings/<id>/`). A measure is an experiment with the listings
+//! as printed, under the case's reading, that runs on any scene. C: `c_cnt`; K: `Km` and the iterations.
 
 mod experiment;
 mod register;
@@ -86,8 +85,8 @@ impl Finding {
         &FINDINGS[id as usize]
     }
 
-    /// Looks for the finding in a scene, and on the inputs that mean the same. Where a listing or a run fails,
-    /// the detail says so; it never panics.
+    /// Looks for the finding in a scene, and on the inputs that mean the same. Where a listing or a run
+    /// fails, the detail says so; it never panics.
     pub fn measure(&self, case: &Case) -> Evidence {
         let measure = |case: &Case| {
             (self.measure)(case)

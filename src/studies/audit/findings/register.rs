@@ -366,8 +366,8 @@ fn turn_scene(model: &mut Model) {
     model.nodes.iter_mut().for_each(|[x, y]| [*x, *y] = [1.0 - *x, -*y]);
 }
 
-/// Gives the stamp an equation of its own beside those of its contact node, which then only moves up and down: `MJS`
-/// has a place at which the two bodies can be joined.
+/// Gives the stamp an equation of its own beside those of its contact node, which then only moves up and
+/// down: `MJS` has a place at which the two bodies can be joined.
 fn let_stamp_sink(model: &mut Model) {
     let contact = model.contact.nodes[0];
     let stamp = model.body_of(contact).expect("a contact node is of a body");

@@ -36,8 +36,8 @@ pub(super) fn nothing_joins(case: &Case) -> Outcome<Evidence> {
     Ok(Evidence::must_be_present(joins == 0, joins as f64, detail))
 }
 
-/// The additions (triangle, pair 1 or 2 of k_cnt) of which `is` is true of the weights of the linked nodes, in the
-/// triangle's order; in words.
+/// The additions (triangle, pair 1 or 2 of k_cnt) of which `is` is true of the weights of the linked nodes,
+/// in the triangle's order; in words.
 fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(TriangleId, String)> {
     let mut found = Vec::new();
     for (id, pair) in model.triangle_ids().flat_map(|id| [(id, 1), (id, 2)]) {

@@ -219,7 +219,8 @@ fn without_cost(prices: &[Price]) -> Vec<Cost> {
     rows.map(cost).collect()
 }
 
-/// Says how far the corrected algorithm without any fault is from the equilibrium; nothing where that is not known.
+/// Says how far the corrected algorithm without any fault is from the equilibrium; nothing where that is not
+/// known.
 pub fn without_any(prices: &Outcome<Vec<Price>>) -> Option<String> {
     let own = prices.as_ref().ok().filter(|prices| unsound(prices).is_none())?;
     let far = own[0].outcome.as_ref().ok()?.equilibrium_relative?;

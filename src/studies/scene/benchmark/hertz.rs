@@ -138,7 +138,8 @@ impl Hertz {
             segments = segments.div_ceil(2);
             ring.segments = segments;
         }
-        // From the upper half plane onto the disk that touches it at the origin, conformally; far away goes to the top.
+        // From the upper half plane onto the disk that touches it at the origin, conformally; far away goes
+        // to the top.
         let onto_disk = |[x, y]: [f64; 2]| {
             let (p, q) = (1.0 + y / (2.0 * r), x / (2.0 * r));
             let norm = p * p + q * q;

@@ -125,8 +125,8 @@ impl Strand {
         let coarsest = (COARSEST * self.strand).min(ACROSS * (SIDE - self.duct));
         check::between("size", self.size, [FINEST, coarsest])?;
         check::between("top", self.top, TOP)?;
-        // Chords of the upper wall leave the disc room where it rises above its centre: there the two are as far
-        // apart as their radii at least.
+        // Chords of the upper wall leave the disc room where it rises above its centre: there the two are as
+        // far apart as their radii at least.
         let Strand { duct, strand, size, top } = *self;
         let height = ((strand * top - duct) / duct).max(0.0);
         let chord = size * (1.0 + (ROOF - 1.0) * height);

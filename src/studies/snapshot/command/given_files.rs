@@ -35,8 +35,8 @@ impl GivenFile<'_> {
     }
 }
 
-/// Returns the scene that a snapshot's runs are made of where it is not the one in the snapshot: a `given` one, or
-/// the file from which it was recorded; and what is to be said of it.
+/// Returns the scene that a snapshot's runs are made of where it is not the one in the snapshot: a `given`
+/// one, or the file from which it was recorded; and what is to be said of it.
 ///
 /// # Errors
 /// The scene is at fault.
