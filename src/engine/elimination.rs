@@ -43,11 +43,6 @@ pub enum Motion<T = f64> {
 }
 
 impl<T: Scalar> Constraint<T> {
-    /// Returns the contact node and its master nodes.
-    pub fn nodes(&self) -> impl Iterator<Item = NodeId> {
-        std::iter::once(self.node).chain(self.masters.iter().map(|(master, _)| *master))
-    }
-
     /// Returns the same constraint in other numbers.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Constraint<U> {
         Constraint {
