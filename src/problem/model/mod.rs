@@ -13,7 +13,6 @@ mod sides;
 
 use std::collections::{BTreeSet, HashSet};
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use nalgebra::DVector;
@@ -21,6 +20,7 @@ use nalgebra::DVector;
 pub use body::{Body, bodies};
 pub use bounds::Bounds;
 pub use force::Force;
+#[cfg(feature = "scenes")]
 pub(crate) use holds::crossing;
 pub use holds::{Hold, Holds};
 pub use ids::{Dof, EdgeId, NodeId, TriangleId};
@@ -35,7 +35,8 @@ use numbers::scalar::Scalar;
 pub(crate) const CANCELLED: f64 = 1e-13;
 
 /// An isotropic elastic material.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(feature = "scenes", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// The elastic modulus, stress.
