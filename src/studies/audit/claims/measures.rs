@@ -20,7 +20,7 @@ const NOTICEABLE: f64 = 0.01;
 const JUMPS: [(&str, f64, f64); 2] = [("below", 232.0, 215.0), ("above", 239.0, 130.0)];
 
 /// Operations of the intersection over those of the sign rule, on the largest surfaces of the same table.
-const OPERATIONS: f64 = 4.43;
+const OPERATIONS: f64 = 4.60;
 
 fn measured(verdict: Verdict, number: f64, detail: impl Into<String>) -> Outcome<Evidence> {
     Ok(Evidence::new(verdict, number, detail))
