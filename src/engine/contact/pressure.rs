@@ -58,7 +58,7 @@ pub struct NodeEnd {
 impl Surfaces {
     /// Returns the contact nodes that face the target after displacements `u` of a model, length, in order
     /// along the surface. `pairings` are those in the shape in which contact is measured, which has the
-    /// coordinates of each node, length; `end` is told each of them with its entry.
+    /// coordinates of each node, length; `end` receives each of them with its entry.
     pub fn nodes_at_end<'a>(
         &self,
         (model, u): (&Model, &DVector<f64>),
