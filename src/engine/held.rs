@@ -81,8 +81,7 @@ impl<'a> Held<'a> {
         (reduction, load): (&'a Reduction, &'a ReducedLoad),
         constraints: &[Constraint],
     ) -> Option<Self> {
-        let own = constraints.iter().map(|constraint| reduction.renumbered(constraint));
-        let t = Elimination::closing(&reduction.holds, 1.0, &own.collect::<Option<Vec<_>>>()?);
+        let t = reduction.closing(constraints)?;
         let factors = Box::new(DenseCholesky::new(&t.matrix(&reduction.stiffness))?);
         let equations = Equations::Kept(reduction, load);
         Some(Held { bodies, equations, t, factors, norm: reduction.norm })
@@ -183,6 +182,27 @@ impl<'a> Held<'a> {
                 let own: Vec<DVector<f64>> = loads.iter().map(|load| by.part(load)).collect();
                 let force = &by.stiffness * DMatrix::from_columns(&moved(&own));
                 force.column_iter().zip(&own).map(|(force, f)| by.spread(&(force - f))).collect()
+            }
+        }
+    }
+
+    /// Returns the displacements by degree of freedom, length, and K u, force, where the same nodes are bound to
+    /// other places and nothing else acts; of reduced equations on the contact surfaces alone.
+    pub fn moved(&self, constraints: &[Constraint]) -> Option<[DVector<f64>; 2]> {
+        let Held { bodies: Loaded { model, stiffness, .. }, t, factors, .. } = self;
+        let carried =
+            |to: &DVector<f64>, force: DVector<f64>| to - t.motion(&factors.solve(&t.load(&force)));
+        match &self.equations {
+            Equations::All => {
+                let to = Elimination::closing(&model.holds, 0.0, constraints);
+                let u = carried(to.shift(), stiffness.times(to.shift()));
+                let force = stiffness.times(&u);
+                Some([u, force])
+            }
+            Equations::Kept(by, _) | Equations::AllByKept(by) => {
+                let to = by.closing(constraints)?;
+                let u = carried(to.shift(), &by.stiffness * to.shift());
+                Some([by.spread(&u), by.spread(&(&by.stiffness * &u))])
             }
         }
     }

@@ -118,15 +118,18 @@ impl Reduction {
         own
     }
 
-    /// Returns a constraint by the places of the kept nodes; None where it binds another one.
-    pub(super) fn renumbered(&self, constraint: &Constraint) -> Option<Constraint> {
+    /// Returns the equations of the kept nodes under constraints; None where these bind another node.
+    pub(super) fn closing(&self, constraints: &[Constraint]) -> Option<Elimination> {
         let number = |node| self.nodes.binary_search(&node).ok().map(NodeId::new);
-        let masters = constraint.masters.iter().map(|(node, w)| Some((number(*node)?, *w)));
-        Some(Constraint {
-            node: number(constraint.node)?,
-            masters: masters.collect::<Option<_>>()?,
-            motion: constraint.motion,
-        })
+        let own = constraints.iter().map(|constraint| {
+            let masters = constraint.masters.iter().map(|(node, w)| Some((number(*node)?, *w)));
+            Some(Constraint {
+                node: number(constraint.node)?,
+                masters: masters.collect::<Option<_>>()?,
+                motion: constraint.motion,
+            })
+        });
+        Some(Elimination::closing(&self.holds, 1.0, &own.collect::<Option<Vec<_>>>()?))
     }
 }
 

@@ -54,7 +54,7 @@ impl<'a> Condensed<'a> {
     /// Condenses the step of a search; None of more than [`MOST`] nodes, where nothing holds the bodies with
     /// every node in contact, where restraints share its forces, and where there are none.
     pub(super) fn new(search: &'a StateSearch<'a>) -> Option<Self> {
-        let StateSearch { problem, config, setting } = search;
+        let StateSearch { problem, config, .. } = search;
         let pairings = &config.pairings;
         let entries: Vec<usize> = (0..pairings.len()).filter(|i| pairings[*i].is_some()).collect();
         if entries.len() > MOST {
@@ -65,17 +65,14 @@ impl<'a> Condensed<'a> {
             .collect();
         let facing = || entries.iter().filter_map(|i| Some((pairings[*i].as_ref()?, held[*i])));
         let constraints = search.constraints(&held);
-        let solved = |search: &StateSearch, constraints: &[Constraint]| {
-            let solution = search.solved_state(&held, constraints)?;
-            let forces = contact_forces(problem.model, pairings, &held, &solution.reaction);
+        let forces = |reaction: &DVector<f64>| {
+            let forces = contact_forces(problem.model, pairings, &held, reaction);
             let of_entry = |i: &usize| parts(held[*i], [forces[*i].normal, forces[*i].tangent]);
             let known = entries.iter().all(|i| !forces[*i].undetermined);
-            let forces: Vec<f64> = entries.iter().flat_map(of_entry).collect();
-            known.then(|| (DVector::from(forces), solution.u))
+            known.then(|| DVector::from(entries.iter().flat_map(of_entry).collect::<Vec<f64>>()))
         };
-        let (at_rest, _) = solved(search, &constraints)?;
-        let unloaded = problem.setting(0.0, setting.before, None);
-        let unloaded = StateSearch { setting: &unloaded, ..*search };
+        let at_rest = forces(&search.solved_state(&held, &constraints)?.reaction)?;
+        let bodies = search.bodies(&constraints)?;
         let size = at_rest.len();
         let mut stiffness = DMatrix::zeros(size, size);
         for column in 0..size {
@@ -87,7 +84,7 @@ impl<'a> Condensed<'a> {
             let moved = constraints.iter().zip(facing()).map(|(constraint, (pairing, status))| {
                 at_distance(constraint, pairing, next(status).map(Option::unwrap_or_default))
             });
-            let (forces, u) = solved(&unloaded, &moved.collect::<Vec<_>>())?;
+            let [u, reaction] = bodies.moved(&moved.collect::<Vec<_>>())?;
             let reached = facing().flat_map(|(pairing, status)| {
                 let (n, t) = (pairing.normal, pairing.tangent());
                 let [ux, uy] = pairing.motion(|node| node.components(&u));
@@ -99,7 +96,7 @@ impl<'a> Condensed<'a> {
             if !reached.enumerate().all(is_near) {
                 return None;
             }
-            stiffness.set_column(column, &forces);
+            stiffness.set_column(column, &forces(&reaction)?);
         }
         let (scale, unit) = (stiffness.diagonal().amax(), at_rest.amax());
         let (stiffness, at_rest) = (stiffness / scale, at_rest / unit);

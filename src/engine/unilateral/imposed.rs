@@ -33,6 +33,12 @@ impl StateSearch<'_> {
         Held::new(self.loaded(), constraints, self.setting.part.min(1.0))
     }
 
+    /// Factors the equations of the surfaces, or where these do not serve the whole ones; None where the
+    /// constraints do not hold the bodies.
+    pub(super) fn bodies(&self, constraints: &[Constraint]) -> Option<Held<'_>> {
+        self.reduced(constraints).or_else(|| self.whole(constraints).ok())
+    }
+
     /// Solves for the displacements and forces under imposed statuses.
     ///
     /// # Errors

@@ -6,7 +6,6 @@ use nalgebra::DVector;
 
 use super::equilibria::{TakenStep, setting, uniqueness};
 use super::problem::{Configuration, Equilibrium, Iteration, Problem, Setting, Watch};
-use super::springs::ON_SPRINGS;
 use super::unrestrained::part_of_load;
 use crate::contact::{
     ContactForce, ContactNode, NodeEnd, ROUNDING_OF_A_FORCE, Status, Watched, load_of,
@@ -87,9 +86,6 @@ fn changes(steps: &[Step]) -> usize {
     };
     ends.windows(2).filter(changed).count()
 }
-
-/// A search for the equilibrium of a setting.
-type Search<'a> = fn(&Problem<'a>, &Setting, &mut Watch) -> Result<Equilibrium, Error>;
 
 /// What was found along the path so far.
 struct Run<'a> {
@@ -241,16 +237,11 @@ impl<'a> Run<'a> {
         self.taken.retain(|part| part.to <= from.load);
         let why = match why {
             Error::Equilibrium(why) if why.cause == Cause::NotFound => {
-                match self.step(from, to, Problem::on_springs) {
+                let on_springs = |problem: &Problem<'a>, setting: &Setting, watch: &mut Watch| {
+                    problem.on_springs(setting, &why.what, watch)
+                };
+                match self.step(from, to, on_springs) {
                     Ok(found) => return Ok(found),
-                    Err(Error::Equilibrium(more)) => {
-                        // Where springs show what moves, that is the cause.
-                        let both = match more.what.starts_with(ON_SPRINGS) {
-                            true => format!("{}; {}", why.what, more.what),
-                            false => format!("{}; {}", more.what, why.what),
-                        };
-                        NoEquilibrium { what: both, ..more }.into()
-                    }
                     Err(more) => more,
                 }
             }
@@ -283,7 +274,12 @@ impl<'a> Run<'a> {
     }
 
     /// Goes to the load `to` in one step by a search.
-    fn step(&mut self, from: &Point, to: f64, search: Search<'a>) -> Result<Equilibrium, Error> {
+    fn step(
+        &mut self,
+        from: &Point,
+        to: f64,
+        search: impl Fn(&Problem<'a>, &Setting, &mut Watch) -> Result<Equilibrium, Error>,
+    ) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let setting = self.problem.setting(to, &from.u, from.statuses.as_deref());
         search(self.problem, &setting, &mut |config, iteration| {

@@ -13,7 +13,7 @@
 
 use nalgebra::DVector;
 
-use super::problem::{Equilibrium, Problem, Setting, Watch, cause_first};
+use super::problem::{Equilibrium, Problem, Setting, Watch};
 use super::search::{SETTLED, STALLED};
 use super::status::History;
 use crate::contact::Status;
@@ -35,20 +35,18 @@ const BACK: f64 = 8.0;
 /// The number of shapes after which the search ends.
 const SHAPES: usize = 300;
 
-/// The words with which what springs show begins, unless they show a cause.
-pub(super) const ON_SPRINGS: &str = "on springs";
-
 /// A displacement over the size of the model with which a body has left.
 const AWAY: f64 = 10.0;
 
 impl Problem<'_> {
-    /// Finds the equilibrium of a setting on springs.
+    /// Finds the equilibrium of a setting on springs; `why` says why it was not found without.
     ///
     /// # Errors
     /// Contact does not hold the bodies on springs, or the springs do not let go.
     pub(super) fn on_springs(
         &self,
         setting: &Setting,
+        why: &str,
         watch: &mut Watch,
     ) -> Result<Equilibrium, Error> {
         let mut springs = self.with_springs(FIRST);
@@ -65,7 +63,7 @@ impl Problem<'_> {
             let load = &setting.load + self.force_of(&springs, &u);
             let own = Setting { load, reduced: None, ..*setting };
             let settled = springs.search(&config, &own).settle(statuses, &mut history, watch);
-            let last = settled.map_err(|why| why.prefixed(&format!("{ON_SPRINGS} ")))?;
+            let last = settled.map_err(|more| more.prefixed(&format!("{why}; on springs ")))?;
             let moved = &last.solution.u - &u;
             let change = largest(moved.as_slice());
             // Without load the forces of contact vanish with those of the springs, to rounding.
@@ -86,12 +84,14 @@ impl Problem<'_> {
             (u, statuses, last_move) = (last.solution.u, Some(last.statuses), moved);
         }
         let escaping = self.escape(&config, &setting.load, self.friction);
-        let escapes = escaping.map(|dof| self.escapes(dof).what).unwrap_or_default();
-        let what = format!(
-            "{ON_SPRINGS} the bodies do not come to rest in {shapes} shapes, {least:.1e} of the largest force is left \
+        let tried = format!(
+            "on springs the bodies do not come to rest in {shapes} shapes, {least:.1e} of the largest force is left \
              to the springs at best"
         );
-        let what = cause_first(&escapes, what);
+        let what = match escaping {
+            Some(dof) => format!("{}; {tried}; {why}", self.escapes(dof).what),
+            None => format!("{why}; {tried}"),
+        };
         Err(NoEquilibrium { cause: Cause::NotFound, what }.into())
     }
 
