@@ -12,3 +12,10 @@ pub fn run(folder: &Path, args: &[&str]) -> Output {
         .output()
         .expect("the program starts")
 }
+
+/// Runs the program in `folder`; returns its exit status, what it prints, and its messages.
+pub fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
+    let output = run(folder, args);
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
+}

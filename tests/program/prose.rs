@@ -41,7 +41,7 @@ const GIVEN: &[(&str, &str)] = &[
     ("sqrt(2/3 e:e)", "a formula"),
     ("MSH 2.0 to 2.2 or 4.1", "versions of a file format"),
     ("IEEE 754", "a standard"),
-    ("fewer than 300 nodes", "a limit, tested by tests/program/mathcad.rs"),
+    ("fewer than 300 nodes", "a limit, tested by tests/cases/worksheets.txt"),
     ("Mathcad 14 or 15", "versions"),
     ("Apache-2.0", "the name of a licence"),
     ("20 lines at most", "a rule of style"),
