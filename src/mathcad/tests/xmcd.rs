@@ -12,7 +12,7 @@ use mathcad::xmcd::write;
 use mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 
 /// Writes a listing as a worksheet, and reads it back as text.
-fn there_and_back(listing: &Listing) -> Result<String, String> {
+pub fn there_and_back(listing: &Listing) -> Result<String, String> {
     let sheet = worksheet(std::slice::from_ref(listing));
     let sheet = document::read(&sheet, "sheet").map_err(|error| error.to_string())?;
     match &sheet.regions[0].content {
