@@ -1,5 +1,7 @@
 //! The program as a process of its own.
 
+#![allow(dead_code, reason = "some test programs need only one of them")]
+
 use std::path::Path;
 use std::process::{Command, Output};
 
