@@ -170,6 +170,7 @@ impl Case {
             .current_dir(&at)
             .env("PATH", format!("{}:{path}", program.display()))
             .env("LISTINGS", inputs.ancestors().nth(3).expect("the root").join("listings"))
+            .env("LC_ALL", "C.UTF-8")
             .env_remove("COLUMNS")
             .stdin(Stdio::null())
             .status()
