@@ -345,17 +345,6 @@ fn ccx_finds_what_the_corrected_algorithm_finds() {
     }
 }
 
-#[track_caller]
-fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
-    let output = program::run(folder.path(), args);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    for word in words {
-        assert!(said.contains(word), "{word:?}: {said}");
-    }
-    assert!(!folder.path().join("out").exists(), "nothing is written");
-}
-
 #[test]
 fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
@@ -363,28 +352,6 @@ fn export_writes_the_deck() {
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
-    let args = ["scene", "export", "fig1", "--contact", "pair", "--out", "deck.inp"];
-    assert!(program::run(folder.path(), &args).stdout.is_empty());
-    let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();
-    assert!(text.contains("friction stick"), "{text}");
-    let printed = ["scene", "export", "fig1", "--variant", "printed"];
-    fails(&folder, &printed, &["the variant printed", "contact pair"]);
-    let negative = ["scene", "export", "fig1", "--penalty=-1"];
-    fails(&folder, &negative, &["it is not positive"]);
-}
-
-#[test]
-fn a_ccx_that_is_missing_or_fails_is_exit_status_2() {
-    let folder = TempDir::new().unwrap();
-    let with = |program: &'static str| {
-        ["compare", "fig1", "--with", "calculix", "--variant", "tied", "--ccx", program]
-    };
-    fails(&folder, &with("./nowhere"), &["cannot be started", "apt-get install calculix-ccx"]);
-    #[cfg(unix)]
-    {
-        fails(&folder, &with("false"), &["false failed (exit status: 1)"]);
-        fails(&folder, &with("true"), &["left no results"]);
-    }
 }
 
 #[test]
