@@ -1,7 +1,7 @@
-//! Runs that once went wrong, as text: what is typed, and all that comes out.
+//! What the program prints and how it ends, as text: what is typed, and all that comes out.
 //!
 //! ```text
-//! # What went wrong, or what must hold.
+//! # What must hold, or once went wrong.
 //! with FOLDER              the files that it starts with, a folder of tests/cases/<area>
 //! $ COMMAND                of `sh`, with plane-contact on its path; `> ` goes on with it
 //! ? 2                      its exit status, where that is not 0
