@@ -94,6 +94,13 @@ fn thousands(number: usize) -> String {
 /// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
 /// minutes), and what the tables must show on any scene: without a fault nothing, with a weight added
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
+/// The quantities of a result, each declared once.
+#[test]
+fn quantities() {
+    let page = plane_contact::output::quantities::page();
+    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
+}
+
 #[test]
 fn prices() {
     let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");
