@@ -1,7 +1,7 @@
-//! Runs that once went wrong, as text: what is typed, and all that comes out.
+//! What the program prints and how it ends, as text: what is typed, and all that comes out.
 //!
 //! ```text
-//! # What went wrong, or what must hold.
+//! # What must hold, or once went wrong.
 //! with FOLDER              the files that it starts with, a folder of tests/cases/<area>
 //! $ COMMAND                of `sh`, with plane-contact on its path; `> ` goes on with it
 //! ? 2                      its exit status, where that is not 0
@@ -11,7 +11,8 @@
 //! ```
 //!
 //! A line `...` stands for any lines, and `[..]` for any part of one. Words are exact; a number may differ by one in its
-//! last printed digit. A case runs in a folder of its own, its commands in one shell. No command may panic.
+//! last printed digit. A case runs in a folder of its own, its commands in one shell, in which `LISTINGS` is the folder
+//! of that name. No command may panic.
 //! `INSTA_UPDATE=always` writes anew what a command prints, where that differs.
 //!
 //! Why no library runs them: trycmd joins both streams and knows no shell, and neither it nor snapbox has a tolerance.
@@ -26,45 +27,27 @@ use std::process::{Command, Stdio};
 use same_text::same_text;
 use tempfile::TempDir;
 
-#[test]
-fn contact() {
-    check("contact");
+/// A test of each area, which is a file of cases and a folder of their files.
+macro_rules! areas {
+    ($($area:ident)*) => {
+        $(#[test]
+        fn $area() {
+            check(stringify!($area));
+        })*
+
+        #[test]
+        fn every_file_is_an_area() {
+            let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+            let entries = std::fs::read_dir(folder).expect("the cases");
+            let names = entries.filter_map(|entry| entry.expect("an entry").file_name().into_string().ok());
+            let mut areas: Vec<_> = names.filter_map(|name| Some(name.strip_suffix(".txt")?.to_owned())).collect();
+            areas.sort();
+            assert_eq!(areas, [$(stringify!($area)),*]);
+        }
+    };
 }
 
-#[test]
-fn fields() {
-    check("fields");
-}
-
-#[test]
-fn files() {
-    check("files");
-}
-
-#[test]
-fn meshes() {
-    check("meshes");
-}
-
-#[test]
-fn sentences() {
-    check("sentences");
-}
-
-#[test]
-fn snapshots() {
-    check("snapshots");
-}
-
-#[test]
-fn solvers() {
-    check("solvers");
-}
-
-#[test]
-fn worksheets() {
-    check("worksheets");
-}
+areas!(commands contact edited fields files hostile limits meshes mistakes sentences snapshots solvers sweeps worksheets);
 
 #[derive(Default)]
 struct Case {
@@ -186,6 +169,8 @@ impl Case {
             .args(["-c", &script.collect::<String>()])
             .current_dir(&at)
             .env("PATH", format!("{}:{path}", program.display()))
+            .env("LISTINGS", inputs.ancestors().nth(3).expect("the root").join("listings"))
+            .env("LC_ALL", "C.UTF-8")
             .env_remove("COLUMNS")
             .stdin(Stdio::null())
             .status()

@@ -1,5 +1,7 @@
 //! The program as a process of its own.
 
+#![allow(dead_code, reason = "some test programs need only one of them")]
+
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -11,4 +13,11 @@ pub fn run(folder: &Path, args: &[&str]) -> Output {
         .current_dir(folder)
         .output()
         .expect("the program starts")
+}
+
+/// Runs the program in `folder`; returns its exit status, what it prints, and its messages.
+pub fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
+    let output = run(folder, args);
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
 }

@@ -8,9 +8,7 @@ use crate::common::golden_floats::assert_golden;
 use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::program;
-use crate::common::tolerances::{
-    CCX_FRICTION, CCX_PRINTS, CORRECTED_CCX, PENALTY, PENALTY_STRESS, assert_near,
-};
+use crate::common::tolerances::{Tolerance, assert_near};
 use crate::unilateral::models;
 use nalgebra::DVector;
 use plane_contact::engine::{self, Request, Solution};
@@ -21,6 +19,43 @@ use plane_contact::studies::calculix::{Contact, Pair, Part, deck, float, parse, 
 use plane_contact::studies::compare::Beside;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+
+/// The same for the largest von Mises stress of a body, relative to it.
+const PENALTY_STRESS: Tolerance = Tolerance {
+    limit: 5e-2,
+    reason: "ccx pushes along the normal of the target's face, unilateral along one that turns from \
+         face to face: 2.3e-2 on the strand, whatever the penalty; the default penalty adds 2e-3",
+};
+
+/// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest
+/// displacement.
+const PENALTY: Tolerance = Tolerance {
+    limit: 1e-2,
+    reason: "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 \
+         mm of 4.2e-4 mm",
+};
+
+/// CalculiX beside this program on the same equations, relative to the largest displacement, or
+/// von Mises stress.
+const CCX_PRINTS: Tolerance = Tolerance {
+    limit: 1e-6,
+    reason: "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, \
+         and so is each of the parts of a sum",
+};
+
+/// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to
+/// the largest.
+const CORRECTED_CCX: Tolerance = Tolerance {
+    limit: 0.01,
+    reason: "its contact yields by a penalty: 0.6 % measured, normal and both",
+};
+
+/// Displacements under friction beside those of ccx's own contact and friction, relative to the
+/// largest.
+const CCX_FRICTION: Tolerance = Tolerance {
+    limit: 0.01,
+    reason: "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2",
+};
 
 /// What `ccx` printed for the deck `golden/fig1/calculix-tied.snap`.
 const PRINTED: &str = include_str!("calculix/fig1.dat");
@@ -310,17 +345,6 @@ fn ccx_finds_what_the_corrected_algorithm_finds() {
     }
 }
 
-#[track_caller]
-fn fails(folder: &TempDir, args: &[&str], words: &[&str]) {
-    let output = program::run(folder.path(), args);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    for word in words {
-        assert!(said.contains(word), "{word:?}: {said}");
-    }
-    assert!(!folder.path().join("out").exists(), "nothing is written");
-}
-
 #[test]
 fn export_writes_the_deck() {
     let folder = TempDir::new().unwrap();
@@ -328,28 +352,6 @@ fn export_writes_the_deck() {
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
-    let args = ["scene", "export", "fig1", "--contact", "pair", "--out", "deck.inp"];
-    assert!(program::run(folder.path(), &args).stdout.is_empty());
-    let text = std::fs::read_to_string(folder.path().join("deck.inp")).unwrap();
-    assert!(text.contains("friction stick"), "{text}");
-    let printed = ["scene", "export", "fig1", "--variant", "printed"];
-    fails(&folder, &printed, &["the variant printed", "contact pair"]);
-    let negative = ["scene", "export", "fig1", "--penalty=-1"];
-    fails(&folder, &negative, &["it is not positive"]);
-}
-
-#[test]
-fn a_ccx_that_is_missing_or_fails_is_exit_status_2() {
-    let folder = TempDir::new().unwrap();
-    let with = |program: &'static str| {
-        ["compare", "fig1", "--with", "calculix", "--variant", "tied", "--ccx", program]
-    };
-    fails(&folder, &with("./nowhere"), &["cannot be started", "apt-get install calculix-ccx"]);
-    #[cfg(unix)]
-    {
-        fails(&folder, &with("false"), &["false failed (exit status: 1)"]);
-        fails(&folder, &with("true"), &["left no results"]);
-    }
 }
 
 #[test]

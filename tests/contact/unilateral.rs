@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::common::tolerances::{
-    BALANCE, COMPLEMENTARITY, CURRENT_LENGTHS, FAR_FROM_THE_ORIGIN, FORCE_OF_A_SLOPE, assert_near,
-};
+use crate::common::tolerances::{BALANCE, Tolerance, assert_near};
 use plane_contact::engine::contact::{ContactNode, Status};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::{self, Detail, Request, Solution, Step, distance};
@@ -15,6 +13,27 @@ use plane_contact::problem::scene::{
     Axis, Contact, MeshBuilder, SCENES, Scene, SceneBuilder, file, gmsh,
 };
 use plane_contact::studies::benchmark::{Blocks, Hertz, Punch};
+
+/// A displacement in a scene a million of its sizes from the origin, relative to itself.
+const FAR_FROM_THE_ORIGIN: Tolerance = Tolerance {
+    limit: 1e-6,
+    reason: "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a \
+         thousand times less",
+};
+
+/// The sum of normal forces beside the load along y, where the surface slopes a little:
+/// relative to the load.
+const FORCE_OF_A_SLOPE: Tolerance =
+    Tolerance { limit: 1e-4, reason: "the slope of a surface strained by 1e-3, squared, is 1e-6" };
+
+/// Contact in the current shape beside contact in the initial one at a load of a thousandth of
+/// CGS-1's, relative to the peak.
+const CURRENT_LENGTHS: Tolerance =
+    Tolerance { limit: 2e-3, reason: "strains of 1e-3 at the contact: the two differ by as much" };
+
+/// Gap times force of a contact node relative to size times the largest force; penetration
+/// relative to the size.
+const COMPLEMENTARITY: Tolerance = Tolerance { limit: 1e-12, reason: "the issue's own number" };
 
 /// Both directions.
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];

@@ -1,14 +1,10 @@
 //! Citations: what the repository's sources and pages name is there.
 //!
-//! - A section of `listings/READING.md` that is cited exists.
-//! - Every reading and finding that is named has a row in READING.md's tables, which
-//!   `tests/fidelity/reading_page.rs` makes.
 //! - Every page (`*.md`) and every file of the repository that is named is there, and every link of
 //!   a page leads to a file.
 //! - What a step of a recipe in CONTRIBUTING.md names behind a file of Rust is in that file; beside it, as in
 //!   "`src/engine/solve.rs`, `check`", it is defined there.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -71,44 +67,6 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-fn reading() -> String {
-    fs::read_to_string(Path::new(ROOT).join(READING)).expect("the readings of record")
-}
-
-/// The numbers of the sections, from their headings: `## 4. Readings`.
-fn sections(reading: &str) -> BTreeSet<usize> {
-    let headings = reading.lines().filter_map(|line| line.strip_prefix("## "));
-    headings.map(|h| h.split('.').next().unwrap().parse().expect("a numbered heading")).collect()
-}
-
-/// The ids with which rows of READING.md's tables begin.
-fn rows(reading: &str) -> BTreeSet<String> {
-    let mut rows = BTreeSet::new();
-    for line in reading.lines().filter(|line| line.starts_with('|')) {
-        let id = line.split('|').nth(1).unwrap_or("").trim();
-        // A finding's id is a link to its folder; section 7 names findings again, without one.
-        let linked = id.strip_prefix('[').and_then(|id| id.split_once("](../golden/findings/"));
-        let id = match linked {
-            Some((id, target)) => {
-                assert_eq!(target, format!("{id}/README.md)"), "the link of {id}");
-                id
-            }
-            None if id.starts_with('R') && !rows.contains(id) => id,
-            None => continue,
-        };
-        if is_id(id) {
-            assert!(rows.insert(id.into()), "{id} has two rows");
-        }
-    }
-    rows
-}
-
-/// `R1`, `C15`, `K9`: a letter and a number.
-fn is_id(word: &str) -> bool {
-    let number = word.strip_prefix(['R', 'C', 'K']).unwrap_or("");
-    number.bytes().all(|b| b.is_ascii_digit()) && !matches!(number, "" | "0")
-}
-
 /// The words of a line, in order.
 fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
@@ -130,13 +88,10 @@ fn exists(text: &Text, path: &str) -> bool {
 }
 
 /// What is wrong with the citations of `text`.
-fn faults(text: &Text, sections: &BTreeSet<usize>, ids: &BTreeSet<String>) -> Vec<String> {
+fn faults(text: &Text) -> Vec<String> {
     let mut faults = Vec::new();
     for (at, line) in text.content.lines().enumerate() {
         let mut fault = |what: String| faults.push(format!("{}: {what}", text.place(at)));
-        for section in cited_sections(line).filter(|number| !sections.contains(number)) {
-            fault(format!("READING.md has no section {section}"));
-        }
         for path in paths(line) {
             let named = path.ends_with(".md") && path != ".md"
                 || FOLDERS.iter().any(|folder| path.starts_with(folder));
@@ -152,17 +107,8 @@ fn faults(text: &Text, sections: &BTreeSet<usize>, ids: &BTreeSet<String>) -> Ve
                 }
             }
         }
-        for id in words(line).filter(|word| is_id(word) && !ids.contains(*word)) {
-            fault(format!("{id} has no row in READING.md"));
-        }
     }
     faults
-}
-
-/// The sections of READING.md that a line cites.
-fn cited_sections(line: &str) -> impl Iterator<Item = usize> {
-    let cited = line.split("READING.md`, section ").skip(1);
-    cited.filter_map(|rest| rest.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok())
 }
 
 /// The targets of a page's links that are files: `[words](target)`.
@@ -176,10 +122,9 @@ fn links(line: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn every_citation_leads_somewhere() {
-    let (reading, texts) = (reading(), texts());
-    let (sections, ids) = (sections(&reading), rows(&reading));
+    let texts = texts();
     assert!(texts.iter().any(|text| text.path == READING), "the walk reaches {READING}");
-    let faults: Vec<String> = texts.iter().flat_map(|t| faults(t, &sections, &ids)).collect();
+    let faults: Vec<String> = texts.iter().flat_map(faults).collect();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 

@@ -9,7 +9,6 @@ mod common {
     pub mod tools;
 }
 
-mod architecture;
 mod citations;
 mod exported;
 mod findings;

@@ -286,19 +286,23 @@ fn defined(
     (values, sheet)
 }
 
-/// What stands in quotation marks in the tests of Mathcad's semantics, as programs of x: each of its rules, and
-/// words that are no program.
+/// Programs of x: those of Mathcad's rules, and what stands in quotation marks in the tests of the notation, most of it
+/// no program.
 fn rules() -> Vec<String> {
-    let tests = concat!(
-        include_str!("../../src/mathcad/tests/semantics.rs"),
-        include_str!("../../src/mathcad/tests/notation.rs")
-    );
-    let quoted = tests.split('"').skip(1).step_by(2).map(|text| text.replace("\\n", "\n"));
-    let own = "y ← 1 if x = 5\ny ← 2 if x = 4\ny ← 3 otherwise\ny";
-    quoted
-        .chain([own.into()])
-        .map(|text| format!("f(x) :=\n  {}", text.replace('\n', "\n  ")))
-        .collect()
+    let (mut programs, mut lines) = (vec![], String::new());
+    let text = include_str!("../../src/mathcad/tests/rules.txt").lines();
+    for line in text.filter(|line| !line.starts_with("# ") && !line.starts_with("under ")) {
+        let (own, ends) = line.rsplit_once(" ⇒ ").map_or((line, false), |(own, _)| (own, true));
+        lines += &format!("\n{own}");
+        if ends {
+            programs.push(std::mem::take(&mut lines).trim_start().to_owned());
+        }
+    }
+    let notation = include_str!("../../src/mathcad/tests/notation.rs");
+    programs.extend(notation.split('"').skip(1).step_by(2).map(|text| text.replace("\\n", "\n")));
+    programs.push("y ← 1 if x = 5\ny ← 2 if x = 4\ny ← 3 otherwise\ny".into());
+    let program = |text: String| format!("f(x) :=\n  {}", text.replace('\n', "\n  "));
+    programs.into_iter().map(program).collect()
 }
 
 /// The repairs of findings that are edits of a listing.

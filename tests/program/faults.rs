@@ -5,13 +5,12 @@
 use std::collections::BTreeMap;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::limits::{refused, shell};
 
 /// The kills of a test; the variable of this name asks for more.
 const KILLS: (&str, u32) = ("PLANE_CONTACT_KILLS", 20);
@@ -38,6 +37,27 @@ const RUNS: [&[&str]; 2] = [
 ];
 
 type Files = BTreeMap<String, Vec<u8>>;
+
+/// Runs a line of the shell, in which `$P` is the program.
+fn shell(folder: &Path, line: &str) -> Output {
+    Command::new("sh")
+        .args(["-c", line])
+        .env("P", env!("CARGO_BIN_EXE_plane-contact"))
+        .current_dir(folder)
+        .output()
+        .expect("a shell")
+}
+
+/// Checks that a line ends with exit status 2, and that its error has all the `words`.
+#[track_caller]
+fn refused(folder: &Path, line: &str, words: &[&str]) {
+    let output = shell(folder, line);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+    for word in words {
+        assert!(error.contains(word), "{line}: {word:?} is not in {error}");
+    }
+}
 
 /// The content of each file in `folder` and below, by its name there; none where it is missing.
 fn files(folder: &Path) -> Files {

@@ -37,7 +37,7 @@ fn in_folder(name: &str) -> BTreeSet<PathBuf> {
 }
 
 /// Returns a target's inputs: its corpus and, where it reads scenes, those of the findings; `scene` begins
-/// with those of `hostile.rs` too.
+/// with those of `tests/cases/hostile.txt` too.
 fn inputs(target: &str) -> BTreeSet<PathBuf> {
     let mut inputs = in_folder(&format!("fuzz/corpus/{target}"));
     if ["scene", "solve"].contains(&target) {
@@ -45,7 +45,7 @@ fn inputs(target: &str) -> BTreeSet<PathBuf> {
         inputs.extend(folders.map(|folder| folder.join("scene.json")));
     }
     if target == "scene" {
-        let hostile = in_folder("tests/program/hostile").into_iter();
+        let hostile = in_folder("tests/cases/hostile/scenes").into_iter();
         inputs.extend(hostile.filter(|path| path.extension().is_some_and(|end| end == "json")));
     }
     inputs

@@ -12,22 +12,17 @@ mod common {
 
 mod accuracy;
 mod claims;
-mod cli;
 mod conclusion;
 mod document;
 mod drawing;
-mod edited;
 mod examples;
 mod extremes;
 mod faults;
 mod first_difference;
 mod fuzz;
 mod gmsh;
-mod hostile;
-mod limits;
 mod mathcad;
 mod messages;
-mod mistakes;
 #[path = "../../fuzz/oracles/mod.rs"]
 mod oracles;
 mod pages;
@@ -36,7 +31,6 @@ mod plan;
 mod printed;
 mod printed_numbers;
 mod prose;
-mod quantities;
 mod recipes;
 mod result_file;
 mod scenes;

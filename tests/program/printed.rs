@@ -250,21 +250,6 @@ fn every_text_fits_forty_columns_and_more() {
     }
 }
 
-#[test]
-fn tables_are_written_as_csv() {
-    let folder = TempDir::new().expect("a folder");
-    let at = folder.path();
-    printed(at, &["solve", "fig1", "--no-pictures", "--csv", "tables"]);
-    let csv = std::fs::read_to_string(at.join("tables/iterations.csv")).expect("a table");
-    assert_eq!(csv.lines().count(), 1 + 20);
-    assert!(csv.starts_with("k,in contact,"), "{csv}");
-    for name in ["bodies", "contact-surface"] {
-        assert!(at.join(format!("tables/{name}.csv")).exists(), "{name}");
-    }
-    let refused = run(at, &["solve", "fig1", "--json", "--csv", "tables"]);
-    assert_eq!(refused.status.code(), Some(2));
-}
-
 /// Where no terminal says how wide it is, a table has at most 100 columns; prose has whole lines.
 #[test]
 fn tables_fit_a_hundred_columns() {

@@ -1,4 +1,4 @@
-//! Sweeps as a user meets them: results, what runs again, the table, engines.
+//! Sweeps that are killed, and engines that run their jobs; what else is done with them stands in `tests/cases/sweeps.txt`.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,14 +7,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::common::program::run;
+use crate::common::program::ran;
 use crate::common::tools::{has_python, is_there};
-
-fn ran(folder: &Path, args: &[&str]) -> (i32, String, String) {
-    let output = run(folder, args);
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (output.status.code().expect("no signal"), text(output.stdout), text(output.stderr))
-}
 
 /// A folder with `sweep.json`.
 fn folder(sweep: &Value) -> TempDir {
@@ -45,108 +39,6 @@ fn of_fig1(count: usize) -> Value {
     }})
 }
 
-#[test]
-fn every_job_is_a_flat_row_in_order() {
-    let folder = folder(&json!({"format": 1, "scene": "fig1",
-        "list": [{"/scene/contact/c_tll": 0.001}, {"/options/reading": "R4=left-to-right"},
-                 {"/scene/contact/c_tll": -1.0}, {"/scene/node/4/1": 0.31}],
-        "grid": {"/options/variant": ["tied", "stepped"]}}));
-    assert!(swept(folder.path()).contains("8 jobs: 8 ran, 4 failed"));
-    let rows = table(folder.path());
-    let column = |name: &str| rows.iter().map(|row| row[name].clone()).collect::<Vec<Value>>();
-    assert_eq!(column("job"), (0..8).map(Value::from).collect::<Vec<_>>());
-    assert_eq!(column("exit_status"), [0, 0, 3, 3, 2, 2, 0, 0].map(Value::from));
-    assert_eq!(rows[1]["/options/variant"], "stepped");
-    assert_eq!(rows[7]["/scene/node/4/1"], 0.31);
-    assert!(rows[2]["error"].as_str().expect("words").contains("c_cnt, line 18"));
-    let is_cell = |value: &Value| !(value.is_array() || value.is_object() || value.is_null());
-    assert!(rows.iter().all(|row| row.as_object().expect("a row").values().all(is_cell)));
-    // The numbers are those of solve.
-    let (_, result, _) = ran(folder.path(), &["solve", "fig1", "--variant", "tied", "--json"]);
-    let result: Value = serde_json::from_str(&result).expect("JSON");
-    let last = result["iterations"].as_array().expect("rows").last().expect("one").clone();
-    assert_eq!(rows[0]["max_displacement"], last["max_displacement"]);
-    assert_eq!(rows[0]["in_contact"], last["in_contact"]);
-}
-
-#[test]
-fn a_table_is_csv_with_a_line_for_each_job() {
-    let folder = folder(&json!({"format": 1, "scene": "fig1", "grid": {
-        "/options/variant": ["tied", "stepped"], "/scene/title": ["a, \"b\""]}}));
-    let csv = |folder: &Path| ran(folder, &["sweep", "table", "sweep.json"]);
-    let (status, text, errors) = csv(folder.path());
-    assert!(status == 0 && errors.contains("2 of 2 jobs have not run"), "{errors}");
-    assert_eq!(text.matches("it has not run").count(), 2, "{text}");
-    swept(folder.path());
-    let (_, text, errors) = csv(folder.path());
-    assert_eq!(errors, "");
-    let lines: Vec<&str> = text.lines().collect();
-    assert!(lines[0].starts_with("job,key,/options/variant,/scene/title,exit_status"), "{text}");
-    assert!(lines.len() == 3 && lines[1].contains(",tied,\"a, \"\"b\"\"\",0,"), "{text}");
-}
-
-#[test]
-fn nothing_runs_twice_and_a_longer_sweep_goes_on() {
-    let folder = folder(&of_fig1(20));
-    assert!(swept(folder.path()).contains("20 jobs: 20 ran, 0 failed"));
-    let first = table(folder.path());
-    assert!(swept(folder.path()).contains("20 jobs: 0 ran"));
-    assert_eq!(table(folder.path()), first);
-    let mut longer = of_fig1(20);
-    longer["grid"]["/options/variant"] = json!(["tied", "stepped", "printed"]);
-    std::fs::write(folder.path().join("sweep.json"), longer.to_string()).expect("written");
-    assert!(swept(folder.path()).contains("30 jobs: 10 ran"));
-    assert_eq!(table(folder.path())[..20], first);
-}
-
-#[test]
-fn faults_of_the_file_are_named() {
-    let says = |sweep: Value, words: &str| {
-        let folder = folder(&sweep);
-        let (status, _, errors) = ran(folder.path(), &["sweep", "run", "sweep.json"]);
-        assert!(status == 2 && errors.contains(words), "{words}: {errors}");
-    };
-    says(json!({"format": 2, "scene": "fig1"}), "format 2");
-    says(json!({"format": 1, "grit": {}}), "grit");
-    says(json!({"format": 1}), "the field \"scene\" is missing");
-    says(
-        json!({"format": 1, "scene": "fig1", "grid": {"/scene/x": 3}}),
-        "neither a list nor steps",
-    );
-    says(json!({"format": 1, "scene": "nowhere"}), "cannot be read");
-    let steps = json!({"from": 1, "to": 2, "count": 100_001});
-    says(json!({"format": 1, "scene": "fig1", "grid": {"/scene/x": steps}}), "more than 100000");
-    let steps = json!({"from": 1, "to": 2, "count": 1000});
-    let grid = json!({"/scene/x": steps, "/scene/y": steps});
-    says(json!({"format": 1, "scene": "fig1", "grid": grid}), "more than 100000");
-    says(
-        json!({"format": 1, "scene": "fig1", "list": [{"/scene/a/b": 1}, {}]}),
-        "leads into no part",
-    );
-    says(json!({"format": 1, "scene": "fig1", "list": [{"/other": 1}]}), "leads into no part");
-}
-
-#[test]
-fn a_job_runs_alone_and_its_result_is_left_alone() {
-    let folder = folder(&of_fig1(6));
-    let at = folder.path();
-    let only = |job: &str| ran(at, &["sweep", "run", "sweep.json", "--only", job]);
-    for job in ["0", "5"] {
-        assert!(only(job).1.contains("1 jobs: 1 ran, 0 failed"));
-        assert!(only(job).1.contains("1 jobs: 0 ran, 0 failed"));
-    }
-    assert!(swept(at).contains("6 jobs: 4 ran"));
-    let (status, _, errors) = only("6");
-    assert!(status == 2 && errors.contains("there are 6 jobs, counted from 0"), "{errors}");
-    // A result that was changed is no result.
-    let key = table(at)[3]["key"].as_str().expect("a key").to_string();
-    let file = at.join(format!("out/sweep/{key}.json"));
-    let text = std::fs::read_to_string(&file).expect("a result");
-    std::fs::write(&file, text.replace(&key, "other")).expect("written");
-    let (status, _, errors) = only("3");
-    assert!(status == 2 && errors.contains("this is not the result of this job"), "{errors}");
-}
-
 /// A sweep that is killed goes on where it was.
 #[test]
 fn a_sweep_that_was_killed_ends_with_the_same_results() {
@@ -171,43 +63,6 @@ fn a_sweep_that_was_killed_ends_with_the_same_results() {
     std::fs::remove_dir_all(folder.path().join("out")).expect("results");
     assert!(swept(folder.path()).contains("400 ran, 0 failed"));
     assert_eq!(table(folder.path()), killed);
-}
-
-/// A job runs again where a file that it reads has changed, and no other does.
-#[test]
-fn a_job_is_known_by_every_file_that_it_reads() {
-    let folder = folder(&json!({"format": 1, "scene": "c4/scene.json",
-        "grid": {"/scene/mesh": ["a.msh", "b.msh"], "/options/c_tll": [null]}}));
-    let at = folder.path();
-    for n in ["4", "5", "6"] {
-        let mesh = ["scene", "mesh", "punch", "--punch", n, "--foundation", n];
-        assert_eq!(ran(at, &[&mesh[..], &["--out", &format!("c{n}")]].concat()).0, 0);
-    }
-    let copy = |from: &str, to: &str| {
-        std::fs::copy(at.join(from), at.join("c4").join(to)).expect("a copy");
-    };
-    let sweep = |ran_again: &str| {
-        let printed = swept(at);
-        assert!(printed.contains(&format!("2 jobs: {ran_again} ran, 0 failed")), "{printed}");
-        let found = table(at);
-        std::fs::remove_dir_all(at.join("out")).expect("results");
-        assert!(swept(at).contains("2 ran"));
-        assert_eq!(found, table(at), "the rows are those of a sweep from the start");
-    };
-    copy("c4/punch.msh", "a.msh");
-    copy("c5/punch.msh", "b.msh");
-    sweep("2");
-    sweep("0");
-    copy("c6/punch.msh", "b.msh");
-    sweep("1");
-    copy("c5/punch.msh", "a.msh");
-    sweep("1");
-    copy("c6/punch.msh", "punch.msh");
-    sweep("0");
-    let scene = std::fs::read_to_string(at.join("c4/scene.json")).expect("a scene");
-    let scene = scene.replacen('{', "{\"iterations\": 7,", 1);
-    std::fs::write(at.join("c4/scene.json"), scene).expect("written");
-    sweep("2");
 }
 
 /// Names that a shell, an engine, or a program that has options would take for something else.

@@ -27,7 +27,17 @@ use plane_contact::{Request, Scene};
 use crate::claims::JUDGED;
 use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
-use crate::common::tolerances::{CORRECTED, CURVED, TRUE_ARCS, assert_near};
+use crate::common::tolerances::{CORRECTED, Tolerance, assert_near};
+
+/// Persson's peak pressure of the strand, relative to that of fine meshes.
+const CURVED: Tolerance =
+    Tolerance { limit: 2e-2, reason: "it has not Dundurs' β, which is 0.30 here: measured 1.8 %" };
+
+/// The peak pressure of the strand on meshes with true arcs, relative to a finer mesh's, and Hertz's.
+const TRUE_ARCS: Tolerance = Tolerance {
+    limit: 1e-2,
+    reason: "the issue's own number; measured 0.7 % at 0.2 mm, 0.1 % of Hertz's",
+};
 
 static STRAND: LazyLock<Scene> =
     LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));
@@ -84,6 +94,13 @@ fn thousands(number: usize) -> String {
 /// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
 /// minutes), and what the tables must show on any scene: without a fault nothing, with a weight added
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
+/// The quantities of a result, each declared once.
+#[test]
+fn quantities() {
+    let page = plane_contact::output::quantities::page();
+    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
+}
+
 #[test]
 fn prices() {
     let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");

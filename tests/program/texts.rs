@@ -243,10 +243,10 @@ fn every_link_of_the_guide_leads_somewhere() {
 #[test]
 fn pages_are_cited_by_the_command_that_prints_them() {
     let mut texts = Vec::new();
-    let recorded = files(&Path::new(ROOT).join("golden"));
+    let root = Path::new(ROOT);
+    let recorded = [files(&root.join("golden")), files(&root.join("tests/cases"))].concat();
     let of_program = |file: &&PathBuf| {
-        file.extension().is_some_and(|ending| ending == "snap")
-            || file.ends_with("golden/mistakes.md")
+        file.extension().is_some_and(|ending| ending == "snap" || ending == "txt")
     };
     for file in recorded.iter().filter(of_program) {
         texts.push((file.display().to_string(), std::fs::read_to_string(file).expect("text")));

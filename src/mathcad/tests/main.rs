@@ -2,13 +2,12 @@
 
 extern crate plane_contact_mathcad as mathcad;
 
-mod edges;
 mod evidence;
 mod limits;
 mod notation;
-mod recorded;
 mod recorder;
 mod regions;
+mod rules;
 mod semantics;
 mod values;
 mod xmcd;

@@ -7,12 +7,11 @@ use std::path::{Path, PathBuf};
 
 use mathcad::worksheet::{Agreement, ExecutedRegion, execute};
 use mathcad::xmcd::document::{self, Content};
-use mathcad::xmcd::page::Page;
 use mathcad::xmcd::write;
 use mathcad::{Array, Cause, Limits, Listing, Settings, Value};
 
 /// Writes a listing as a worksheet, and reads it back as text.
-fn there_and_back(listing: &Listing) -> Result<String, String> {
+pub fn there_and_back(listing: &Listing) -> Result<String, String> {
     let sheet = worksheet(std::slice::from_ref(listing));
     let sheet = document::read(&sheet, "sheet").map_err(|error| error.to_string())?;
     match &sheet.regions[0].content {
@@ -70,72 +69,6 @@ fn numbers_are_spelled_as_mathcad_saves_them() {
         assert_eq!(write::number(x), text);
         assert_eq!(text.parse(), Ok(x));
     }
-}
-
-/// A worksheet of one evaluation, with `saved` in it as Mathcad writes results.
-fn saved(expression: &str, saved: &str) -> Vec<ExecutedRegion> {
-    let listing = Listing::parse("f", &format!("_() :=\n  {expression}")).unwrap();
-    let mut page = Page::default();
-    page.define("t", write::real(0.5), 1).evaluate(write::expression(&listing), 1, "asked");
-    let result =
-        format!("<result xmlns=\"http://schemas.mathsoft.com/math30\">{saved}</result></ml:eval>");
-    let text = page.finish("", &Settings::default()).replace("</ml:eval>", &result);
-    execute(&document::read(&text, "sheet").unwrap(), &Limits::default())
-}
-
-#[test]
-fn results_are_compared_number_by_number() {
-    let verdict = |e: &str, s: &str| saved(e, s).pop().unwrap().agreement;
-    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333333331</ml:real>"), Agreement::Same);
-    assert_eq!(verdict("1 / 3", "<ml:real>0.33333333333</ml:real>"), Agreement::Digits(10));
-    assert!(matches!(verdict("1 / 3", "<ml:real>0.3</ml:real>"), Agreement::Differs { .. }));
-    assert!(matches!(verdict("1 / 0", "<ml:real>0.3</ml:real>"), Agreement::Differs { .. }));
-    let matrix =
-        "<ml:matrix rows=\"2\" cols=\"1\"><ml:real>1</ml:real><ml:real>2</ml:real></ml:matrix>";
-    assert_eq!(verdict("(1; 2)", matrix), Agreement::Same);
-    assert!(matches!(verdict("(1 2)", matrix), Agreement::Differs { .. }), "another shape");
-    assert!(matches!(verdict("(1; 2; 3)", matrix), Agreement::Differs { .. }), "one entry more");
-    assert!(matches!(verdict("1 / 0", ""), Agreement::Fails(_)), "nothing saved");
-    let two = "<ml:real>2</ml:real>";
-    for (expression, construct) in [
-        ("7·cm", "units: cm"),
-        ("kN.m", "units: kN.m"),
-        ("root(t^2 − t,t,0,1)", "the function root"),
-        ("nobody(t)", "`nobody`, which nothing above defines"),
-        ("sin·2", "a function as a value (sin)"),
-    ] {
-        let expected = Agreement::Unsupported(construct.into());
-        assert_eq!(verdict(expression, two), expected, "{expression}");
-    }
-    let fewer = "a call with fewer arguments, which is a function";
-    assert_eq!(verdict("mod(t)", "<ml:real>1</ml:real>"), Agreement::Unsupported(fewer.into()));
-    assert_eq!(
-        verdict("linterp(t,t,1)", "<ml:real>1</ml:real>"),
-        Agreement::Unsupported("the function linterp".into())
-    );
-    assert_eq!(
-        verdict("t", "<ml:complex><ml:real>1</ml:real></ml:complex>"),
-        Agreement::Unsupported("complex numbers".into())
-    );
-}
-
-/// Regions count from the top of the page, and on a line from the left, whatever their order in the
-/// file; the line is where their text aligns.
-#[test]
-fn regions_are_in_the_order_of_the_page() {
-    let region = |id: &str, left: f64, top: f64, line: &str| {
-        format!("<region region-id=\"{id}\" left=\"{left}\" top=\"{top}\"{line}/>")
-    };
-    let regions = [
-        region("last", 0.0, 30.0, ""),
-        region("third", 0.0, 5.0, " align-y=\"20\""),
-        region("second", 50.0, 10.0, ""),
-        region("first", 7.5, 10.0, ""),
-    ];
-    let text = format!("<worksheet><regions>{}</regions></worksheet>", regions.concat());
-    let sheet = document::read(&text, "sheet").unwrap();
-    let found: Vec<&str> = sheet.regions.iter().map(|region| region.id.as_str()).collect();
-    assert_eq!(found, ["first", "second", "third", "last"]);
 }
 
 /// Any program that the text notation reads means the same once it has been a worksheet; what

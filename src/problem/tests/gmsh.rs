@@ -15,61 +15,14 @@ const BLOCKS: [&str; 4] =
     ["blocks-2.2-ascii", "blocks-2.2-binary", "blocks-4.1-ascii", "blocks-4.1-binary"];
 
 /// One triangle, one of whose edges is in a physical group with a reversed orientation.
-const SMALL_2: &str = r#"$MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-2
-2 1 "the body"
-1 7 "base"
-$EndPhysicalNames
-$Nodes
-3
-30 0 1 0
-10 0 0 0
-20 1 0 0
-$EndNodes
-$Elements
-3
-9 2 2 1 4 10 20 30
-8 1 2 -7 -3 20 10
-5 15 0 10
-$EndElements
-"#;
+const SMALL_2: &str = include_str!("gmsh/small-2.2-ascii.msh");
 
 /// The same mesh.
-const SMALL_4: &str = r#"$MeshFormat
-4.1 0 8
-$EndMeshFormat
-$PhysicalNames
-2
-2 1 "the body"
-1 7 "base"
-$EndPhysicalNames
-$Entities
-0 1 1 0
--3 0 0 0 1 0 0 1 -7 0
-4 0 0 0 1 1 0 1 1 1 -3
-$EndEntities
-$Nodes
-2 3 10 30
-1 -3 1 2
-20
-10
-1 0 0 0.5
-0 0 0 0.75
-2 4 0 1
-30
-0 1 0
-$EndNodes
-$Elements
-2 2 8 9
-2 4 2 1
-9 10 20 30
-1 -3 1 1
-8 20 10
-$EndElements
-"#;
+const SMALL_4: &str = include_str!("gmsh/small-4.1-ascii.msh");
+
+/// Both in binary.
+const BINARY: [&[u8]; 2] =
+    [include_bytes!("gmsh/small-2.2-binary.msh"), include_bytes!("gmsh/small-4.1-binary.msh")];
 
 fn bytes(path: &str) -> Vec<u8> {
     fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"))
@@ -300,101 +253,19 @@ fn a_triangle_of_several_groups_is_one_in_both_versions() {
     }
 }
 
-/// Writes binary files, the least significant byte first.
-#[derive(Default)]
-struct Writer {
-    bytes: Vec<u8>,
-}
-
-impl Writer {
-    fn text(&mut self, text: &str) {
-        self.bytes.extend(text.as_bytes());
-    }
-
-    fn ints(&mut self, numbers: &[i32]) {
-        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
-    }
-
-    fn sizes(&mut self, numbers: &[u64]) {
-        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
-    }
-
-    fn doubles(&mut self, numbers: &[f64]) {
-        numbers.iter().for_each(|number| self.bytes.extend(number.to_le_bytes()));
-    }
-
-    fn head(&mut self, version: &str) {
-        self.text(&format!("$MeshFormat\n{version} 1 8\n"));
-        self.ints(&[1]);
-        self.text("\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"the body\"\n1 7 \"base\"\n");
-        self.text("$EndPhysicalNames\n");
-    }
-
-    /// [`SMALL_2`] in binary.
-    fn small_2(&mut self) {
-        self.head("2.2");
-        self.text("$Nodes\n3\n");
-        for (number, x, y) in [(30, 0.0, 1.0), (10, 0.0, 0.0), (20, 1.0, 0.0)] {
-            self.ints(&[number]);
-            self.doubles(&[x, y, 0.0]);
-        }
-        self.text("\n$EndNodes\n$Elements\n3\n");
-        self.ints(&[2, 1, 2, 9, 1, 4, 10, 20, 30]);
-        self.ints(&[1, 1, 2, 8, -7, -3, 20, 10]);
-        self.ints(&[15, 1, 0, 5, 10]);
-        self.text("\n$EndElements\n");
-    }
-
-    /// [`SMALL_4`] in binary.
-    fn small_4(&mut self) {
-        self.head("4.1");
-        self.text("$Entities\n");
-        self.sizes(&[0, 1, 1, 0]);
-        for (tag, physical, bounds) in [(-3, -7, &[][..]), (4, 1, &[-3])] {
-            self.ints(&[tag]);
-            self.doubles(&[0.0; 6]);
-            self.sizes(&[1]);
-            self.ints(&[physical]);
-            self.sizes(&[bounds.len() as u64]);
-            self.ints(bounds);
-        }
-        self.text("\n$EndEntities\n$Nodes\n");
-        self.sizes(&[2, 3, 10, 30]);
-        self.ints(&[1, -3, 1]);
-        self.sizes(&[2, 20, 10]);
-        self.doubles(&[1.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.75]);
-        self.ints(&[2, 4, 0]);
-        self.sizes(&[1, 30]);
-        self.doubles(&[0.0, 1.0, 0.0]);
-        self.text("\n$EndNodes\n$Elements\n");
-        self.sizes(&[2, 2, 8, 9]);
-        self.ints(&[2, 4, 2]);
-        self.sizes(&[1, 9, 10, 20, 30]);
-        self.ints(&[1, -3, 1]);
-        self.sizes(&[1, 8, 20, 10]);
-        self.text("\n$EndElements\n");
-    }
-}
-
 #[test]
 fn binary_files_are_read() {
-    let mut file = Writer::default();
-    file.small_2();
-    assert_eq!(read(&file.bytes), Ok(small()));
-    let mut file = Writer::default();
-    file.small_4();
-    assert_eq!(read(&file.bytes), Ok(small_4()));
+    assert_eq!(BINARY.map(read), [Ok(small()), Ok(small_4())]);
 }
 
 /// As a machine writes that stores the most significant byte first.
 #[test]
 fn the_other_byte_order_is_refused_by_name() {
-    for version in ["2.2", "4.1"] {
-        let mut file = Writer::default();
-        file.head(version);
-        let at = file.bytes.iter().position(|byte| *byte == 1).expect("the number 1");
-        file.bytes[at..at + 4].reverse();
-        let error = read(&file.bytes).expect_err(version).to_string();
+    for file in BINARY {
+        let mut file = file.to_vec();
+        let at = file.iter().position(|byte| *byte == 1).expect("the number 1");
+        file[at..at + 4].reverse();
+        let error = read(&file).expect_err("the other order").to_string();
         assert!(error.contains("save the mesh again on this machine, or as text"), "{error}");
     }
 }
@@ -407,98 +278,18 @@ fn a_physical_tag_of_zero_is_none() {
     assert_eq!(read(text.as_bytes()), Ok(small_4()));
 }
 
-/// The error of `text` with its first `from` replaced by `to`.
-fn error_of(text: &str, from: &str, to: &str) -> String {
-    assert!(text.contains(from), "{from:?} is not in the file");
-    read(text.replacen(from, to, 1).as_bytes()).expect_err(to).to_string()
-}
-
+/// Each line of the file: a version, what is replaced, by what, and the error.
 #[test]
-fn faults_of_2_2_are_named_with_their_line() {
-    #[rustfmt::skip]
-    let faults = [
-        ("$MeshFormat\n", "MeshFormat\n",
-         "line 1: found \"MeshFormat\", expected $MeshFormat, the first section of a Gmsh mesh (MSH \
-          2.0 to 2.2, or 4.1)"),
-        ("$MeshFormat", "$NOD",
-         "line 1: the file has MSH version 1; versions 2.0 to 2.2 and 4.1 can be read: in Gmsh set \
-          Mesh.MshFileVersion = 4.1 and save the mesh again"),
-        ("$MeshFormat", "$Nodes\n$EndNodes\n$MeshFormat",
-         "line 1: found $Nodes, expected $MeshFormat, the first section of a Gmsh mesh (MSH 2.0 to \
-          2.2, or 4.1)"),
-        ("30 0 1 0", "3000000000 0 1 0",
-         "line 11: found \"3000000000\", beyond the largest number 2147483647, expected a node's \
-          number, 1 or more"),
-        ("2.2 0 8", "3 0 8",
-         "line 2: the file has MSH version 3; versions 2.0 to 2.2 and 4.1 can be read: in Gmsh set \
-          Mesh.MshFileVersion = 4.1 and save the mesh again"),
-        ("2.2 0 8", "2.2 2 8", "line 2: found 2, expected 0 (text) or 1 (binary)"),
-        ("2.2 0 8", "2.2 0 4",
-         "line 2: the file has numbers of 4 bytes, expected 8: save the mesh with a 64-bit Gmsh"),
-        ("2 1 \"the", "4 1 \"the", "line 6: found 4, expected a dimension from 0 to 3"),
-        ("2 1 \"the body\"", "2 1 body",
-         "line 6: found \"body\", expected a name in quotation marks"),
-        ("1 7 \"base\"", "2 -1 \"base\"",
-         "line 7: the name of the physical surface -1 comes a second time"),
-        ("30 0 1 0", "0 0 1 0", "line 11: found 0, expected a node's number, 1 or more"),
-        ("30 0 1 0", "30 0 one 0", r#"line 11: found "one", expected a node's coordinate"#),
-        ("30 0 1 0", "30 0 NaN 0",
-         "line 11: node 30 has the coordinate NaN, expected a finite number"),
-        ("30 0 1 0", "30 0 -1e999 0",
-         "line 11: node 30 has the coordinate -inf, expected a finite number"),
-        ("20 1 0 0", "10 1 0 0", "line 13: node 10 comes a second time"),
-        ("$Nodes\n3", "$Nodes\n2", r#"line 13: found "20", expected $EndNodes"#),
-        ("$Nodes\n3", "$Nodes\n4",
-         "line 14: found \"$EndNodes\", expected a node's number, 1 or more"),
-        ("$Nodes\n3", "$Nodes\n3 3", r#"line 10: found "3", expected the end of the line"#),
-        ("$EndNodes", "$EndNodes!", r#"line 14: found "$EndNodes!", expected $EndNodes"#),
-        ("$EndNodes\n", "$EndNodes\nmore\n",
-         "line 15: found \"more\", expected the beginning of a section, such as $Nodes"),
-        ("$Nodes", "$nodes", "line 21: found the end of the file, expected $Endnodes"),
-        ("$EndNodes\n", "$EndNodes\n$EndNodes\n",
-         "line 15: found \"$EndNodes\", expected the beginning of a section, such as $Nodes"),
-        ("$EndNodes\n", "$EndNodes\n$\n",
-         "line 15: found \"$\", expected the beginning of a section, such as $Nodes"),
-        ("9 2 2 1 4 10", "9 3 2 1 4 10",
-         "line 17: element 9 is a four-node quadrangle (surface 4, \"the body\"); only points, two-node \
-          edges and three-node triangles can be read: in Gmsh take out Recombine Surface {4}, set \
-          Mesh.RecombineAll = 0 and Mesh.SubdivisionAlgorithm = 0, and mesh again in two dimensions (-2)"),
-        ("9 2 2 1 4 10", "9 9 2 1 4 10",
-         "line 17: element 9 is a six-node triangle (surface 4, \"the body\"); only points, two-node edges and \
-          three-node triangles can be read: in Gmsh set Mesh.ElementOrder = 1, and mesh again in two dimensions (-2)"),
-        ("9 2 2 1 4 10", "9 4 2 1 4 10",
-         "line 17: element 9 is a four-node tetrahedron (volume 4); only points, two-node edges and three-node \
-          triangles can be read: in Gmsh mesh surfaces, not volumes, and mesh again in two dimensions (-2)"),
-        ("8 1 2 -7", "9 1 2 -7", "line 18: element 9 comes a second time"),
-        ("4 10 20 30", "4 10 20 40", "line 17: element 9 has the node 40, which is not in $Nodes"),
-        ("9 2 2 1", "9 2 -2 1", "line 17: found -2, expected an element's number of tags"),
-    ];
-    for (from, to, expected) in faults {
-        assert_eq!(error_of(SMALL_2, from, to), expected, "{to:?}");
-    }
-}
-
-#[test]
-fn faults_of_4_1_are_named_with_their_line() {
-    #[rustfmt::skip]
-    let faults = [
-        ("2 4 0 1\n", "2 4 2 1\n", "line 21: found 2, expected 0 or 1 (parametric)"),
-        ("2 4 0 1\n", "4 4 0 1\n", "line 21: found 4, expected an entity's dimension, 0 to 3"),
-        ("2 3 10 30", "2 4 10 30", "line 23: 4 nodes are declared but 3 are given"),
-        ("2 2 8 9", "2 3 8 9", "line 30: 3 elements are declared but 2 are given"),
-        ("1 -3 1 1\n", "1 5 1 1\n",
-         "line 29: the elements are part of the curve 5, which is not in $Entities; if the mesh is \
-          partitioned, save it unpartitioned"),
-        ("1 -3 1 1\n", "1 -3 15 1\n",
-         "line 30: element 8 has dimension 0, but it is listed in an entity of dimension 1"),
-        ("1 -7 0", "33 -7 0",
-         "line 11: found 33, expected at most 32 physical groups of an entity"),
-        ("0 1 1 0\n", "0 1 2 0\n", "line 13: found \"$EndEntities\", expected an entity's tag"),
-        ("$EndElements\n", "$EndElements\n$Entities\n",
-         "line 32: found $Entities after $Elements, expected $Entities first"),
-    ];
-    for (from, to, expected) in faults {
-        assert_eq!(error_of(SMALL_4, from, to), expected, "{to:?}");
+fn faults_are_named_with_their_line() {
+    for fault in include_str!("gmsh/faults.txt").lines().skip(1) {
+        let [version, from, to, expected] = fault.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{fault}")
+        };
+        let [from, to] = [from, to].map(|text| text.replace('⏎', "\n"));
+        let text = if version == "2.2" { SMALL_2 } else { SMALL_4 };
+        assert!(text.contains(&from), "{fault}");
+        let error = read(text.replacen(&from, &to, 1).as_bytes()).expect_err(fault);
+        assert_eq!(error.to_string(), expected);
     }
 }
 
@@ -525,12 +316,10 @@ fn missing_and_repeated_sections_are_named() {
 
 #[test]
 fn a_binary_fault_is_named_with_its_byte() {
-    let mut file = Writer::default();
-    file.small_2();
-    let nodes = file.bytes.windows(7).position(|window| window == b"$Nodes\n").unwrap();
-    let at = nodes + 9;
-    file.bytes[at..at + 4].fill(0);
-    let error = read(&file.bytes).unwrap_err().to_string();
+    let mut file = BINARY[0].to_vec();
+    let at = file.windows(7).position(|window| window == b"$Nodes\n").unwrap() + 9;
+    file[at..at + 4].fill(0);
+    let error = read(&file).unwrap_err().to_string();
     assert_eq!(error, format!("byte {at}: found 0, expected a node's number, 1 or more"));
 }
 
@@ -572,11 +361,7 @@ fn scene_on(mesh: &[u8], node: usize) -> base::error::Result<SceneBuilder> {
 /// Both versions, text and binary, number their nodes 10, 20, 30.
 #[test]
 fn node_numbers_with_gaps_are_closed_in_every_encoding() {
-    let (mut binary_2, mut binary_4) = (Writer::default(), Writer::default());
-    binary_2.small_2();
-    binary_4.small_4();
-    let text = [SMALL_2.as_bytes(), SMALL_4.as_bytes()];
-    for file in text.into_iter().chain([&*binary_2.bytes, &*binary_4.bytes]) {
+    for file in [SMALL_2.as_bytes(), SMALL_4.as_bytes()].into_iter().chain(BINARY) {
         let scene = scene_on(file, 30).expect("it is read");
         assert_eq!(scene.mesh.nodes.iter().map(|n| n.number).collect::<Vec<_>>(), [1, 2, 3]);
         assert_eq!(triangles(&scene.mesh), [(vec![1], vec![1, 2, 3])]);

@@ -1,13 +1,10 @@
-//! What a scene is built into: bodies and how they are held, loads of edges, identifiers and
-//! boxes; and what is refused at the edges of what a mesh and a load may be.
+//! What a scene is built into: bodies and how they are held, loads of edges, identifiers and boxes.
 
 use nalgebra::DVector;
 use problem::element::Plane;
 use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
-use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder, file};
-use serde_json::{Value, json};
-use testing::embedded::scene_json;
-use testing::json::build;
+use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder, file};
+use serde_json::json;
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
 /// a gap; the nodes of block k are 4k + 1 to 4k + 4, counter-clockwise from the lower left one.
@@ -205,14 +202,6 @@ fn stages_count_without_a_gap() {
     assert_eq!(staged(&[1]), Ok(1));
     assert_eq!(staged(&[2, 1]), Ok(2));
     assert_eq!(staged(&[1, 3, 2, 3]), Ok(3));
-    assert_eq!(staged(&[0]).unwrap_err(), "stages count from 1");
-    assert_eq!(staged(&[1, 3]).unwrap_err(), "no load has stage 2, but one has stage 3");
-    assert_eq!(staged(&[2]).unwrap_err(), "no load has stage 1, but one has stage 2");
-    let last = usize::MAX.to_string();
-    assert_eq!(
-        staged(&[1, usize::MAX]).unwrap_err(),
-        format!("no load has stage 2, but one has stage {last}")
-    );
 }
 
 #[test]
@@ -282,78 +271,6 @@ fn shapes_and_places() {
     let (_, mesh) = finer.scene.source();
     assert!(mesh.nodes.iter().zip(1..).all(|(node, number)| node.number == number));
     assert!(mesh.elements.iter().zip(1..).all(|(element, number)| element.number == number));
-}
-
-/// Reads the scene `fig1` after a change.
-fn changed(change: impl FnOnce(&mut Value)) -> Result<Scene, String> {
-    let mut scene = scene_json("fig1");
-    change(&mut scene);
-    build(&scene).map_err(|error| error.to_string())
-}
-
-fn push(list: &mut Value, value: Value) {
-    list.as_array_mut().expect("a list").push(value);
-}
-
-/// The first number that is refused, and the last that is not.
-#[test]
-fn meshes_at_the_edges_of_what_is_allowed() {
-    // 19 elements: 16 · 19 + 1024 is 1328.
-    let number =
-        |number: usize| changed(|s| push(&mut s["elem"], json!([number, 1, 2, 50, 1, 1, 2])));
-    assert!(number(1328).is_ok());
-    let error = number(1329).expect_err("too large");
-    assert!(error.contains("element number 1329 for 19 elements"), "{error}");
-    let error = number(0).expect_err("none");
-    assert!(error.contains("element number 0") || error.contains("0 is no element"), "{error}");
-    let node = |node: usize| changed(|s| push(&mut s["elem"], json!([19, 1, 2, 50, 1, 1, node])));
-    assert!(node(13).is_ok());
-    for none in [0, 14] {
-        let error = node(none).expect_err("no node");
-        assert!(error.contains(&format!("node number {none}")), "{error}");
-    }
-    let tag = |tag: i64| changed(|s| push(&mut s["elem"], json!([19, 1, 2, tag, 1, 1, 2])));
-    assert!(tag(i64::from(i32::MAX)).is_ok());
-    assert!(tag(i64::from(i32::MAX) + 1).is_err());
-    let flat =
-        changed(|s| s["node"][9] = json!([10, 0.5, 0.01, 0.0])).expect_err("a flat triangle");
-    assert!(flat.contains("has the area 0"), "{flat}");
-    let clockwise =
-        changed(|s| s["elem"][9] = json!([10, 2, 2, 1, 1, 1, 2, 10])).expect_err("turned");
-    assert!(clockwise.contains("runs clockwise: its area is -"), "{clockwise}");
-    let twice = changed(|s| s["node"][12][0] = json!(12.0)).expect_err("twice");
-    assert!(twice.contains("node 12 is given twice"), "{twice}");
-    let plane = changed(|s| s["node"][12][3] = json!(1.0)).expect_err("not plane");
-    assert!(plane.contains("node 13 has z = 1"), "{plane}");
-    let empty = changed(|s| s["contact"]["cnt"] = json!([])).expect_err("empty");
-    assert!(empty.contains("the list is empty"), "{empty}");
-    let empty = changed(|s| s["contact"]["trg"] = json!([])).expect_err("empty");
-    assert!(empty.contains("the list is empty"), "{empty}");
-}
-
-/// Up to ten nodes without a triangle are named, of more how many there are.
-#[test]
-fn nodes_of_no_triangle_are_listed() {
-    let apart = |count: usize| {
-        let result = changed(|s| {
-            (14..14 + count).for_each(|n| push(&mut s["node"], json!([n, 50.0, n, 0.0])));
-        });
-        result.expect_err("they belong to no triangle")
-    };
-    assert!(apart(1).contains("node 14 belongs to no triangle"), "{}", apart(1));
-    let ten = "14, 15, 16, 17, 18, 19, 20, 21, 22, 23";
-    assert!(apart(10).contains(&format!("nodes {ten} belong")), "{}", apart(10));
-    assert!(apart(12).contains(&format!("nodes {ten} and 2 more belong")), "{}", apart(12));
-}
-
-/// A group that is not there: the groups that are.
-#[test]
-fn unknown_groups_name_the_known_ones() {
-    let scene = held(blocks(&["a", "b"]), 2).pressure("wall", 1.0);
-    let error = scene.build().expect_err("there is no wall");
-    let known = ["bottom 0", "bottom 1", "right 0", "right 1", "top 0", "top 1"];
-    assert!(known.iter().all(|name| error.fix.contains(name)), "{error}");
-    assert!(!error.fix.contains("\"a\""), "groups of edges alone: {error}");
 }
 
 /// What differs from its default is written, and nothing else.
