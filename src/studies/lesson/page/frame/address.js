@@ -41,7 +41,8 @@ function address() {
   if (page.isBeside) fields.beside = 1;
   if (speech.language !== data.language) fields.language = speech.language;
   for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = editOf(page.edits.get(run()[name]), textOf(run()[name]));
-  return `#${new URLSearchParams(fields)}`;
+  // Brackets and commas need no escape behind #.
+  return `#${new URLSearchParams(fields)}`.replace(/%(28|29|5B|5D|2C)/g, decodeURIComponent);
 }
 
 /** Writes the situation into the address once nothing has changed for a while. */
@@ -58,7 +59,7 @@ function keepAddress() {
 async function copyLink() {
   const link = location.protocol === "file:" ? address() : new URL(address(), location.href).href;
   const isCopied = await stored(() => navigator.clipboard.writeText(link).then(() => true, () => false));
-  say("said", isCopied ? t(location.protocol === "file:" ? "Copied: it goes behind the address of the lesson’s file." : "The link is copied.") : link);
+  say("said", !isCopied ? link : location.protocol === "file:" ? t("Copied: it goes behind the address of the lesson’s file.") : t("The link is copied."));
   byId("link").firstChild.data = isCopied ? t("copied") : t("in the address bar");
   setTimeout(() => (byId("link").firstChild.data = t("copy link")), 2000);
   history.replaceState(null, "", link);
