@@ -471,7 +471,7 @@ async function deep(browser) {
   await page.locator("#tolerance").fill("1");
   assert.match(await page.locator("#conclusion dd").last().textContent(), /as given, not of your changes/);
   await to("#chapter=C1&beside=1");
-  await page.locator("#title", { hasText: "C1: c_cnt 5, 6" }).waitFor();
+  await page.locator("#title", { hasText: "C1: the search box grows" }).waitFor();
   assert.match(await page.textContent("#finding"), /No load acts on this scene: only the corrected iterations/);
   await page.click("#end");
   assert.match(await page.textContent("#conclusion"), /costs: C1/);
