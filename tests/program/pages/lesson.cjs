@@ -525,7 +525,7 @@ async function repairs(browser) {
   assert.equal(await page.isChecked("input[value=Km]"), true, "K1 is repaired in Km");
   await page.waitForURL(/chapter=repairs&run=after\+1/);
   await page.click("#repairs a:text-is('K5')");
-  await page.locator("#title", { hasText: "K5: around the listings" }).waitFor();
+  await page.locator("#title", { hasText: "K5: eq. (1) on total" }).waitFor();
   assert.deepEqual(said, []);
 }
 
