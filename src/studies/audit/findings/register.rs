@@ -293,7 +293,7 @@ pub const FINDINGS: &[Finding] = &[
                      findings/K5 --variant stepped, eq. (1) on increments, does not cycle",
         },
         before: Preparation::AsPrinted,
-        number: "iterations after which the contact state repeats under tied; settled would be 1",
+        number: "final period of the contact state under tied, iterations; 1 = settled",
         measure: stiffness::cycle,
     },
     Finding {
