@@ -259,15 +259,9 @@ const ONCE: [Once; 3] = [
 ];
 
 impl Once {
-    /// Returns whether edits leave the lines, and the normals that they may call for, as in the texts of record.
-    fn is_left_by(&self, edits: &[&str]) -> bool {
-        let own = |listing: &Listing| -> Vec<Line> {
-            let lines = listing.lines().iter();
-            lines.filter(|line| self.lines.contains(&line.printed)).cloned().collect()
-        };
-        let normals = Program::Normals;
-        own(&program(self.program, edits)) == own(&self.program.listing())
-            && program(normals, edits).lines() == normals.listing().lines()
+    fn lines_of(&self, listing: &Listing) -> Vec<Line> {
+        let lines = listing.lines().iter();
+        lines.filter(|line| self.lines.contains(&line.printed)).cloned().collect()
     }
 
     /// Returns the lines' value; None where they fail, as the whole program does then and says why, or read
@@ -322,22 +316,30 @@ impl<'m> Worksheet<'m> {
     /// A program fails: the matrix is singular where contact and restraints leave a body free to move.
     pub fn iterate(&self, edits: &[&str], steps: usize) -> Result<Ending, Box<Failure>> {
         let mut sheet = self.sheet.clone();
-        let mut main = Rc::new(program(Program::Iterate, edits));
-        for own in Program::ALL {
-            let mut listing = program(*own, edits);
-            for once in ONCE.iter().filter(|once| once.program == *own) {
-                if !once.is_left_by(edits) {
-                    let Some(value) = once.value(edits, &sheet) else { continue };
-                    sheet.define(once.name, value);
-                }
-                let shorter = once.program(edits, &listing).filter(|_| sheet.has(once.name));
-                listing = shorter.unwrap_or(listing);
-            }
-            main = Rc::new(listing);
-            sheet.define_program(Rc::clone(&main));
+        for other in Program::ALL.iter().filter(|other| **other != Program::Iterate) {
+            let listing = shortened(*other, edits, &mut sheet);
+            sheet.define_program(Rc::new(listing));
         }
+        let main = shortened(Program::Iterate, edits, &mut sheet);
         ending(self.model, &sheet, &main, steps)
     }
+}
+
+/// Returns a program with what concerns it of the edits, in which values stand in place of what is computed once; those
+/// that edits change are computed anew, by the programs that the worksheet has.
+fn shortened(own: Program, edits: &[&str], sheet: &mut Sheet) -> Listing {
+    let normals = Program::Normals;
+    let are_turned = program(normals, edits).lines() != normals.listing().lines();
+    let mut listing = program(own, edits);
+    for once in ONCE.iter().filter(|once| once.program == own) {
+        if are_turned || once.lines_of(&listing) != once.lines_of(&own.listing()) {
+            let Some(value) = once.value(edits, sheet) else { continue };
+            sheet.define(once.name, value);
+        }
+        let shorter = once.program(edits, &listing).filter(|_| sheet.has(once.name));
+        listing = shorter.unwrap_or(listing);
+    }
+    listing
 }
 
 fn limits() -> Limits {

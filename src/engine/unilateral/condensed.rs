@@ -71,8 +71,8 @@ impl<'a> Condensed<'a> {
             let known = entries.iter().all(|i| !forces[*i].undetermined);
             known.then(|| DVector::from(entries.iter().flat_map(of_entry).collect::<Vec<f64>>()))
         };
-        let at_rest = forces(&search.solved_state(&held, &constraints)?.reaction)?;
-        let bodies = search.bodies(&constraints)?;
+        let (bodies, solved) = search.held(&held, &constraints).ok()?.ok()?;
+        let at_rest = forces(&solved.reaction)?;
         let size = at_rest.len();
         let mut stiffness = DMatrix::zeros(size, size);
         for column in 0..size {

@@ -33,10 +33,29 @@ impl StateSearch<'_> {
         Held::new(self.loaded(), constraints, self.setting.part.min(1.0))
     }
 
-    /// Factors the equations of the surfaces, or where these do not serve the whole ones; None where the
-    /// constraints do not hold the bodies.
-    pub(super) fn bodies(&self, constraints: &[Constraint]) -> Option<Held<'_>> {
-        self.reduced(constraints).or_else(|| self.whole(constraints).ok())
+    /// Solves under imposed statuses, by the equations of the surfaces, or where these do not serve by the whole
+    /// ones; returns also the bodies with the factors that served, and where the constraints do not hold these,
+    /// the equations under them.
+    ///
+    /// # Errors
+    /// No friction agrees with its own normal forces.
+    pub(super) fn held(
+        &self,
+        statuses: &[Status],
+        constraints: &[Constraint],
+    ) -> Result<Result<(Held<'_>, StateSolution), Unheld>, NoEquilibrium> {
+        if let Some(bodies) = self.reduced(constraints)
+            && let Some(solved) = self.solved(statuses, &bodies)?
+        {
+            return Ok(Ok((bodies, solved)));
+        }
+        Ok(match self.whole(constraints) {
+            Ok(bodies) => {
+                let solved = self.solved(statuses, &bodies)?;
+                Ok((bodies, solved.expect("the whole equations have a solution")))
+            }
+            Err(unheld) => Err(unheld),
+        })
     }
 
     /// Solves for the displacements and forces under imposed statuses.
@@ -48,16 +67,8 @@ impl StateSearch<'_> {
         statuses: &[Status],
         constraints: &[Constraint],
     ) -> Result<StateAttempt, NoEquilibrium> {
-        if let Some(bodies) = self.reduced(constraints)
-            && let Some(solved) = self.solved(statuses, &bodies)?
-        {
-            return Ok(StateAttempt::Solved(solved));
-        }
-        match self.whole(constraints) {
-            Ok(bodies) => {
-                let solved = self.solved(statuses, &bodies)?;
-                Ok(StateAttempt::Solved(solved.expect("the whole equations have a solution")))
-            }
+        match self.held(statuses, constraints)? {
+            Ok((_, solved)) => Ok(StateAttempt::Solved(solved)),
             Err(Unheld { t, dof }) => {
                 let soft = self.problem.stiffness.reduced(&t).softly_held();
                 let load = t.load(&self.setting.load);

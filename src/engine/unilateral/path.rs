@@ -237,10 +237,9 @@ impl<'a> Run<'a> {
         self.taken.retain(|part| part.to <= from.load);
         let why = match why {
             Error::Equilibrium(why) if why.cause == Cause::NotFound => {
-                let on_springs = |problem: &Problem<'a>, setting: &Setting, watch: &mut Watch| {
+                match self.step(from, to, |problem, setting, watch| {
                     problem.on_springs(setting, &why.what, watch)
-                };
-                match self.step(from, to, on_springs) {
+                }) {
                     Ok(found) => return Ok(found),
                     Err(more) => more,
                 }
