@@ -84,7 +84,10 @@ fn solve() {
 fn audit() {
     for scene in SCENES {
         let screen = assert_text(scene, "audit", &["audit", scene]);
-        assert!(screen.lines().count() <= 60, "{screen}");
+        assert!(screen.split_whitespace().count() <= 350, "{screen}");
+        let verdict = screen.split("\n\n").nth(1).expect("a verdict");
+        assert!(verdict.starts_with("No. "), "{verdict}");
+        assert!(verdict.split_whitespace().count() <= 12 + 3 * 25, "{verdict}");
         assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
     }
     assert_text("fig1", "audit-full", &["audit", "fig1", "--full"]);

@@ -28,7 +28,7 @@ use commands::{
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its
+One screen: the verdict, the paper's runs beside the equilibrium, the verdicts on its
 claims, what each fault costs, what was assumed. --full prints the whole: what the verdict
 leaves out, the claims of the paper in full, the readings (what each other value changes), the
 findings (present, not triggered here, contradicted; with a number), and the variants side by side.

@@ -40,7 +40,7 @@ base::choices! {
 /// Write an audit report, ready to be handed in.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The first screen, and page 1 in print: a verdict to quote, the runs beside the equilibrium, pressure
+The first screen, and page 1 in print: a verdict, the runs beside the equilibrium, pressure
 and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts
 unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures,
 differences from CalculiX, what could not be checked, a glossary, and the command that makes it

@@ -15,7 +15,10 @@ async function screen(browser) {
   const prose = await page.locator("header h1, header p, #first p, #first li").evaluateAll((all) => all.filter((one) => one.checkVisibility()).map((one) => one.innerText));
   const words = (text) => text.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
   const count = words(prose.join(" "));
-  assert.ok(count <= 220, `${count} words`);
+  assert.ok(count <= 150, `${count} words of prose`);
+  const all = words(await page.innerText("header div") + " " + (await page.innerText("#first")));
+  assert.ok(all <= 350, `${all} words`);
+  assert.match(await page.innerText(".verdict h2"), /^No\. /);
   for (const sentence of prose.flatMap((text) => text.split(/[.:;](?=\s)/))) assert.ok(words(sentence) <= 30, sentence);
   assert.deepEqual(said, []);
 }
