@@ -62,6 +62,11 @@ fn solvers() {
 }
 
 #[test]
+fn trade() {
+    check("trade");
+}
+
+#[test]
 fn worksheets() {
     check("worksheets");
 }

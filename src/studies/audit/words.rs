@@ -190,9 +190,10 @@ fn answer(audit: &Audit) -> &'static str {
             "Yes. As printed the algorithm solves this contact problem, within 1 %."
         }
         (Some(_), _)
-        | (None, Coupled { joins: Some(0), .. } | Coupled { failure: Some(NoFigures::Fails(_)), .. }) => {
-            "No. As printed the algorithm does not solve this contact problem."
-        }
+        | (
+            None,
+            Coupled { joins: Some(0), .. } | Coupled { failure: Some(NoFigures::Fails(_)), .. },
+        ) => "No. As printed the algorithm does not solve this contact problem.",
         (None, _) => "Not decided: the print has no result here, or there is none to compare with.",
     }
 }
@@ -432,9 +433,7 @@ fn by_scope(judged: &[JudgedClaim]) -> Table {
 /// The faults that cost most.
 fn faults(audit: &Audit) -> Section {
     let said = match prices::by_cost(&audit.prices) {
-        Ok(costs) => {
-            Report::default().notes(costs.into_iter().take(DEAREST)).note(ALL_FAULTS)
-        }
+        Ok(costs) => Report::default().notes(costs.into_iter().take(DEAREST)).note(ALL_FAULTS),
         Err(why) => Report::default().note(why),
     };
     Section::new("faults", FAULTS, said)

@@ -4,10 +4,10 @@
 use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
+use crate::audit::Audit;
 use crate::audit::claims::{CLAIMS, Claim, claim_tables as claims};
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::words::{Depth, JUDGED, Section, sections};
-use crate::audit::Audit;
 use base::xml::escape;
 use output::html::{anchor, prose};
 use output::layout::counted;
