@@ -62,6 +62,11 @@ fn solvers() {
 }
 
 #[test]
+fn summary() {
+    check("summary");
+}
+
+#[test]
 fn trade() {
     check("trade");
 }

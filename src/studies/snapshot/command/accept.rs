@@ -51,7 +51,7 @@ fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) 
     let file = shown(path);
     let given = given_file.map(Scene::of_file).transpose()?;
     let old = Snapshot::of_file(path, text)?;
-    let (scene, said) = scene_of(path, &old, given.as_ref())?;
+    let (scene, said) = scene_of(path, &old, given.as_ref(), false)?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
