@@ -27,6 +27,11 @@ use same_text::same_text;
 use tempfile::TempDir;
 
 #[test]
+fn bodies() {
+    check("bodies");
+}
+
+#[test]
 fn contact() {
     check("contact");
 }

@@ -126,7 +126,9 @@ fn bodies(solution: &Solution, bodies: &[BodySummary], error: Option<f64>) -> Re
     let shown = BodySummary::QUANTITIES.iter().filter(|q| q.name != "as_large" || has_equals);
     let table = quantities::table(bodies, shown, &solution.request.scene.units, error);
     let beyond = beyond_range(&solution.model, &solution.elements, &solution.u);
-    Report::default().table("Bodies", table).notes(beyond.map(|what| format!("NOTE: {what}")))
+    let doubts = solution.request.scene.doubtful_units(beyond.is_some());
+    let notes = beyond.into_iter().chain(doubts).map(|what| format!("NOTE: {what}"));
+    Report::default().table("Bodies", table).notes(notes)
 }
 
 /// Lists what each restraint carries, and compares their sum with the loads.

@@ -104,9 +104,9 @@ fn by_place(mesh: &Mesh) -> (Vec<String>, Vec<String>) {
     let places: HashMap<usize, String> =
         mesh.nodes.iter().map(|node| (node.number, place(node))).collect();
     let mut elements: HashMap<usize, Vec<String>> = HashMap::new();
-    for Element { nodes, kind, physical, .. } in &mesh.elements {
-        let corners: Vec<&String> = nodes.iter().map(|node| &places[node]).collect();
-        let own = format!("{kind} {physical:?} {corners:?}");
+    for Element { nodes, kind, physical, geometric, .. } in &mesh.elements {
+        let corners: Vec<Option<&String>> = nodes.iter().map(|node| places.get(node)).collect();
+        let own = format!("{kind} {physical:?} {geometric} {corners:?}");
         nodes.iter().for_each(|node| elements.entry(*node).or_default().push(own.clone()));
     }
     let node = |node: &Node| {
