@@ -21,8 +21,8 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_report, print_stderr,
-    progress, read_listing, report_error, waiting,
+    RunArgs, SceneArgs, TablesArgs, command_line, folder, folder_name, print, print_report,
+    print_stderr, progress, read_listing, report_error, waiting,
 };
 
 /// Run the iterations and write pictures and data.
@@ -104,7 +104,10 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let ((solution, accuracy), plan) = (solved?, plan?);
     let assessment = waiting("assessing", || assess(args, &solution));
     let result = waiting("writing", || match is_written {
-        true => output::folder::write(&out, &solution, &assessment, Some(&plan), wanted),
+        true => {
+            let command = command_line();
+            output::folder::write(&out, &solution, &assessment, Some(&plan), wanted, &command)
+        }
         false => Ok(output::folder::result(&solution, &assessment, Some(&plan), wanted)),
     })?;
     if args.tables.json {

@@ -52,6 +52,11 @@ fn meshes() {
 }
 
 #[test]
+fn pictures() {
+    check("pictures");
+}
+
+#[test]
 fn sentences() {
     check("sentences");
 }

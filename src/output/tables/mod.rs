@@ -27,9 +27,18 @@ use problem::modelling::{ContactModel, Variant};
 
 /// Reports the end of a run: its result, its bodies and its contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
+    summary(solution, assessment).then(details(solution, assessment))
+}
+
+/// Reports what was run, and its result.
+pub fn summary(solution: &Solution, assessment: &Assessment) -> Report {
+    heading(solution).then(result::result(solution, assessment))
+}
+
+/// Reports the bodies, the restraints and the contact surface of a run.
+pub fn details(solution: &Solution, assessment: &Assessment) -> Report {
     let error = error_of_mesh(assessment);
-    heading(solution)
-        .then(result::result(solution, assessment))
+    Report::default()
         .then(bodies(solution, &assessment.bodies, error))
         .then(reactions(solution))
         .then(contact_surface(solution, error))

@@ -22,7 +22,8 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
+    ReadingArg, TablesArgs, command_line, note, offered, print, print_either, progress, waiting,
+    width,
 };
 
 /// Show what every ambiguity and every finding does on a scene.
@@ -217,7 +218,7 @@ fn whole(args: &Args) -> Result<()> {
     if !std::io::stderr().is_terminal() {
         note(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
-    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}").logged();
     let watch = || bar.inc(1);
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
     let found = audit(&case, &places, is_whole, &watch);
@@ -271,7 +272,13 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, others);
-            let of_run = folder::contents(solution, &assessment, None, FolderOptions::default());
+            let of_run = folder::contents(
+                solution,
+                &assessment,
+                None,
+                FolderOptions::default(),
+                &command_line(),
+            );
             let named =
                 of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
             files.extend(named);

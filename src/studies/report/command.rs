@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::audit::prices::{self, Price};
-use crate::audit::{Audit, Case, audit};
+use crate::audit::{Audit, Case, audit, steps};
 use crate::calculix::{self, Pair};
 use crate::compare;
 use crate::report::page;
@@ -20,7 +20,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
 
-use commands::{offered, report_written, waiting};
+use commands::{offered, progress, report_written, waiting};
 
 /// The most nodes of a mesh on which the print is repaired one finding at a time unasked: it takes some
 /// hundred runs, half a second on fig1 and minutes on strand, with 1,111 nodes.
@@ -87,22 +87,24 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
     let case = Case::within_memory(&scene, Reading::default())?;
-    waiting("auditing", || write(args, &case, &out))?;
+    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}").logged();
+    let found = audit(&case, &Vec::new(), true, &|| bar.inc(1));
+    bar.finish();
+    waiting("writing", || write(args, &case, &found, &out))?;
     report_written(&out);
     Ok(())
 }
 
 /// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
-fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
-    let found = audit(case, &Vec::new(), true, &|| ());
+fn write(args: &Args, case: &Case, found: &Audit, out: &Path) -> Result<()> {
     let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
         scene: &case.scene,
         command: command(args),
         asked: asked(&case.scene),
-        audit: &found,
-        repairs: repairs(args, case, &found),
-        runs: runs(case, &found),
+        audit: found,
+        repairs: repairs(args, case, found),
+        runs: runs(case, found),
         calculix,
     };
     match args.format {
