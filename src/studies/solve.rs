@@ -28,7 +28,7 @@ use commands::{
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = format!("\
-Prints what is in contact, bodies, contact nodes, error estimates, the distance from the reference
+Prints what is in contact, bodies, contact nodes, error estimates, the distance from the reference \
 solution, and the iterations. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
 {}.
 

@@ -144,6 +144,12 @@ fn help() {
         let text = printed(&args);
         assert!(text.lines().count() <= 100, "{page}: {} lines", text.lines().count());
         assert!(text.contains("Examples:"), "{page}");
+        // The terminal alone breaks a sentence.
+        let mut pairs = text.lines().zip(text.lines().skip(1));
+        let goes_on = |line: &str| line.starts_with(char::is_lowercase);
+        let broken =
+            pairs.find(|(line, next)| !line.starts_with(' ') && line.len() > 60 && goes_on(next));
+        assert_eq!(broken, None, "{page}");
         all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
     assert_golden_by("", "help", &all, same_text);

@@ -29,17 +29,17 @@ use commands::{
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-One screen: the verdict, the paper's runs beside the equilibrium, the verdicts on its
-claims, what each fault costs, what was assumed. --full prints the whole: what the verdict
-leaves out, the claims of the paper in full, the readings (what each other value changes), the
-findings (present, not triggered here, contradicted; with a number), and the variants side by side.
---finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one:
-the paper's sentence, what is judged, threshold, value, and the verdict under each other reading.
---reading audits under another reading than the default, to see whether it rescues a claim. All
-figures are repeated on inputs that mean the same; one that moves by more than a millionth is
+One screen: the verdict, the paper's runs beside the equilibrium, the verdicts on its \
+claims, what each fault costs, what was assumed. --full prints the whole: what the verdict \
+leaves out, the claims of the paper in full, the readings (what each other value changes), the \
+findings (present, not triggered here, contradicted; with a number), and the variants side by side. \
+--finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one: \
+the paper's sentence, what is judged, threshold, value, and the verdict under each other reading. \
+--reading audits under another reading than the default, to see whether it rescues a claim. All \
+figures are repeated on inputs that mean the same; one that moves by more than a millionth is \
 'decided by rounding', and left out. The whole takes 150 to 300 times as long as solve.
 
-A variant that runs to its end and passes no load on, as printed does, is an audit result, no
+A variant that runs to its end and passes no load on, as printed does, is an audit result, no \
 failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
 Examples:

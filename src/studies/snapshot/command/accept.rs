@@ -17,8 +17,8 @@ use commands::{print_report, report_error, waiting, within};
 /// Record snapshots again, and print what changed.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Their runs, what is recorded of each, and their tolerances stay. What changed is printed as verify prints
-it; see it before by verify. Among several files scenes are skipped; of one that cannot be recorded the
+Their runs, what is recorded of each, and their tolerances stay. What changed is printed as verify prints \
+it; see it before by verify. Among several files scenes are skipped; of one that cannot be recorded the \
 exit status tells, and the others are recorded all the same.
 
 Examples:

@@ -17,11 +17,11 @@ use commands::{MethodArgs, offered, print_report, waiting};
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
-discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
-numbers, each array with what rounding does to it, as runs on inputs changed in the last digit show.
-A snapshot of a scene that fails as
-printed is a snapshot like any other. An existing snapshot is not replaced: see
+Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its \
+discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its \
+numbers, each array with what rounding does to it, as runs on inputs changed in the last digit show. \
+A snapshot of a scene that fails as \
+printed is a snapshot like any other. An existing snapshot is not replaced: see \
 snapshot accept.
 
 Examples:

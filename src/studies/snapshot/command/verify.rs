@@ -17,12 +17,12 @@ use commands::{print_either, progress, report_error, within};
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Runs the scene file that a snapshot was recorded from, as it is today, where that is still there, else the scene
+Runs the scene file that a snapshot was recorded from, as it is today, where that is still there, else the scene \
 in the snapshot. Among several files scenes are skipped.
-Facts and units are the same or not; numbers agree but for rounding, which is measured, or within the
-tolerance that the snapshot gives. What is new or missing and other lengths are differences.
-Of a difference it says what went in and differs too, where the runs first differ, and the printed
-condition that gave the first status that differs. The exit status also tells a difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
+Facts and units are the same or not; numbers agree but for rounding, which is measured, or within the \
+tolerance that the snapshot gives. What is new or missing and other lengths are differences. \
+Of a difference it says what went in and differs too, where the runs first differ, and the printed \
+condition that gave the first status that differs. The exit status also tells a difference, that nothing was compared, and that a snapshot cannot be read; the others are verified \
 all the same.
 
 Examples:
