@@ -26,6 +26,8 @@ const GIVEN: &[(&str, &str)] = &[
     ("sections 4 and 5", "sections of the page on how the listings are read"),
     ("section 8", "as above"),
     ("below 0 it has penetrated", "a definition"),
+    ("which exits with 1 where", "the exit status of another program"),
+    ("SHA-256 of each array", "the name of a hash"),
     ("between 0 and 1", "a definition"),
     ("at most 1,000 free equations", "the limit of exact runs, in `src/engine/linear/cost.rs`"),
     ("most of them 0", "a definition"),

@@ -144,11 +144,16 @@ fn help() {
         let text = printed(&args);
         assert!(text.lines().count() <= 100, "{page}: {} lines", text.lines().count());
         assert!(text.contains("Examples:"), "{page}");
-        // The terminal alone breaks a sentence.
+        // The terminal alone breaks a sentence: the next word would not fit.
         let mut pairs = text.lines().zip(text.lines().skip(1));
         let goes_on = |line: &str| line.starts_with(char::is_lowercase);
-        let broken =
-            pairs.find(|(line, next)| !line.starts_with(' ') && line.len() > 60 && goes_on(next));
+        let fits = |line: &str, next: &str| {
+            let word = next.split(' ').next().unwrap_or_default();
+            line.chars().count() + 1 + word.chars().count() <= 100
+        };
+        let broken = pairs.find(|(line, next)| {
+            line.contains(' ') && !line.starts_with(' ') && goes_on(next) && fits(line, next)
+        });
         assert_eq!(broken, None, "{page}");
         all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
