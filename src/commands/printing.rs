@@ -100,10 +100,18 @@ pub fn help(asked: &clap::Error) -> Result<()> {
     if fits { print_by(|_| asked.print()) } else { print_fitted(&text) }
 }
 
-/// Returns what was typed, as a shell takes it.
+/// Returns what was typed, as a shell takes it, but for the place of what is written.
 pub fn command_line() -> String {
-    let words = std::env::args_os().skip(1).map(|word| shell_word(&word.to_string_lossy()));
-    std::iter::once("plane-contact".to_string()).chain(words).collect::<Vec<_>>().join(" ")
+    let mut words = std::env::args_os().skip(1);
+    let mut line = "plane-contact".to_string();
+    while let Some(word) = words.next() {
+        match &*word.to_string_lossy() {
+            "--out" => drop(words.next()),
+            word if word.starts_with("--out=") => {}
+            word => line += &format!(" {}", shell_word(word)),
+        }
+    }
+    line
 }
 
 /// Prints an error to standard error; returns its exit status.

@@ -148,7 +148,7 @@ fn solve_prints_tables_and_writes_pictures_and_data() {
         (Some("13"), Some("9"))
     );
     let count = std::fs::read_dir(&out).unwrap().count();
-    assert_eq!(count, 7, "no temporary file is left");
+    assert_eq!(count, 8, "no temporary file is left");
 }
 
 /// Returns `fields.vtu` of a run's folder without its arrays.
@@ -179,7 +179,7 @@ fn solve_leaves_out_pictures_and_estimates() {
         names
     };
     assert_eq!(files(&pictures.1), ["fields.vtu", "result.json"]);
-    assert_eq!(files(&estimates.1).len(), 6);
+    assert_eq!(files(&estimates.1).len(), 7);
     assert_eq!(pictures.0.replace("no-pictures", "all"), all);
     assert!(head_of_vtu(&pictures.1).contains("\"mesh_error\""));
     assert!(!head_of_vtu(&estimates.1).contains("\"mesh_error\""));

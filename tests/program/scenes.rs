@@ -264,7 +264,7 @@ fn restraints_and_loads() {
     says(
         &e,
         "loads[1]",
-        &["a load has either on and pressure, on and traction, or node and force"],
+        &["a load has either on and pressure, on and traction, node and force, or on, rho and g"],
     );
     let e = refused(|s| {
         push(&mut s["loads"], json!({ "on": 21, "pressure": 1.0, "traction": [0.0, 1.0] }))
@@ -272,7 +272,7 @@ fn restraints_and_loads() {
     says(
         &e,
         "loads[1]",
-        &["a load has either on and pressure, on and traction, or node and force"],
+        &["a load has either on and pressure, on and traction, node and force, or on, rho and g"],
     );
     let e = refused(|s| push(&mut s["loads"], json!({ "node": 0, "force": [0.0, 1.0] })));
     says(&e, "loads[1]", &["there is no node number 0"]);
