@@ -1,16 +1,17 @@
 //! How a command prints, and shows that it is at work.
 
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
-use base::plain::shown;
+use base::plain::{shell_word, shown};
 use engine::error::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use output::failure::failure;
@@ -99,6 +100,20 @@ pub fn help(asked: &clap::Error) -> Result<()> {
     if fits { print_by(|_| asked.print()) } else { print_fitted(&text) }
 }
 
+/// Returns what was typed, as a shell takes it, but for the place of what is written.
+pub fn command_line() -> String {
+    let mut words = std::env::args_os().skip(1);
+    let mut line = "plane-contact".to_string();
+    while let Some(word) = words.next() {
+        match &*word.to_string_lossy() {
+            "--out" => drop(words.next()),
+            word if word.starts_with("--out=") => {}
+            word => line += &format!(" {}", shell_word(word)),
+        }
+    }
+    line
+}
+
 /// Prints an error to standard error; returns its exit status.
 pub fn report_error(error: &Error) -> ExitStatus {
     print_stderr(&format!("error: {error}\n"));
@@ -134,6 +149,8 @@ pub struct Progress {
     what: &'static str,
     start: Instant,
     bar: ProgressBar,
+    /// Ends the lines of a log when it goes.
+    _log: Option<Sender<()>>,
 }
 
 impl Progress {
@@ -147,7 +164,12 @@ impl Progress {
             }
         };
         tick(&bar);
-        Progress { what, start: Instant::now(), bar }
+        Progress { what, start: Instant::now(), bar, _log: None }
+    }
+
+    /// Says in a log too how far the work is.
+    pub fn logged(self) -> Self {
+        Progress { _log: log(self.what, self.bar.clone()), ..self }
     }
 
     /// Takes the bar away.
@@ -224,6 +246,26 @@ pub fn progress(what: &'static str, steps: usize, template: &str) -> Progress {
     let style = ProgressStyle::with_template(template).expect("the template is sound");
     Progress::start(what, ProgressBar::new(steps as u64).with_style(style))
 }
+
+/// Says every so often in a log, where no bar shows, how far a part of a command's work is, until what it returns is
+/// dropped.
+fn log(what: &'static str, bar: ProgressBar) -> Option<Sender<()>> {
+    if io::stderr().is_terminal() || Verbosity::chosen() == Verbosity::Quiet {
+        return None;
+    }
+    let (end, ended) = mpsc::channel();
+    let say = move || {
+        while ended.recv_timeout(LOG) == Err(RecvTimeoutError::Timeout) {
+            let steps = bar.length().filter(|steps| *steps > 0);
+            let steps = steps.map_or(String::new(), |n| format!(", {} of {n}", bar.position()));
+            note(&format!("{what}: {:.0} s{steps}\n", bar.elapsed().as_secs_f64()));
+        }
+    };
+    Builder::new().stack_size(1 << 17).spawn(say).ok().map(|_| end)
+}
+
+/// How often a log says how far work is.
+const LOG: Duration = Duration::from_secs(5);
 
 /// Moves a bar by a thread of its own: none for one that nobody sees, nor where no thread can be started.
 fn tick(bar: &ProgressBar) {

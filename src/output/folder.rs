@@ -3,11 +3,15 @@
 use std::path::Path;
 
 use rayon::prelude::*;
+use serde_json::json;
 
+use super::json::document;
+use super::model::Report;
+use super::page::{Page, TABLE};
 use super::picture::{self, Drawing, Field};
 use super::quantities::triangle_array;
 use super::result_file::ResultFile;
-use super::{pressure, vtu};
+use super::{pressure, tables, vtu};
 use base::error::Result;
 use base::files;
 use engine::plan::Plan;
@@ -30,7 +34,7 @@ impl Default for FolderOptions {
 }
 
 /// Writes the files of a run to `folder`; returns the content of `result.json`. `plan` is the plan
-/// that the run followed.
+/// that the run followed, `command` what was typed.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -40,12 +44,16 @@ pub fn write(
     assessment: &Assessment,
     plan: Option<&Plan>,
     wanted: FolderOptions,
+    command: &str,
 ) -> Result<String> {
-    let mut files = contents(solution, assessment, plan, wanted);
+    let mut files = contents(solution, assessment, plan, wanted, command);
     files::write_all(folder, &files)?;
     let (_, result) = files.pop().expect("every run has a result");
     Ok(String::from_utf8(result).expect("JSON is UTF-8"))
 }
+
+/// The page that shows a run.
+const PAGE: &str = "index.html";
 
 /// A file of a run.
 #[derive(Clone, Copy)]
@@ -76,7 +84,8 @@ fn files(wanted: FolderOptions) -> Vec<(String, File)> {
 
 /// Returns the names of the files that a run may leave; the last is `result.json`.
 pub fn names(wanted: FolderOptions) -> Vec<String> {
-    files(wanted).into_iter().map(|(name, _)| name).collect()
+    let page = wanted.pictures.then(|| PAGE.to_string());
+    page.into_iter().chain(files(wanted).into_iter().map(|(name, _)| name)).collect()
 }
 
 /// Returns the files that a run may leave, for help: four a line, with what not every name says.
@@ -86,7 +95,7 @@ pub fn help() -> String {
         File::Mesh => name + " (the paper's fig. 4)",
         File::Result | File::Picture(_) | File::Pressure => name,
     });
-    let files: Vec<String> = files.collect();
+    let files: Vec<String> = std::iter::once(PAGE.to_string()).chain(files).collect();
     files.chunks(4).map(|line| line.join(", ")).collect::<Vec<_>>().join(",\n")
 }
 
@@ -96,6 +105,7 @@ pub fn contents(
     assessment: &Assessment,
     plan: Option<&Plan>,
     wanted: FolderOptions,
+    command: &str,
 ) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = &Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
@@ -121,7 +131,41 @@ pub fn contents(
         })
     };
     let files = files(wanted).into_par_iter().with_max_len(1);
-    files.filter_map(|(name, file)| Some((name, content(file)?))).collect()
+    let mut files: Vec<_> = files.filter_map(|(name, file)| Some((name, content(file)?))).collect();
+    if wanted.pictures {
+        files.insert(0, (PAGE.into(), page(solution, assessment, &files, command).into_bytes()));
+    }
+    files
+}
+
+/// Returns a page of one file: the result, the pictures, the tables, and the command that makes it again.
+fn page(
+    solution: &Solution,
+    assessment: &Assessment,
+    files: &[(String, Vec<u8>)],
+    command: &str,
+) -> String {
+    let pictures = files.iter().filter(|(name, _)| name.ends_with(".svg"));
+    let pictures = pictures.fold(Report::default().heading("Pictures"), |report, (name, svg)| {
+        report.figure(name, String::from_utf8_lossy(svg))
+    });
+    let report = tables::summary(solution, assessment)
+        .then(pictures)
+        .then(tables::details(solution, assessment))
+        .then(tables::error_estimates(solution, assessment))
+        .then(tables::distance(solution, assessment))
+        .then(tables::steps(solution, assessment, false))
+        .line(format!("Make it again: `{command}`"));
+    let body = report.html().replace("<details id", "<details open id");
+    let scene = &solution.request.scene;
+    Page {
+        title: &format!("{}: {}", scene.name, solution.request.variant),
+        body: &format!("<main>{body}</main>\n"),
+        style: include_str!("page/result.css"),
+        script: &[TABLE],
+        data: document(Some(scene), &json!({})),
+    }
+    .html()
 }
 
 /// Returns the content of `result.json`, and writes nothing.
@@ -135,16 +179,13 @@ pub fn result(
     result.to_json()
 }
 
-/// Draws the contact pressure of a solution and of those beside which it is assessed.
+/// Draws the contact pressure of a solution and of the equilibrium.
 fn pressures(solution: &Solution, assessment: &Assessment) -> String {
     let measured = assessment.own();
-    let others = [assessment.measure(), measured].into_iter().flatten();
-    let mut runs = vec![solution];
-    for other in others.map(|measured| &*measured.reference) {
-        if !runs.iter().any(|run| run.request.is_same_equilibrium(&other.request)) {
-            runs.push(other);
-        }
-    }
+    let equilibrium = measured.map(|measured| &*measured.reference);
+    let is_other = |other: &&Solution| !solution.request.is_same_equilibrium(&other.request);
+    let runs: Vec<&Solution> =
+        std::iter::once(solution).chain(equilibrium.filter(is_other)).collect();
     let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
     pressure::picture(&solution.request.scene, &runs, hertz)
 }

@@ -89,35 +89,57 @@ fn value(document: &impl Serialize) -> Value {
 }
 
 /// Writes a document over several lines, so that a comparison of two shows what changed: a line for
-/// each field and for each item of a list of lists or shallow objects. A list of scalars stands on one line.
+/// each field and for each item of a list of shallow objects, and one for each ten numbers of a list. Another
+/// list of scalars stands on one line.
 pub fn pretty(document: &impl Serialize) -> String {
-    let mut text = String::new();
-    indented(&value(document), 0, &mut text);
-    visible(text) + "\n"
+    visible(indented(&value(document), 0)) + "\n"
 }
 
-fn indented(value: &Value, depth: usize, text: &mut String) {
-    let is_scalar = |value: &Value| depth_of(value) == 0;
-    let (items, [open, close]): (Vec<(String, &Value)>, _) = match value {
+fn indented(value: &Value, depth: usize) -> String {
+    let is_short = |items: &[Value]| items.len() <= TEN || items.iter().any(Value::is_string);
+    let (lines, open, close) = match value {
         Value::Object(fields) if !fields.is_empty() => {
-            let named = |(name, value)| (format!("{}: ", Value::from(name)), value);
-            (fields.iter().map(|(name, value)| named((name.as_str(), value))).collect(), ["{", "}"])
+            let line = |(name, value): (&String, &Value)| {
+                format!("{}: {}", Value::from(name.as_str()), indented(value, depth + 1))
+            };
+            (fields.iter().map(line).collect::<Vec<_>>(), "{", "}")
         }
-        Value::Array(items) if !items.iter().all(is_scalar) => {
-            (items.iter().map(|item| (String::new(), item)).collect(), ["[", "]"])
+        Value::Array(items) if depth_of(value) > 1 || !is_short(items) => {
+            let line = |item: &Value| match depth_of(item) {
+                0..=2 => item.to_string(),
+                _ => indented(item, depth + 1),
+            };
+            (tens(items).unwrap_or_else(|| items.iter().map(line).collect()), "[", "]")
         }
-        _ => return text.push_str(&value.to_string()),
+        _ => return value.to_string(),
     };
-    text.push_str(open);
-    for (k, (name, item)) in items.iter().enumerate() {
-        let comma = if k == 0 { "" } else { "," };
-        text.extend([comma, "\n", &"  ".repeat(depth + 1), name]);
-        match value.is_array() && depth_of(item) <= 2 {
-            true => text.push_str(&item.to_string()),
-            false => indented(item, depth + 1, text),
+    let [inner, outer] = [depth + 1, depth].map(|depth| "  ".repeat(depth));
+    format!("{open}\n{inner}{}\n{outer}{close}", lines.join(&format!(",\n{inner}")))
+}
+
+/// The numbers of a line.
+const TEN: usize = 10;
+
+/// Fills lines with the items of a list of numbers, or of rows of these; None of another list.
+fn tens(items: &[Value]) -> Option<Vec<String>> {
+    let is_number = |value: &Value| value.is_number() || value.is_null();
+    let mut lines: Vec<String> = Vec::new();
+    let mut room = 0;
+    for item in items {
+        let numbers = match item {
+            Value::Array(row) if row.iter().all(is_number) => row.len(),
+            item => is_number(item).then_some(1)?,
+        };
+        match lines.last_mut() {
+            Some(line) if numbers <= room => *line += &format!(",{item}"),
+            _ => {
+                lines.push(item.to_string());
+                room = TEN;
+            }
         }
+        room = room.saturating_sub(numbers);
     }
-    text.extend(["\n", &"  ".repeat(depth), close]);
+    Some(lines)
 }
 
 /// Returns how deep lists and objects stand in each other: 0 for a scalar.

@@ -94,7 +94,8 @@ pub fn triangle_array(
 }
 
 /// Returns the array of a quantity of the contact nodes at all `count` nodes; None where it is
-/// nowhere known. Of a node where it is not known a number is NaN, and a state -1.
+/// nowhere known. Off the contact surface, and where no force acts, a number is 0; NaN where the force itself is
+/// not known. A state is -1 where it is not known.
 pub fn contact_array(
     quantity: &Quantity<ContactNode>,
     contact: &[ContactNode],
@@ -102,12 +103,18 @@ pub fn contact_array(
     units: &Units,
 ) -> Option<Array> {
     let is_state = matches!((quantity.value)(contact.first()?), Value::State(..));
-    let mut values = vec![if is_state { -1.0 } else { f64::NAN }; count];
+    let unknown = if is_state { -1.0 } else { 0.0 };
+    let mut values = vec![unknown; count];
     let mut is_known = false;
     for node in contact {
-        if let Some(numbers) = (quantity.value)(node).numbers() {
-            (values[node.node.index()], is_known) = (numbers[0], true);
-        }
+        values[node.node.index()] = match (quantity.value)(node).numbers() {
+            Some(numbers) => {
+                is_known = true;
+                numbers[0]
+            }
+            None if node.force.is_none() && !is_state => f64::NAN,
+            None => unknown,
+        };
     }
     is_known.then(|| array(quantity, values, units))
 }

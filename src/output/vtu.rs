@@ -33,7 +33,7 @@ type About = (&'static str, String);
 /// Writes the mesh of `drawing`, the quantities of its nodes, contact nodes and triangles, and the body
 /// of each triangle. Every number reads back to the same bits.
 ///
-/// Of a node that is none of the contact surface's a state is -1 and a number NaN, which viewers leave blank.
+/// `active` is 1 on the contact surface, and 0 elsewhere, where its numbers are 0 and its states -1.
 ///
 /// # Panics
 ///
@@ -53,7 +53,10 @@ pub fn vtu(drawing: &Drawing, solution: &Solution, assessment: &Assessment) -> V
     let at_nodes = at_nodes.filter_map(|q| Some(array(q, (q.value)(&nodes).numbers()?, units)));
     let contact = ContactNode::QUANTITIES.iter();
     let contact = contact.filter_map(|q| contact_array(q, &solution.contact, count, units));
-    let points: Vec<Array> = at_nodes.chain(contact).collect();
+    let mut active = vec![0.0; count];
+    solution.contact.iter().for_each(|node| active[node.node.index()] = 1.0);
+    let active = (!solution.contact.is_empty()).then(|| Array::new("active", "", 1, active));
+    let points: Vec<Array> = at_nodes.chain(contact).chain(active).collect();
     let [scene_sha256, mesh_sha256] = scene.hashes().clone();
     let mut about: Vec<About> = vec![
         ("program", format!("plane-contact {VERSION}")),

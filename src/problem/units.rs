@@ -13,11 +13,13 @@ pub(crate) const LENGTHS: [(&str, f64); 9] = [
     ("ft", 0.3048),
 ];
 #[cfg(feature = "scenes")]
+pub(crate) const SI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+#[cfg(feature = "scenes")]
 const STRESSES: [(&str, f64); 7] = [
-    ("Pa", 1.0),
-    ("kPa", 1e3),
-    ("MPa", 1e6),
-    ("GPa", 1e9),
+    SI[0],
+    SI[1],
+    SI[2],
+    SI[3],
     ("bar", 1e5),
     ("psi", POUND / (0.0254 * 0.0254)),
     ("ksi", 1000.0 * POUND / (0.0254 * 0.0254)),

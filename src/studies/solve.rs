@@ -21,14 +21,14 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    RunArgs, SceneArgs, TablesArgs, folder, folder_name, print, print_report, print_stderr,
-    progress, read_listing, report_error, waiting,
+    RunArgs, SceneArgs, TablesArgs, command_line, folder, folder_name, print, print_report,
+    print_stderr, progress, read_listing, report_error, waiting,
 };
 
 /// Run the iterations and write pictures and data.
 #[derive(clap::Args)]
 #[command(after_help = format!("\
-Prints what is in contact, bodies, contact nodes, error estimates, the distance from the reference
+Prints what is in contact, bodies, contact nodes, error estimates, the distance from the reference \
 solution, and the iterations. Beyond 20,000 triangles only fields.vtu has their values. Writes to --out:
 {}.
 
@@ -104,7 +104,10 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let ((solution, accuracy), plan) = (solved?, plan?);
     let assessment = waiting("assessing", || assess(args, &solution));
     let result = waiting("writing", || match is_written {
-        true => output::folder::write(&out, &solution, &assessment, Some(&plan), wanted),
+        true => {
+            let command = command_line();
+            output::folder::write(&out, &solution, &assessment, Some(&plan), wanted, &command)
+        }
         false => Ok(output::folder::result(&solution, &assessment, Some(&plan), wanted)),
     })?;
     if args.tables.json {

@@ -47,7 +47,10 @@ macro_rules! areas {
     };
 }
 
-areas!(commands contact edited fields files hostile limits meshes mistakes sentences snapshots solvers sweeps worksheets);
+areas!(
+    bodies commands contact edited fields files hostile limits meshes mistakes pictures sentences
+    snapshots solvers summary sweeps trade worksheets
+);
 
 #[derive(Default)]
 struct Case {

@@ -18,6 +18,8 @@ fn square() -> Drawing {
         region_names: ["block", "stamp"].map(String::from).to_vec(),
         length_unit: "mm".into(),
         contact: None,
+        held: Vec::new(),
+        loaded: Vec::new(),
     }
 }
 
@@ -28,6 +30,20 @@ fn touching(nodes: &[usize], edge: [usize; 2]) -> Drawing {
 
 fn stress<'a>(values: &'a [f64], displacement: &'a [[f64; 2]]) -> Field<'a> {
     Field { quantity: "stress", unit: "MPa", values, displacement, largest_at: None }
+}
+
+#[test]
+fn what_holds_and_what_loads_a_mesh_is_drawn() {
+    let drawn = |drawing: &Drawing| attributes(&mesh(drawing), "g", "stroke");
+    let held = Drawing { held: vec![(0, [1.0, 0.0]), (0, [0.0, 1.0])], ..square() };
+    let loaded = Drawing { loaded: vec![(2, [0.0, -5.0])], ..square() };
+    assert!(texts(&mesh(&held)).contains("restraints (1 node)"));
+    assert!(texts(&mesh(&loaded)).contains("loads (1 node)"));
+    assert!(!texts(&mesh(&square())).contains("loads"));
+    // The arrow ends at the node from above, and has room there.
+    let heads = attributes(&mesh(&loaded), "polygon", "points");
+    assert_eq!(heads.len(), 1 + attributes(&mesh(&square()), "polygon", "points").len());
+    assert_eq!(drawn(&held).len(), drawn(&square()).len());
 }
 
 /// Returns an attribute of every element of this name.

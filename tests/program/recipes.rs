@@ -118,6 +118,48 @@ fn the_recipe_for_a_shell_runs() {
 
 #[cfg(unix)]
 #[test]
+fn the_recipe_for_git_says_what_differs() {
+    let (folder, programs) = repository();
+    fs::write(folder.path().join(".gitattributes"), &blocks("gitattributes")[0]).expect("written");
+    let ran = |program: &str, args: &[&str]| {
+        let output = command(program, args, folder.path(), &programs).output().expect(program);
+        succeeds(&output, &format!("{args:?}"));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    ran("git", &["init", "-q"]);
+    ran("git", &["add", "."]);
+    ran("sh", &["-c", &blocks("git")[0]]);
+    edit(folder.path());
+    ran("plane-contact", &["snapshot", "accept", "my/block.snapshot.json"]);
+    let said = ran("git", &["diff", "my/block.snapshot.json"]);
+    assert!(said.contains("materials.1.E: 31000.0, was 30000.0"), "{said}");
+    let lines = ran("git", &["diff", "--no-ext-diff", "--text", "-U0", "my/block.snapshot.json"]);
+    let first = lines.lines().find(|line| line.starts_with('+') && line.contains(':'));
+    assert!(first.is_some_and(|line| line.contains("force on the target")), "{lines}");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_recipe_for_fieldcompare_runs() {
+    let mut fieldcompare = Command::new("fieldcompare");
+    fieldcompare.arg("--version");
+    if !is_there(fieldcompare, "REQUIRE_VTU") {
+        return;
+    }
+    let (folder, programs) = repository();
+    let reference = ["solve", "my/block.json", "--no-pictures", "--out", "reference"];
+    assert!(run(folder.path(), &reference).status.success());
+    fs::copy(folder.path().join("reference/fields.vtu"), folder.path().join("my/reference.vtu"))
+        .expect("copied");
+    let lines = blocks("bash")[0].replace("\nfieldcompare", " &&\nfieldcompare");
+    let ran = || command("sh", &["-c", &lines], folder.path(), &programs).output().expect("sh");
+    succeeds(&ran(), "fieldcompare");
+    edit(folder.path());
+    assert_eq!(ran().status.code(), Some(1));
+}
+
+#[cfg(unix)]
+#[test]
 fn the_recipe_for_ctest_runs() {
     let mut ctest = Command::new("ctest");
     ctest.arg("--version");

@@ -84,7 +84,10 @@ fn solve() {
 fn audit() {
     for scene in SCENES {
         let screen = assert_text(scene, "audit", &["audit", scene]);
-        assert!(screen.lines().count() <= 60, "{screen}");
+        assert!(screen.split_whitespace().count() <= 350, "{screen}");
+        let verdict = screen.split("\n\n").nth(1).expect("a verdict");
+        assert!(verdict.starts_with("No. "), "{verdict}");
+        assert!(verdict.split_whitespace().count() <= 12 + 3 * 25, "{verdict}");
         assert!(screen.lines().all(|line| line.chars().count() <= 100), "{screen}");
     }
     assert_text("fig1", "audit-full", &["audit", "fig1", "--full"]);
@@ -141,6 +144,17 @@ fn help() {
         let text = printed(&args);
         assert!(text.lines().count() <= 100, "{page}: {} lines", text.lines().count());
         assert!(text.contains("Examples:"), "{page}");
+        // The terminal alone breaks a sentence: the next word would not fit.
+        let mut pairs = text.lines().zip(text.lines().skip(1));
+        let goes_on = |line: &str| line.starts_with(char::is_lowercase);
+        let fits = |line: &str, next: &str| {
+            let word = next.split(' ').next().unwrap_or_default();
+            line.chars().count() + 1 + word.chars().count() <= 100
+        };
+        let broken = pairs.find(|(line, next)| {
+            line.contains(' ') && !line.starts_with(' ') && goes_on(next) && fits(line, next)
+        });
+        assert_eq!(broken, None, "{page}");
         all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
     assert_golden_by("", "help", &all, same_text);

@@ -277,7 +277,9 @@ fn changed(request: &Request, seed: u64, factor: f64) -> Request {
     for force in &mut model.forces {
         let by = factor * (1.0 + part());
         match force {
-            Force::Node(_, force) | Force::Traction(_, force) => *force = force.map(|x| by * x),
+            Force::Node(_, force) | Force::Traction(_, force) | Force::Body(_, force) => {
+                *force = force.map(|x| by * x);
+            }
             Force::Pressure(_, pressure) => *pressure *= by,
         }
     }

@@ -20,6 +20,8 @@ const REASONS: &[(&str, &str)] = &[
     ("displacement", "nothing moves in what is compared with, or nothing could be compared"),
     ("von_mises", "the stress compared with is 0"),
     ("differences", "the quantity is 0 on the finest mesh"),
+    ("contact", "nothing presses on this mesh, or the axis is not the mesh"),
+    ("force_error peak_pressure_error", "that of the finest mesh is 0"),
     ("order", "the differences between meshes do not fall on a line, or are fewer than two"),
     ("scatter", "there is no order, or a line through two differences only"),
     ("errors", "there is no order of convergence"),

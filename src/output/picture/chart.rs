@@ -169,8 +169,11 @@ impl Scale {
             let low = low.floor();
             return Scale { low, high: high.ceil().max(low + 1.0), logarithmic };
         }
+        // Upwards what is nowhere negative begins at 0.
+        let begins_at_0 = column == 1 && low >= 0.0;
+        let low = if begins_at_0 { 0.0 } else { low };
         let room = if high > low { 0.04 * (high - low) } else { 0.5 * high.abs().max(1.0) };
-        Scale { low: low - room, high: high + room, logarithmic }
+        Scale { low: if begins_at_0 { 0.0 } else { low - room }, high: high + room, logarithmic }
     }
 
     /// Returns what a value counts on the axis; nothing where a logarithmic one cannot show it.

@@ -1,6 +1,8 @@
 //! What the pictures of a mesh draw on.
 
-use problem::model::{Model, NodeId};
+use std::collections::BTreeMap;
+
+use problem::model::{Force, Model, NodeId};
 use problem::scene::Scene;
 
 /// A mesh of more triangles is drawn as pixels, not as a shape per triangle.
@@ -23,6 +25,10 @@ pub struct Drawing {
     pub length_unit: String,
     /// The surfaces that may touch, in a scene with contact.
     pub contact: Option<Contact>,
+    /// The points that restraints hold, each with the direction along which it is held.
+    pub held: Vec<(usize, [f64; 2])>,
+    /// The points with a force on them, of loads of edges and nodes, force.
+    pub loaded: Vec<(usize, [f64; 2])>,
 }
 
 /// The two surfaces that may touch.
@@ -66,6 +72,8 @@ impl Drawing {
             region,
             region_names,
             length_unit: scene.units.length.clone(),
+            held: model.holds.iter().map(|hold| (hold.node.index(), hold.direction)).collect(),
+            loaded: loaded(model),
             contact: model.target().map(|_| Contact {
                 nodes: model.contact.nodes.iter().map(|node| node.index()).collect(),
                 edges: model.target_edges().map(|e| e.nodes.map(NodeId::index)).collect(),
@@ -77,6 +85,19 @@ impl Drawing {
     pub fn is_fine(&self) -> bool {
         self.triangles.len() > MOST_SHAPES
     }
+}
+
+/// Returns the sums of the forces on points, but for weights.
+fn loaded(model: &Model) -> Vec<(usize, [f64; 2])> {
+    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for force in model.forces.iter().filter(|force| !matches!(force, Force::Body(..))) {
+        let [x, y] = force.on_each_node(model, &|x| x);
+        for node in force.nodes() {
+            let sum = sums.entry(node.index()).or_default();
+            *sum = [sum[0] + x, sum[1] + y];
+        }
+    }
+    sums.into_iter().filter(|(_, force)| *force != [0.0; 2]).collect()
 }
 
 /// Returns the points that are drawn: a dropped node, of which nothing is, stands at another one.

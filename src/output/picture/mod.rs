@@ -39,6 +39,9 @@ use base::xml::Element;
 /// A contact zone that fills this part of the picture is not enlarged beside it.
 const ENLARGED_UP_TO: f64 = 0.8;
 
+/// The room for arrows, over the size of the mesh.
+const ROOM: f64 = 0.07;
+
 /// How much is shown about a contact surface, over its size.
 const ABOUT: f64 = 0.15;
 
@@ -49,7 +52,15 @@ const MOST_NUMBERED: usize = 40;
 pub fn mesh(drawing: &Drawing) -> String {
     let mut page = Page::new(&drawing.title);
     let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
-    put_panels(&mut page, drawing, &drawing.points, |view| {
+    // Arrows have room where they begin.
+    let size = ROOM * Bounds::around(&drawing.points).larger_side();
+    let start = |&(point, [fx, fy]): &(usize, [f64; 2])| {
+        let ([x, y], force) = (drawing.points[point], f64::hypot(fx, fy));
+        [x - size * fx / force, y - size * fy / force]
+    };
+    let shown: Vec<[f64; 2]> =
+        drawing.points.iter().copied().chain(drawing.loaded.iter().map(start)).collect();
+    put_panels(&mut page, drawing, &shown, |view| {
         let bodies = draw_bodies(drawing, &outline, view);
         if drawing.points.len() > MOST_NUMBERED {
             return bodies;

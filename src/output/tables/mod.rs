@@ -27,9 +27,18 @@ use problem::modelling::{ContactModel, Variant};
 
 /// Reports the end of a run: its result, its bodies and its contact surface.
 pub fn solution(solution: &Solution, assessment: &Assessment) -> Report {
+    summary(solution, assessment).then(details(solution, assessment))
+}
+
+/// Reports what was run, and its result.
+pub fn summary(solution: &Solution, assessment: &Assessment) -> Report {
+    heading(solution).then(result::result(solution, assessment))
+}
+
+/// Reports the bodies, the restraints and the contact surface of a run.
+pub fn details(solution: &Solution, assessment: &Assessment) -> Report {
     let error = error_of_mesh(assessment);
-    heading(solution)
-        .then(result::result(solution, assessment))
+    Report::default()
         .then(bodies(solution, &assessment.bodies, error))
         .then(reactions(solution))
         .then(contact_surface(solution, error))
@@ -126,7 +135,9 @@ fn bodies(solution: &Solution, bodies: &[BodySummary], error: Option<f64>) -> Re
     let shown = BodySummary::QUANTITIES.iter().filter(|q| q.name != "as_large" || has_equals);
     let table = quantities::table(bodies, shown, &solution.request.scene.units, error);
     let beyond = beyond_range(&solution.model, &solution.elements, &solution.u);
-    Report::default().table("Bodies", table).notes(beyond.map(|what| format!("NOTE: {what}")))
+    let doubts = solution.request.scene.doubtful_units(beyond.is_some());
+    let notes = beyond.into_iter().chain(doubts).map(|what| format!("NOTE: {what}"));
+    Report::default().table("Bodies", table).notes(notes)
 }
 
 /// Lists what each restraint carries, and compares their sum with the loads.

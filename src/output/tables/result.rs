@@ -278,7 +278,19 @@ fn unbounded(node: NodeId, cause: Cause) -> String {
 fn mesh_error(assessment: &Assessment, solution: &Solution, error: Option<f64>) -> Option<String> {
     assessment.estimates.as_ref()?;
     Some(match (error, locking_of(&solution.model)) {
-        (Some(error), _) => format!("Mesh error {}, {PROBABLY_MORE}", percent(error)),
+        (Some(error), _) => {
+            let is_own =
+                solution.request.variant == Variant::Unilateral && solution.model.has_contact();
+            let word = &solution.request.scene.word;
+            let more = is_own.then(|| {
+                format!("; of the contact force and the peak pressure: trade {word} --only mesh")
+            });
+            format!(
+                "Mesh error {} in the energy norm, {PROBABLY_MORE}{}",
+                percent(error),
+                more.unwrap_or_default()
+            )
+        }
         (None, Some(_)) => "Mesh error unknown: the triangles lock".into(),
         (None, None) => "Mesh error unknown: a body is too small for an estimate".into(),
     })

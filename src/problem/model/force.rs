@@ -17,16 +17,19 @@ pub enum Force {
     Pressure([NodeId; 2], f64),
     /// A force per area on an edge along x and y, stress.
     Traction([NodeId; 2], [f64; 2]),
+    /// A force per volume of a triangle along x and y.
+    Body([NodeId; 3], [f64; 2]),
 }
 
 impl Force {
     /// Returns the nodes on which it acts.
     pub fn nodes(&self) -> impl Iterator<Item = NodeId> + use<> {
-        let [node, other] = match *self {
-            Force::Node(node, _) => [Some(node), None],
-            Force::Pressure(edge, _) | Force::Traction(edge, _) => edge.map(Some),
+        let nodes = match *self {
+            Force::Node(node, _) => [Some(node), None, None],
+            Force::Pressure([a, b], _) | Force::Traction([a, b], _) => [Some(a), Some(b), None],
+            Force::Body(nodes, _) => nodes.map(Some),
         };
-        node.into_iter().chain(other)
+        nodes.into_iter().flatten()
     }
 
     /// Adds it to the forces `f` on all degrees of freedom of `model`; each number of the scene
@@ -39,12 +42,20 @@ impl Force {
     }
 
     /// Returns the force on each of its nodes along x and y: linear edges have half of their load on each
-    /// end.
+    /// end, linear triangles a third at each corner.
     pub fn on_each_node<T: Scalar>(&self, model: &Model, number: &impl Fn(f64) -> T) -> [T; 2] {
         let (edge, pressure, traction) = match *self {
             Force::Node(_, force) => return force.map(number),
             Force::Pressure(edge, pressure) => (edge, Some(number(pressure)), [T::zero(); 2]),
             Force::Traction(edge, traction) => (edge, None, traction.map(number)),
+            Force::Body(nodes, force) => {
+                let [[ax, ay], [bx, by], [cx, cy]] =
+                    nodes.map(|node| model.coordinates(node).map(number));
+                let area =
+                    (((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / T::from_f64(2.0)).abs();
+                let part = area * number(model.thickness) / T::from_f64(3.0);
+                return force.map(|x| number(x) * part);
+            }
         };
         let [[ax, ay], [bx, by]] = edge.map(|node| model.coordinates(node).map(number));
         let length = T::length(bx - ax, by - ay);

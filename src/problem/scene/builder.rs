@@ -125,6 +125,11 @@ impl SceneBuilder {
         self.load(LoadKind::Force { node, force })
     }
 
+    /// Adds the weight of a group of triangles: a density under an acceleration along x and y.
+    pub fn weight(self, group: impl Into<GroupRef>, rho: f64, g: [f64; 2]) -> Self {
+        self.load(LoadKind::Weight { on: group.into(), rho, g })
+    }
+
     /// Puts the load that was added last into a stage of the path of the load, from 1.
     pub fn in_stage(mut self, stage: usize) -> Self {
         if let Some(load) = self.description.loads.last_mut() {

@@ -75,7 +75,9 @@ impl Description {
         let loads =
             self.loads.iter_mut().enumerate().filter_map(|(k, load)| match &mut load.kind {
                 LoadKind::Force { node, .. } => Some((format!("loads[{k}].node"), node)),
-                LoadKind::Pressure { .. } | LoadKind::Traction { .. } => None,
+                LoadKind::Pressure { .. } | LoadKind::Traction { .. } | LoadKind::Weight { .. } => {
+                    None
+                }
             });
         let contact = self.contact.as_mut().map(|contact| contact.contact.numbers());
         let contact = contact.into_iter().flatten().map(|n| ("contact.cnt".into(), n));
@@ -223,6 +225,8 @@ pub enum LoadKind {
     Traction { on: GroupRef, traction: [f64; 2] },
     /// A force on a node along x and y, force.
     Force { node: usize, force: [f64; 2] },
+    /// The weight of a group of triangles: its density, and the acceleration along x and y.
+    Weight { on: GroupRef, rho: f64, g: [f64; 2] },
 }
 
 impl LoadKind {
@@ -232,6 +236,7 @@ impl LoadKind {
             LoadKind::Pressure { pressure, .. } => std::slice::from_mut(pressure),
             LoadKind::Traction { traction, .. } => traction,
             LoadKind::Force { force, .. } => force,
+            LoadKind::Weight { g, .. } => g,
         }
     }
 }
@@ -256,17 +261,24 @@ impl<'de> Deserialize<'de> for Load {
             traction: Option<[f64; 2]>,
             node: Option<usize>,
             force: Option<[f64; 2]>,
+            rho: Option<f64>,
+            g: Option<[f64; 2]>,
             stage: Option<usize>,
         }
-        let Fields { on, pressure, traction, node, force, stage } =
+        let Fields { on, pressure, traction, node, force, rho, g, stage } =
             Fields::deserialize(deserializer)?;
-        let kind = match (on, pressure, traction, node, force) {
-            (Some(on), Some(pressure), None, None, None) => LoadKind::Pressure { on, pressure },
-            (Some(on), None, Some(traction), None, None) => LoadKind::Traction { on, traction },
-            (None, None, None, Some(node), Some(force)) => LoadKind::Force { node, force },
+        let kind = match (on, pressure, traction, node, force, rho.zip(g)) {
+            (Some(on), Some(pressure), None, None, None, None) => {
+                LoadKind::Pressure { on, pressure }
+            }
+            (Some(on), None, Some(traction), None, None, None) => {
+                LoadKind::Traction { on, traction }
+            }
+            (None, None, None, Some(node), Some(force), None) => LoadKind::Force { node, force },
+            (Some(on), None, None, None, None, Some((rho, g))) => LoadKind::Weight { on, rho, g },
             _ => {
                 return Err(de::Error::custom(
-                    "a load has either on and pressure, on and traction, or node and force",
+                    "a load has either on and pressure, on and traction, node and force, or on, rho and g",
                 ));
             }
         };
@@ -287,8 +299,8 @@ pub struct Contact {
     /// The tolerance of the contact search, the text's c_tol, length.
     #[serde(rename = "c_tll")]
     pub tolerance: f64,
-    /// The method that binds a contact node to the target; where none is given, mortar if no variant is
-    /// named, else that of `c_cnt`.
+    /// The method that binds a contact node to the target; where none is given, that of `c_cnt` if a variant
+    /// of the paper is named, else mortar.
     #[serde(default, deserialize_with = "some_by_name", skip_serializing_if = "is_default")]
     #[schemars(with = "Coupling")]
     pub coupling: Option<Coupling>,

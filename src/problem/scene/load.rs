@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::description::{Load, LoadKind};
 use super::groups::{GroupRef, Groups};
-use super::mesh::Mesh;
+use super::mesh::{Element, Mesh};
 use crate::model::{CANCELLED, Force, Model, NodeId, Sides, unordered};
 use base::error::{InputError, Result};
 use base::limits;
@@ -28,6 +28,7 @@ pub fn apply(
         LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
             groups.places(1, on, "").map_or(1, <[u32]>::len)
         }
+        LoadKind::Weight { on, .. } => groups.places(2, on, "").map_or(1, <[u32]>::len),
     });
     limits::LOADED.check(count.sum(), "loads")?;
     let (mut forces, mut total) = (Vec::new(), DVector::zeros(model.dofs()));
@@ -43,6 +44,13 @@ pub fn apply(
             }
             LoadKind::Traction { on, traction } => {
                 on_edges(groups, &model.sides, on, &place, |edge| Force::Traction(edge, *traction))?
+            }
+            LoadKind::Weight { on, rho, g } => {
+                let triangles = groups.members(2, on, &format!("{place}.on"))?;
+                let corners =
+                    |triangle: &Element| [0, 1, 2].map(|k| NodeId::from_number(triangle.nodes[k]));
+                let force = g.map(|g| rho * g);
+                triangles.into_iter().map(|own| Force::Body(corners(own), force)).collect()
             }
         };
         add(&own, &mut total, model, k)?;
@@ -98,14 +106,16 @@ pub fn in_vain(model: &Model, of: &[usize]) -> Vec<String> {
             let mut along = loaded.into_iter().zip(model.restraints_of(node));
             along.all(|(loaded, held)| held || !loaded)
         };
-        loaded.contains(&true) && part.nodes().all(takes)
+        // Supports carry some of a weight.
+        let is_local = !matches!(part, Force::Body(..));
+        is_local && loaded.contains(&true) && part.nodes().all(takes)
     };
     let surfaces: HashSet<[NodeId; 2]> = (model.target_edges().map(|edge| edge.nodes))
         .chain(model.contact.nodes.windows(2).map(|pair| [pair[0], pair[1]]))
         .map(unordered)
         .collect();
     let on_contact = |part: &Force| match *part {
-        Force::Node(..) => false,
+        Force::Node(..) | Force::Body(..) => false,
         Force::Pressure(edge, _) | Force::Traction(edge, _) => surfaces.contains(&unordered(edge)),
     };
     let mut notes = Vec::new();

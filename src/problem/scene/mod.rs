@@ -146,13 +146,14 @@ impl Scene {
         (&self.source.description, &self.source.mesh)
     }
 
-    /// Returns the coupling under a variant: of a scene that names neither mortar under `unilateral`, as
-    /// contact is asked for as it is, and that of `c_cnt` under the paper's.
+    /// Returns the coupling under a variant: of a scene that names neither it nor a variant of the paper mortar under
+    /// `unilateral`, as contact is asked for as it is, and that of `c_cnt` under the paper's.
     pub fn coupling(&self, variant: Variant) -> Coupling {
         let own = &self.source.description;
         let says = own.contact.as_ref().is_none_or(|contact| contact.coupling.is_some());
+        let is_own = own.variant.is_none_or(|own| own == Variant::Unilateral);
         match variant {
-            Variant::Unilateral if own.variant.is_none() && !says => Coupling::Mortar,
+            Variant::Unilateral if is_own && !says => Coupling::Mortar,
             Variant::Unilateral | Variant::Printed | Variant::Tied | Variant::Stepped => {
                 self.contact.coupling
             }

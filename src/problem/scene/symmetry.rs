@@ -89,6 +89,7 @@ fn description(scene: &Scene, line: &Line, mesh: &Mesh, nodes: &BTreeSet<NodeId>
         LoadKind::Pressure { on, .. } | LoadKind::Traction { on, .. } => {
             groups.places(1, on, "loads").is_ok()
         }
+        LoadKind::Weight { on, .. } => groups.places(2, on, "loads").is_ok(),
         LoadKind::Force { node, force: [x, y] } => {
             let node = NodeId::from_number(*node);
             if line.side(node) == 0 {

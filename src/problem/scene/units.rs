@@ -1,7 +1,11 @@
 //! Whether the units that a scene names fit each other. They are names: no number is converted.
 
-use super::description::Units;
-use crate::units::{FORCES, LENGTHS, in_si, stress_in_si};
+use std::ops::RangeInclusive;
+
+use super::Scene;
+use super::description::{LoadKind, Units};
+use crate::model::Material;
+use crate::units::{FORCES, LENGTHS, SI, in_si, stress_in_si};
 use base::plain::six_digits;
 
 /// How far two units may be apart that are one, over the larger.
@@ -47,4 +51,45 @@ pub fn misfit(units: &Units) -> Option<String> {
             six_digits(fits / in_force)
         )
     })
+}
+
+/// Young's moduli of what bodies are made of, Pa: from soft rubber to diamond; and of what strains little.
+const MODULI: RangeInclusive<f64> = 1e5..=1.3e12;
+const STIFF: RangeInclusive<f64> = 1e9..=1.3e12;
+
+/// The strain under a pressure that is no slip of units.
+const STRAIN: f64 = 0.01;
+
+impl Scene {
+    /// Asks of moduli, and of pressures where the bodies are strained much, whether they are in another unit of stress
+    /// than the scene's.
+    pub fn doubtful_units(&self, is_strained: bool) -> Vec<String> {
+        let (source, unit) = (&self.source.description, &self.units.stress);
+        let Some(own) = stress_in_si(unit) else { return Vec::new() };
+        let other = |what: String, is_likely: &dyn Fn(f64) -> bool| {
+            let mut sizes = SI.iter().rev().filter(|(_, size)| *size != own);
+            let (name, _) = sizes.find(|(_, size)| is_likely(*size))?;
+            Some(format!("{what} {unit}: in {name}?"))
+        };
+        let usual = if is_strained { STIFF } else { MODULI };
+        let moduli = source.materials.0.iter().filter(|(_, of)| !usual.contains(&(of.e * own)));
+        let moduli = moduli.filter_map(|(group, Material { e, .. })| {
+            let what = format!("E of {}, {}", group.text(), six_digits(*e));
+            other(what, &|size| STIFF.contains(&(e * size)))
+        });
+        let least = source.materials.0.iter().map(|(_, of)| of.e * own).fold(f64::MAX, f64::min);
+        let pressures = source.loads.iter().filter_map(|load| match load.kind {
+            LoadKind::Pressure { pressure, .. }
+                if is_strained && pressure * own > STRAIN * least =>
+            {
+                let what = format!("pressure {}", six_digits(pressure));
+                other(what, &|size| size < own && pressure * size <= STRAIN * least)
+            }
+            LoadKind::Pressure { .. }
+            | LoadKind::Traction { .. }
+            | LoadKind::Force { .. }
+            | LoadKind::Weight { .. } => None,
+        });
+        moduli.chain(pressures).collect()
+    }
 }

@@ -82,12 +82,21 @@ def solve(scene: Scene = "strand", **options: Any) -> Result:
 
 
 def reference(scene: Scene = "strand", **options: Any) -> Result:
-    """Returns the reference solution: without friction, in small displacements, which is unique."""
+    """Returns the reference solution: without friction, in small displacements, which is unique.
+
+    >>> reference("fig1")["variant"]
+    'unilateral'
+    """
     return solve(scene, reference=True, **options)
 
 
 def audit(scene: Scene = "strand", **options: Any) -> Result:
-    """Judges what the paper claims on a scene, as ``plane-contact audit`` does."""
+    """Judges what the paper claims on a scene, as ``plane-contact audit`` does.
+
+    >>> judged = audit("two-blocks")["claims"]
+    >>> judged["id"][:2], judged["verdict"][:2]
+    (['P1', 'P2'], ['true', 'true only if'])
+    """
     return _json(["audit"], scene, options)
 
 
@@ -98,6 +107,11 @@ def compare(scene: Scene, u: Any, points: Any = None, **options: Any) -> Result:
     As ``plane-contact compare --with FIELD`` does, also where they differ: ``distance`` has the largest
     difference of a node and the distance in the energy norm, ``contact`` what the displacements imply of
     contact. With ``friction=0, geometry="initial"`` it is the distance from the reference solution.
+
+    >>> moved = 1.01 * reference("fig1")["u"]
+    >>> found = compare("fig1", moved, friction=0, geometry="initial")
+    >>> found["is_same"], round(float(found["distance"]["energy_relative"]), 4)
+    (False, 0.01)
     """
     u = _rows(u, "u")
     places = np.arange(1, len(u) + 1)[:, None] if points is None else _rows(points, "points")[:, :2]
@@ -116,14 +130,25 @@ def compare(scene: Scene, u: Any, points: Any = None, **options: Any) -> Result:
 
 
 def record(scene: Scene, out: File, **options: Any) -> Result:
-    """Records a snapshot of what the scene gives in the file ``out``, and returns it."""
+    """Records a snapshot of what the scene gives in the file ``out``, and returns it.
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     record("fig1", Path(folder) / "fig1.json", tolerance=1e-3)["summary"]["stepped"]["end"]
+    'exit status 0, 20 iterations; 4 nodes in contact: 5, 6, 7, 9'
+    """
     _run(["snapshot", "record"], scene, {**options, "out": out})
     recorded: Result = arrays(json.loads(Path(out).read_text(encoding="utf-8")))
     return recorded
 
 
 def verify(*files: Union[File, Iterable[File]], scene: Optional[File] = None) -> Result:
-    """Runs again what snapshots recorded, files or lists of them. Raises `Differs`, whose ``result`` says what differs."""
+    """Runs again what snapshots recorded, files or lists of them. Raises `Differs`, whose ``result`` says what differs.
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     recorded = record("fig1", Path(folder) / "fig1.json")
+    ...     verify(Path(folder) / "fig1.json")["same"]
+    True
+    """
     single = (str, os.PathLike)
     lists = [[entry] if isinstance(entry, single) else list(entry) for entry in files]
     names = [os.fspath(file) for entry in lists for file in entry]
@@ -131,7 +156,11 @@ def verify(*files: Union[File, Iterable[File]], scene: Optional[File] = None) ->
 
 
 def arrays(value: Any) -> Any:
-    """Returns JSON with arrays in place of lists of numbers, and columns in place of lists of objects."""
+    """Returns JSON with arrays in place of lists of numbers, and columns in place of lists of objects.
+
+    >>> arrays([{"node": 5, "gap": 0.5}, {"node": 6, "gap": None}])["gap"]
+    array([0.5, nan])
+    """
     if isinstance(value, dict):
         return {key: arrays(entry) for key, entry in value.items()}
     if not isinstance(value, list):
@@ -149,7 +178,11 @@ def arrays(value: Any) -> Any:
 
 
 def program() -> str:
-    """Returns the path of the program: that of this installation, else the one on the PATH."""
+    """Returns the path of the program: that of this installation, else the one on the PATH.
+
+    >>> Path(program()).stem
+    'plane-contact'
+    """
     here = sysconfig.get_path("scripts")
     found = shutil.which("plane-contact", path=here) or shutil.which("plane-contact")
     if found is None:

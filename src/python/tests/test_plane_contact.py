@@ -403,3 +403,9 @@ def test_a_difference_is_told_as_verify_tells_it(tmp_path):
         plane_contact.verify(path)
     assert str(caught.value).strip() == printed.stdout.strip()
     assert "31000" in shown and "_json" not in shown and "subprocess" not in shown
+
+
+def test_every_function_has_an_example():
+    for name, function in vars(plane_contact).items():
+        if not name.startswith("_") and getattr(function, "__module__", None) == "plane_contact":
+            assert isinstance(function, type) or ">>> " in function.__doc__, name

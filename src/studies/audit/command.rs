@@ -22,23 +22,24 @@ use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
+    ReadingArg, TablesArgs, command_line, note, offered, print, print_either, progress, waiting,
+    width,
 };
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-One screen: a verdict to quote, the paper's runs beside the equilibrium, the verdicts on its
-claims, what each fault costs, what was assumed. --full prints the whole: what the verdict
-leaves out, the claims of the paper in full, the readings (what each other value changes), the
-findings (present, not triggered here, contradicted; with a number), and the variants side by side.
---finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one:
-the paper's sentence, what is judged, threshold, value, and the verdict under each other reading.
---reading audits under another reading than the default, to see whether it rescues a claim. All
-figures are repeated on inputs that mean the same; one that moves by more than a millionth is
+One screen: the verdict, the paper's runs beside the equilibrium, the verdicts on its \
+claims, what each fault costs, what was assumed. --full prints the whole: what the verdict \
+leaves out, the claims of the paper in full, the readings (what each other value changes), the \
+findings (present, not triggered here, contradicted; with a number), and the variants side by side. \
+--finding explains one on its smallest scene, or on SCENE where that is given; --claim judges one: \
+the paper's sentence, what is judged, threshold, value, and the verdict under each other reading. \
+--reading audits under another reading than the default, to see whether it rescues a claim. All \
+figures are repeated on inputs that mean the same; one that moves by more than a millionth is \
 'decided by rounding', and left out. The whole takes 150 to 300 times as long as solve.
 
-A variant that runs to its end and passes no load on, as printed does, is an audit result, no
+A variant that runs to its end and passes no load on, as printed does, is an audit result, no \
 failure: solve and audit say 'nothing transmitted', their JSON transmits_nothing.
 
 Examples:
@@ -217,7 +218,7 @@ fn whole(args: &Args) -> Result<()> {
     if !std::io::stderr().is_terminal() {
         note(&format!("auditing {}: it takes from seconds to minutes\n", case.scene.name));
     }
-    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}");
+    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}").logged();
     let watch = || bar.inc(1);
     let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
     let found = audit(&case, &places, is_whole, &watch);
@@ -271,7 +272,13 @@ fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Resu
     for variant in Variant::ALL {
         if let Ok(solution) = case.run(*variant) {
             let assessment = Assessment::against(solution, others);
-            let of_run = folder::contents(solution, &assessment, None, FolderOptions::default());
+            let of_run = folder::contents(
+                solution,
+                &assessment,
+                None,
+                FolderOptions::default(),
+                &command_line(),
+            );
             let named =
                 of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
             files.extend(named);

@@ -77,7 +77,7 @@ pub struct NearRun {
     pub unsettled: bool,
 }
 
-/// Names a run and says what it is, with its reading where that is not the default.
+/// Says what a run is, then names it, with its reading where that is not the default.
 impl Display for NearRun {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         let NearRun { variant, reading, unsettled, .. } = self;
@@ -89,7 +89,7 @@ impl Display for NearRun {
         };
         let reading = reading.as_ref().map_or(String::new(), |reading| format!(", {reading}"));
         let unsettled = if *unsettled { ", does not settle" } else { "" };
-        write!(out, "\"{variant}\" ({what}{reading}{unsettled})")
+        write!(out, "{what} ({variant}{reading}{unsettled})")
     }
 }
 

@@ -260,7 +260,11 @@ pub fn explanation(
         Repair::Edit { text } => {
             let lines = text.lines().filter(|line| !line.starts_with('#'));
             let lines: String = lines.map(|line| format!("{line}\n")).collect();
-            Report::default().heading("The repair as an edit of the listing").code(lines)
+            let order = "In the order of execution, under the numbers of the printed lines that are replaced:";
+            Report::default()
+                .heading("The repair as an edit of the listing")
+                .line(order)
+                .code(lines)
         }
         Repair::None { reason } => {
             Report::default().heading("No edit of a listing repairs it").note(*reason)

@@ -1,13 +1,13 @@
-//! What an audit says: a verdict to quote, the runs beside the equilibrium, the claims by how far their
+//! What an audit says: a verdict, the runs beside the equilibrium, the claims by how far their
 //! verdicts reach, the faults by what they cost, what was assumed; and behind that, in full, what it rests
 //! on.
 
 use crate::audit::claims::claim_tables as claims;
-use crate::audit::claims::{ClaimId, JudgedClaim, Scope, Verdict};
-use crate::audit::conclusion::{Conclusion, Coupled, Fields, Nearest, Spread, of_the_paper};
+use crate::audit::claims::{JudgedClaim, NOTICEABLE, Scope, Verdict};
+use crate::audit::conclusion::{Coupled, Fields, Nearest, Spread, of_the_paper};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
-use crate::audit::prices::price_tables::{self as prices, Cost};
+use crate::audit::prices::price_tables as prices;
 use crate::audit::range::{self, is_example};
 use crate::audit::variants::{PressedAcross, VariantRow, VariantRun};
 use crate::audit::{Assumption, Audit, tables};
@@ -24,24 +24,30 @@ use problem::scene::Scene;
 /// The most columns of the first screen.
 pub const WIDTH: usize = 100;
 
-/// What is judged, and what is not.
-pub const JUDGED: [&str; 2] = [
-    "Judged: listings c_cnt and Km as printed, eq. (1) as the text has it.",
-    "Not judged: the authors' unpublished worksheet; whether a line is a misprint.",
-];
+/// What is judged.
+pub const JUDGED: &str = "Judged: listings c_cnt and Km as printed, eq. (1) as the text has it.";
+
+/// What no run decides.
+const NOT_CHECKED: &str = "What cannot be checked: the authors' unpublished worksheet, agreement with the commercial code, whether a \
+     line is a misprint (P13).";
 
 /// What a mark at a claim says.
 const OURS: &str = "*: threshold or wording is this audit's. audit --claim P12 explains one.";
 
 /// What the runs of the table are.
-const RUNS: &str =
-    "Runs of the paper's algorithm, and the equilibrium under the scene's own friction";
+const RUNS: &str = "Runs of the paper's algorithm beside the equilibrium";
 
 /// Where the row of CalculiX is from.
 const OF_CALCULIX: &str = "CalculiX: a recorded run (guide calculix).";
 
 /// What the faults are, and what stands beside each.
-const FAULTS: &str = "Faults, each reintroduced alone into the corrected algorithm, by the error in energy it causes";
+const FAULTS: &str = "Dearest faults, by their error in energy";
+
+/// Where all faults stand.
+const ALL_FAULTS: &str = "All: table \"Each fault alone\".";
+
+/// How many faults the first screen has.
+const DEAREST: usize = 3;
 
 /// Where the clearance comes from.
 const CLEARANCE: &str = "The clearance of 0.1 mm is ours: with it contact spans several nodes, as in figure 1. Real ducts are wider.";
@@ -89,45 +95,43 @@ pub fn report(audit: &Audit, depth: Depth) -> Report {
         "Audit of Filipov & Khomenko, \"Plane contact by the finite element method\", on scene {}{under}",
         scene.name
     ))
-    .line(JUDGED.join(" "));
+    .line(JUDGED);
     let sections = sections(audit, depth).into_iter().map(Section::report);
     let first = sections.fold(first, Report::then);
     match depth {
         Depth::Page => first,
         Depth::Full => first.then(evidence(audit, &[])),
         Depth::Screen => first.line(format!(
-            "More: audit {name} --full | audit {name} --claim P12 | audit {name} --finding K1 | audit --range | report {name}"
+            "More: audit {name} --full | audit {name} --finding K1 | audit --range | report {name}"
         )),
     }
 }
 
 /// Returns the parts of the first screen: of a scene without contact the verdict alone.
 pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
-    let verdict = verdict(audit);
-    let verdict = match depth {
-        Depth::Page => Report::default().line(verdict.join(" ")),
-        Depth::Screen | Depth::Full => Report::default().notes(verdict),
-    };
-    let mut sections = vec![Section::new("verdict", "Verdict", verdict)];
+    let verdict = Report::default().notes(verdict(audit));
+    let mut sections = vec![Section::new("verdict", answer(audit), verdict)];
     if audit.conclusion.coupled.is_none() {
         return sections;
     }
     let recorded = is_example(&audit.scene).then(|| OF_CALCULIX.to_string());
     let runs = Report::default().table(RUNS, runs(audit)).notes(recorded);
-    let runs = match depth {
-        Depth::Screen => runs.notes(mesh_error(audit)).notes(others(audit)),
-        Depth::Page => runs.notes(mesh_error(audit)),
-        Depth::Full => mesh_error(audit).into_iter().fold(runs, Report::line),
-    };
+    let runs = runs.notes(mesh_error(audit));
     sections.push(Section::new("runs", None, runs));
     // In full, the tables of claims and prices have these.
     if depth != Depth::Full {
         let judged = Report::default()
             .table(format!("The paper's {}", claims::counts()), by_scope(&audit.claims))
             .note(OURS);
-        sections.extend([Section::new("claims", None, judged), faults(audit, depth)]);
+        let names = audit.assumptions.iter().map(|own| own.what.split(" (").next());
+        let names = names.flatten().collect::<Vec<_>>().join("; ");
+        let assumed = Report::default().line(format!("{}: {names}.", assumed(&audit.scene)));
+        sections.extend([
+            Section::new("claims", None, judged),
+            faults(audit),
+            Section::new("assumed", None, assumed),
+        ]);
     }
-    sections.push(assumed(audit, depth));
     sections
 }
 
@@ -137,16 +141,23 @@ pub fn evidence(audit: &Audit, repairs: &[Price]) -> Report {
     let Audit { scene, conclusion, claims, by_reading, prices, .. } = audit;
     let beside = beside(audit);
     let heading = (!beside.is_empty()).then_some("Beside the verdict");
-    Section::new("beside", heading, Report::default().notes(beside))
+    let open = audit.assumptions.iter().map(Assumption::to_string);
+    let open = Report::default().notes(open);
+    let title = (!audit.assumptions.is_empty()).then(|| assumed(scene));
+    Section::new("assumed", title, open)
         .report()
+        .then(Section::new("beside", heading, Report::default().notes(beside)).report())
         .then(claims::report(claims, by_reading))
         .then(prices::section(conclusion.reading, prices, repairs, scene))
         .then(tables::evidence(audit))
 }
 
-/// Says in sentences to quote whether the print couples the bodies, and how far its nearest run is off.
+/// Says in three sentences what joins the bodies, how far the nearest run is off, and what is not checked.
 fn verdict(audit: &Audit) -> Vec<String> {
-    let Audit { scene, conclusion, .. } = audit;
+    let Audit { conclusion, .. } = audit;
+    let Some(coupled) = &conclusion.coupled else {
+        return vec!["The scene has no contact: there is nothing to couple.".into()];
+    };
     let nearest = match &conclusion.nearest {
         Some(Nearest { runs, tried, .. }) => {
             let tried = counted(*tried, "run", "runs");
@@ -154,41 +165,37 @@ fn verdict(audit: &Audit) -> Vec<String> {
                 [run] => format!("The nearest of {tried}, {run}, is"),
                 runs => format!("The {} nearest of {tried} are", in_words(runs.len())),
             };
-            let far = percent(runs[0].energy);
-            Some(format!("{nearest} {far} from the equilibrium (energy norm, same mesh)."))
+            format!("{nearest} {} from the equilibrium (energy norm).", percent(runs[0].energy))
         }
-        None if conclusion.coupled.is_none() => None,
-        None if conclusion.fields.is_none() => Some(
+        None if conclusion.fields.is_none() => {
             "There is no equilibrium to compare with: no run, fault or claim is judged by its distance from one."
-                .into(),
-        ),
-        None => Some("No run of the paper's algorithm ends with a result.".into()),
-    };
-    let is_example = is_example(scene);
-    let range = (is_example && conclusion.reading == Reading::default())
-        .then(|| range::RECORDED.to_string());
-    let strongest = of_the_paper(&audit.variants).filter(|row| is_nearest(conclusion, row));
-    let strongest = strongest.filter_map(|row| Some((row.variant, wrong_with(row, scene)?)));
-    let strongest = strongest.enumerate().map(|(k, (variant, words))| match variant {
-        Variant::Tied | Variant::Stepped if k == 0 => {
-            format!("Eq. (1) gets contact wrong here. {words}")
+                .into()
         }
-        Variant::Tied | Variant::Stepped | Variant::Printed | Variant::Unilateral => words,
-    });
-    let is_unknown = |judged: &JudgedClaim| {
-        judged.claim.id == ClaimId::P13 && judged.measured.verdict == Verdict::NotCheckable
+        None => "No run of the paper's algorithm ends with a result.".into(),
     };
-    let other_code = (is_example && audit.claims.iter().any(is_unknown))
-        .then(|| "Agreement with the commercial code cannot be checked (P13).".into());
     let overlap = audit.equilibrium.iter().filter_map(|found| found.overlap.as_ref());
     overlap
         .map(|what| format!("Of the equilibrium that runs are compared with: {what}"))
-        .chain([coupling(conclusion.coupled.as_ref())])
-        .chain(nearest)
-        .chain(range)
-        .chain(strongest)
-        .chain(other_code)
+        .chain([coupling(coupled), nearest, NOT_CHECKED.into()])
         .collect()
+}
+
+/// Answers whether the print solves the scene.
+fn answer(audit: &Audit) -> &'static str {
+    let Some(coupled) = &audit.conclusion.coupled else { return "Verdict" };
+    let mut rows = audit.variants.iter().filter(|row| row.variant == Variant::Printed);
+    let printed = rows.find_map(|row| row.outcome.as_ref().ok()?.distance.as_ref());
+    match (printed, coupled) {
+        (Some(from), _) if from.energy_relative <= NOTICEABLE => {
+            "Yes. As printed the algorithm solves this contact problem, within 1 %."
+        }
+        (Some(_), _)
+        | (
+            None,
+            Coupled { joins: Some(0), .. } | Coupled { failure: Some(NoFigures::Fails(_)), .. },
+        ) => "No. As printed the algorithm does not solve this contact problem.",
+        (None, _) => "Not decided: the print has no result here, or there is none to compare with.",
+    }
 }
 
 /// Writes a small number as a word.
@@ -198,26 +205,25 @@ fn in_words(n: usize) -> String {
 }
 
 /// Says whether the print couples the bodies.
-fn coupling(coupled: Option<&Coupled>) -> String {
-    let Some(Coupled { joins, share, failure }) = coupled else {
-        return "The scene has no contact: there is nothing to couple.".into();
-    };
-    let joins = match joins {
-        None => "Not decided here: no node comes in contact".to_string(),
-        Some(0) => "As printed, Km adds no entry that joins the two bodies (K1)".into(),
-        Some(n) => format!("As printed, {n} entries of MJS join the two bodies"),
+fn coupling(Coupled { joins, share, failure }: &Coupled) -> String {
+    let (joins, id) = match joins {
+        None => ("No node comes in contact".to_string(), ""),
+        Some(0) => ("Nothing joins the two bodies".into(), " (K1)"),
+        Some(n) => (format!("{n} entries of the matrix join the two bodies"), " (K1)"),
     };
     match (share, failure) {
-        (Some(share), _) => format!("{joins}: {} of the load reaches the target.", percent(*share)),
-        (None, Some(NoFigures::Rounding)) => format!("{joins}; printed is {BY_ROUNDING}."),
+        (Some(share), _) => {
+            format!("{joins}: {} of the load reaches the target{id}.", percent(*share))
+        }
+        (None, Some(NoFigures::Rounding)) => format!("{joins}{id}; the print is {BY_ROUNDING}."),
         (None, Some(why @ NoFigures::Refused(_))) => format!(
             "The paper's variants cannot be asked for this scene: {}.",
             why.in_short().trim_end_matches('.')
         ),
         (None, Some(why @ NoFigures::Fails(_))) => {
-            format!("{joins}; printed stops: {}.", why.in_short().trim_end_matches('.'))
+            format!("{joins}{id}; the print stops: {}.", why.in_short().trim_end_matches('.'))
         }
-        (None, None) => format!("{joins}."),
+        (None, None) => format!("{joins}{id}."),
     }
 }
 
@@ -225,7 +231,8 @@ fn coupling(coupled: Option<&Coupled>) -> String {
 /// another problem, the fields of the nearest, the findings without a price, and what the paper leaves open.
 fn beside(audit: &Audit) -> Vec<String> {
     let Audit { scene, conclusion, .. } = audit;
-    let mut said = others(audit);
+    let wrong = of_the_paper(&audit.variants).filter_map(|row| wrong_with(row, scene));
+    let mut said: Vec<String> = wrong.collect();
     if let Some(Nearest { failed, by_rounding, apart, .. }) = &conclusion.nearest {
         let stop = counted(*failed, "run stops", "runs stop");
         said.extend((*failed > 0).then(|| format!("{stop} without a result.")));
@@ -243,7 +250,9 @@ fn beside(audit: &Audit) -> Vec<String> {
     );
     if is_example(scene) {
         said.push(CLEARANCE.into());
-        said.extend((conclusion.reading == Reading::default()).then(|| WIDER.into()));
+        if conclusion.reading == Reading::default() {
+            said.extend([range::RECORDED.to_string(), WIDER.into()]);
+        }
     }
     if let Some(Spread { places, error: [least, most], changes, true_from }) = &conclusion.range {
         let verdicts = match changes.len() {
@@ -302,18 +311,6 @@ fn fields(audit: &Audit, Fields { variants, difference, errors }: &Fields) -> Ve
         places.collect::<Vec<_>>().join("; ")
     );
     off.into_iter().chain([own]).collect()
-}
-
-/// Says what is wrong with the runs that are not the nearest, whose faults stand in the verdict.
-fn others(audit: &Audit) -> Vec<String> {
-    let others = of_the_paper(&audit.variants).filter(|row| !is_nearest(&audit.conclusion, row));
-    others.filter_map(|row| wrong_with(row, &audit.scene)).collect()
-}
-
-/// Whether a variant is one of the nearest, whose faults stand in the verdict.
-fn is_nearest(conclusion: &Conclusion, row: &VariantRow) -> bool {
-    let mut runs = conclusion.nearest.iter().flat_map(|nearest| &nearest.runs);
-    runs.any(|run| run.reading.is_none() && run.variant == row.variant)
 }
 
 /// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which
@@ -433,43 +430,16 @@ fn by_scope(judged: &[JudgedClaim]) -> Table {
     Table::new(std::iter::once("verdict holds on").chain(headings), rows)
 }
 
-/// The faults by what they cost: a line each on the screen, a row each on the page.
-fn faults(audit: &Audit, depth: Depth) -> Section {
-    match (prices::by_cost(&audit.prices), depth) {
-        (Ok(costs), Depth::Page) => {
-            let table = Table::from_rows(costs)
-                .column("cost", |cost| cost.cost.clone())
-                .column("finding", |cost| match cost.words {
-                    Some(_) => Cell::from(cost.names.clone()),
-                    None => Cell::Empty,
-                })
-                .column("fault", |cost| cost.words.clone().unwrap_or(cost.names.clone()));
-            let own = prices::without_any(&audit.prices);
-            Section::new("faults", None, Report::default().table(FAULTS, table).notes(own))
-        }
-        (Ok(costs), Depth::Screen | Depth::Full) => {
-            let costs = costs.iter().map(Cost::to_string);
-            let own = prices::without_any(&audit.prices);
-            Section::new("faults", FAULTS, Report::default().notes(costs.chain(own)))
-        }
-        (Err(why), _) => Section::new("faults", FAULTS, Report::default().note(why)),
-    }
+/// The faults that cost most.
+fn faults(audit: &Audit) -> Section {
+    let said = match prices::by_cost(&audit.prices) {
+        Ok(costs) => Report::default().notes(costs.into_iter().take(DEAREST)).note(ALL_FAULTS),
+        Err(why) => Report::default().note(why),
+    };
+    Section::new("faults", FAULTS, said)
 }
 
-/// What the paper leaves open, and what the scene has in its place.
-fn assumed(audit: &Audit, depth: Depth) -> Section {
-    let title = match is_example(&audit.scene) {
-        true => "Assumed, as the paper is silent",
-        false => "The scene",
-    };
-    let assumed: Vec<String> = audit.assumptions.iter().map(Assumption::to_string).collect();
-    match depth {
-        Depth::Screen => {
-            let line = format!("{title}: {}.", assumed.join("; "));
-            Section::new("assumed", None, Report::default().line(line))
-        }
-        Depth::Page | Depth::Full => {
-            Section::new("assumed", title, Report::default().notes(assumed))
-        }
-    }
+/// Heads what the paper leaves open.
+fn assumed(scene: &Scene) -> &'static str {
+    if is_example(scene) { "Assumed, as the paper is silent" } else { "The scene" }
 }

@@ -28,19 +28,19 @@ const FARTHEST: f64 = 1e9;
 /// Put displacements from another code beside a solution, and show the differences.
 #[derive(clap::Args)]
 #[command(after_help = "\
---with FIELD: displacements on the scene's mesh, in its unit of length, as CSV (columns node or
-x, y, then ux, uy, as the nodes.csv of solve --csv), beside the equilibrium (unilateral with mortar
+--with FIELD: displacements on the scene's mesh, in its unit of length, as CSV (columns node or \
+x, y, then ux, uy, as the nodes.csv of solve --csv), beside the equilibrium (unilateral with mortar \
 and the scene's friction), or the run of --variant. Other files go through Python (guide scenes).
 
---with calculix: exports the scene to a temporary folder, runs ccx there, and puts its displacements
-beside the run of --variant, else of the scene's. Where the last digit decides who is in contact
+--with calculix: exports the scene to a temporary folder, runs ccx there, and puts its displacements \
+beside the run of --variant, else of the scene's. Where the last digit decides who is in contact \
 in f64, it is the run in double-doubles.
---contact equation: the same linear systems solved by both; where the load is stepped, a deck for
+--contact equation: the same linear systems solved by both; where the load is stepped, a deck for \
 each contact state, summed.
---contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for
+--contact pair: CalculiX's own contact; the two differ by the penalty and by what each takes for \
 contact.
 
-Stresses, penetration, traction and forces are those that the displacements imply. The exit status
+Stresses, penetration, traction and forces are those that the displacements imply. The exit status \
 tells a difference beyond --rtol. Nothing is written but --csv.
 
 Examples:

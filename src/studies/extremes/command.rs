@@ -13,9 +13,9 @@ use commands::{TablesArgs, folder, print, waiting};
 /// Find where a method breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer
-without a right digit, or another contact), or refused (and by which error). A method breaks down
-where it is refused or keeps fewer than 3 digits; that point is bisected. It takes 300 times as
+Each generator sweeps one magnitude. A cell is exact, a number of right digits, WRONG (an answer \
+without a right digit, or another contact), or refused (and by which error). A method breaks down \
+where it is refused or keeps fewer than 3 digits; that point is bisected. It takes 300 times as \
 long as solve on fig1.
 
 Examples:

@@ -21,7 +21,7 @@ use commands::{print, print_either, read_listing, report_error, waiting};
 /// Run a program in the notation of the listings.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The file holds one function or several, in the notation that plane-contact guide notation
+The file holds one function or several, in the notation that plane-contact guide notation \
 describes. Rules, and where each was measured: plane-contact guide interpreter.
 
 Examples:

@@ -37,9 +37,9 @@ pub enum Which {
 /// Find the contact pairs.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in
-contact), then the rows of k_cnt that are not zero. --json: {\"cnt\": [...], \"ct\": [...],
-\"yt\": [...], \"dy\": [...], \"k_cnt\": [[master, weight, master, weight], ...]}; cnt is as the
+Prints, by contact node, ct (elem number of the target edge), yt (vertical distance), dy (1 = in \
+contact), then the rows of k_cnt that are not zero. --json: {\"cnt\": [...], \"ct\": [...], \
+\"yt\": [...], \"dy\": [...], \"k_cnt\": [[master, weight, master, weight], ...]}; cnt is as the \
 scene lists it.
 
 Examples:

@@ -28,9 +28,9 @@ base::choices! {
 /// Write the listings with a scene's tables: a worksheet, or a program for Octave and MATLAB.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The listings are those printed, with the iterations of the variant printed and our results beside them.
-octave FILE.m executes the program, from any folder; MATLAB does from R2024a on, where FILE is a name
-of MATLAB's. --corrected writes the corrected algorithm of plane-contact guide corrected in place of the
+The listings are those printed, with the iterations of the variant printed and our results beside them. \
+octave FILE.m executes the program, from any folder; MATLAB does from R2024a on, where FILE is a name \
+of MATLAB's. --corrected writes the corrected algorithm of plane-contact guide corrected in place of the \
 listings: no friction, in the initial geometry.
 
 Examples:

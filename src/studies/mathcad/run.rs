@@ -18,13 +18,13 @@ use commands::{print_either, progress};
 /// Execute a worksheet of Mathcad 13 to 15 beside the results that it saved.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Regions are executed in the worksheet's order and settings, and each result is compared with the one
-that Mathcad saved: same to the last bit, to so many digits, or differing. Units, symbolics, plots,
-solve blocks, derivatives, integrals and random numbers are named as unsupported. Where the worksheet
-shows a name's value and ours is not the same to the last bit, or unsupported, the saved value goes on
+Regions are executed in the worksheet's order and settings, and each result is compared with the one \
+that Mathcad saved: same to the last bit, to so many digits, or differing. Units, symbolics, plots, \
+solve blocks, derivatives, integrals and random numbers are named as unsupported. Where the worksheet \
+shows a name's value and ours is not the same to the last bit, or unsupported, the saved value goes on \
 as input, so that each result is judged for itself; results that rest on it say so.
 
-The exit status also tells a difference: a result, a region that fails here alone, or that nothing could
+The exit status also tells a difference: a result, a region that fails here alone, or that nothing could \
 be compared.
 
 Examples:

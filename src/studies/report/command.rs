@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::audit::prices::{self, Price};
-use crate::audit::{Audit, Case, audit};
+use crate::audit::{Audit, Case, audit, steps};
 use crate::calculix::{self, Pair};
 use crate::compare;
 use crate::report::page;
@@ -20,7 +20,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
 
-use commands::{offered, report_written, waiting};
+use commands::{offered, progress, report_written, waiting};
 
 /// The most nodes of a mesh on which the print is repaired one finding at a time unasked: it takes some
 /// hundred runs, half a second on fig1 and minutes on strand, with 1,111 nodes.
@@ -40,12 +40,12 @@ base::choices! {
 /// Write an audit report, ready to be handed in.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The first screen, and page 1 in print: a verdict to quote, the runs beside the equilibrium, pressure
-and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts
-unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures,
-differences from CalculiX, what could not be checked, a glossary, and the command that makes it
-again, versions and hashes. --format html and markdown say the same. The page has the fields of
-every run at their end, under the pointer and at probes, and tables that copy as CSV; it prints on
+The first screen, and page 1 in print: a verdict, the runs beside the equilibrium, pressure \
+and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts \
+unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures, \
+differences from CalculiX, what could not be checked, a glossary, and the command that makes it \
+again, versions and hashes. --format html and markdown say the same. The page has the fields of \
+every run at their end, under the pointer and at probes, and tables that copy as CSV; it prints on \
 A4. It takes a minute on strand, more with --repairs.
 
 Examples:
@@ -87,22 +87,24 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
     let case = Case::within_memory(&scene, Reading::default())?;
-    waiting("auditing", || write(args, &case, &out))?;
+    let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}").logged();
+    let found = audit(&case, &Vec::new(), true, &|| bar.inc(1));
+    bar.finish();
+    waiting("writing", || write(args, &case, &found, &out))?;
     report_written(&out);
     Ok(())
 }
 
 /// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
-fn write(args: &Args, case: &Case, out: &Path) -> Result<()> {
-    let found = audit(case, &Vec::new(), true, &|| ());
+fn write(args: &Args, case: &Case, found: &Audit, out: &Path) -> Result<()> {
     let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
         scene: &case.scene,
         command: command(args),
         asked: asked(&case.scene),
-        audit: &found,
-        repairs: repairs(args, case, &found),
-        runs: runs(case, &found),
+        audit: found,
+        repairs: repairs(args, case, found),
+        runs: runs(case, found),
         calculix,
     };
     match args.format {

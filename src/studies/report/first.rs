@@ -4,11 +4,10 @@
 use std::collections::BTreeSet;
 
 use super::{Contents, Picture, pictures};
+use crate::audit::Audit;
 use crate::audit::claims::{CLAIMS, Claim, claim_tables as claims};
 use crate::audit::findings::{FINDINGS, Finding};
-use crate::audit::prices::price_tables::by_cost;
 use crate::audit::words::{Depth, JUDGED, Section, sections};
-use crate::audit::{Assumption, Audit};
 use base::xml::escape;
 use output::html::{anchor, prose};
 use output::layout::counted;
@@ -20,8 +19,7 @@ pub fn html(contents: &Contents, menu: &str) -> String {
     let scene = contents.scene;
     let under = claims::under(&contents.audit.conclusion.reading);
     let on = format!(" On scene {} ({}){under}.", scene.name, scene.title);
-    let judged = [JUDGED[0].to_string() + &on, JUDGED[1].to_string()];
-    let judged = judged.map(|words| format!("<p>{}</p>", escape(&words))).concat();
+    let judged = format!("<p>{}</p>", escape(&(JUDGED.to_string() + &on)));
     let parts = audited(contents.audit);
     let pictures: String = pictures(contents).iter().map(Picture::html).collect();
     let again =
@@ -44,10 +42,7 @@ fn audited(audit: &Audit) -> String {
     let boxes =
         sections(audit, Depth::Page).into_iter().map(|Section { name, heading, content }| {
             let heading = heading.map(|words| format!("<h2>{}</h2>", escape(words)));
-            let content = match name {
-                "assumed" => definitions(&audit.assumptions),
-                _ => content.html(),
-            };
+            let content = content.html();
             if name == "claims" {
                 unexplained += &content;
             }
@@ -58,18 +53,7 @@ fn audited(audit: &Audit) -> String {
             )
         });
     let boxes: String = boxes.collect();
-    let alike = by_cost(&audit.prices).unwrap_or_default().into_iter();
-    let alike = alike.filter(|cost| cost.words.is_none()).map(|cost| cost.names);
-    let unexplained = alike.fold(unexplained, |words, names| words + " " + &names);
     boxes + &key(&unexplained)
-}
-
-/// Lists what the paper leaves open in as little room as there is.
-fn definitions(assumptions: &[Assumption]) -> String {
-    let entry = |Assumption { what, set_to }: &Assumption| {
-        format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(what), escape(set_to))
-    };
-    format!("<dl>{}</dl>", assumptions.iter().map(entry).collect::<String>())
 }
 
 /// Returns what an id means, and the place of the page that says more; nothing of a word that is none.

@@ -13,8 +13,8 @@ use commands::write_or_print;
 /// Write a scene as an input deck of CalculiX.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's
-last iteration has it, with the whole load; --contact pair lets CalculiX look for contact itself,
+The deck runs as it is: ccx FILE without .inp. --contact equation writes eq. (1) as the variant's \
+last iteration has it, with the whole load; --contact pair lets CalculiX look for contact itself, \
 from the initial shape. Mathcad and Octave: see mathcad export.
 
 Examples:

@@ -12,7 +12,7 @@ use commands::{folder, print_fitted};
 /// Generate a mesh and its scene: a benchmark, or the paper's example.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve
+Writes scene.json and KIND.msh (Gmsh MSH 2.2, text, with named physical groups) to --out; solve \
 runs that folder. scene mesh KIND --help says what is known of its solution.
 
 Examples:

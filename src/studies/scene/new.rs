@@ -14,9 +14,9 @@ use commands::print_report;
 /// Write a first scene for a mesh of Gmsh, to be edited.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Groups of triangles become bodies; of the groups of edges the two that face each other closest become the
-contact, the lowest of the others a restraint, the highest a load. What only you know is null: moduli, pressure,
-friction; solve names what is still to be chosen. A body that nothing holds is named. A mesh of which a triangle
+Groups of triangles become bodies; of the groups of edges the two that face each other closest become the \
+contact, the lowest of the others a restraint, the highest a load. What only you know is null: moduli, pressure, \
+friction; solve names what is still to be chosen. A body that nothing holds is named. A mesh of which a triangle \
 is in no group is refused with the lines to add.
 
 Examples:

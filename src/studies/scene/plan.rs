@@ -12,9 +12,9 @@ use commands::{RunArgs, TablesArgs, print};
 /// What solve will build and what not, and why; nothing is solved.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Bodies and their size, the load and its nominal strain, by which a mesh in metres or E in GPa shows;
-free equations, contact candidates after a test of boxes, the solver, dense or sparse, and what is
-left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half of a
+Bodies and their size, the load and its nominal strain, by which a mesh in metres or E in GPa shows; \
+free equations, contact candidates after a test of boxes, the solver, dense or sparse, and what is \
+left out or could be: orphan nodes, restrained equations, bodies that nothing moves, half of a \
 symmetric scene.
 
 Examples:

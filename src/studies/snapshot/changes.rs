@@ -1,5 +1,7 @@
 //! What went into two runs and differs: fields of the scene, parts of the mesh, options, the version.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -75,6 +77,12 @@ fn fields(changes: &mut Vec<Change>, path: &str, was: &Value, is: &Value) {
 /// Collects the differences of two meshes: groups, then nodes, then elements.
 fn mesh(changes: &mut Vec<Change>, old: &Mesh, new: &Mesh) {
     let sides = [old, new];
+    if old != new && by_place(old) == by_place(new) {
+        let words =
+            |mesh: &Mesh| format!("{} nodes, {} elements", mesh.nodes.len(), mesh.elements.len());
+        let is = "the same nodes and elements under other numbers".into();
+        return add(changes, "mesh, renumbered".into(), [words(old), is]);
+    }
     add(changes, "mesh groups".into(), sides.map(|mesh| format!("{:?}", mesh.names)));
     add(changes, "mesh nodes".into(), sides.map(|mesh| mesh.nodes.len().to_string()));
     for (was, is) in old.nodes.iter().zip(&new.nodes).filter(|(was, is)| was != is) {
@@ -87,4 +95,26 @@ fn mesh(changes: &mut Vec<Change>, old: &Mesh, new: &Mesh) {
             |e: &Element| format!("{:?} of type {}, groups {:?}", e.nodes, e.kind, e.physical);
         add(changes, format!("mesh elem {}", was.number), [was, is].map(row));
     }
+}
+
+/// What a mesh is without its numbers: its groups, and each node by its place and the elements that have it, by
+/// the places of their nodes.
+fn by_place(mesh: &Mesh) -> (Vec<String>, Vec<String>) {
+    let place = |node: &Node| format!("{:?}", node.xyz);
+    let places: HashMap<usize, String> =
+        mesh.nodes.iter().map(|node| (node.number, place(node))).collect();
+    let mut elements: HashMap<usize, Vec<String>> = HashMap::new();
+    for Element { nodes, kind, physical, geometric, .. } in &mesh.elements {
+        let corners: Vec<Option<&String>> = nodes.iter().map(|node| places.get(node)).collect();
+        let own = format!("{kind} {physical:?} {geometric} {corners:?}");
+        nodes.iter().for_each(|node| elements.entry(*node).or_default().push(own.clone()));
+    }
+    let node = |node: &Node| {
+        let mut own = elements.remove(&node.number).unwrap_or_default();
+        own.sort();
+        format!("{} {own:?}", place(node))
+    };
+    let mut nodes: Vec<String> = mesh.nodes.iter().map(node).collect();
+    nodes.sort();
+    (vec![format!("{:?}", mesh.names)], nodes)
 }

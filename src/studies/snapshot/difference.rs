@@ -6,7 +6,7 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::numbers::{Number, Numbers, UNMEASURED};
+use super::numbers::{Number, Numbers, Tolerance, UNMEASURED};
 use super::{Entry, Quantity, Run};
 
 /// A difference between two runs.
@@ -39,8 +39,10 @@ pub enum Kind {
 }
 
 /// The number that differs most, in multiples of its tolerance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Worst {
+    /// The unit of the old array.
+    pub unit: String,
     /// The number of the node or triangle, or the place in the list, from 1.
     pub at: f64,
     /// The component of the row, from 1.
@@ -129,7 +131,7 @@ pub fn compare(old: &Run, new: &Run) -> (Vec<Difference>, usize) {
             Sides::New(_) => add(entry, Kind::Extra),
             Sides::Both(was, is) => {
                 compared += was.places().len();
-                let kinds = [unit(was, is), numbers(was, is)];
+                let kinds = [unit(was, is), numbers(was, is, old.tolerance)];
                 kinds.into_iter().flatten().for_each(|kind| add(entry, kind));
             }
         }
@@ -146,7 +148,7 @@ fn unit(was: &Numbers, is: &Numbers) -> Option<Kind> {
 /// Returns how two arrays differ; None where they do not. What rounding does is the less of what either run
 /// says, so that one file's word alone lets nothing pass; it is that of the new run where the old one does
 /// not know.
-fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
+fn numbers(was: &Numbers, is: &Numbers, given: Option<Tolerance>) -> Option<Kind> {
     if was.values == is.values {
         return None;
     }
@@ -157,11 +159,13 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
     }
     let largest = was.largest();
     let rounding = is.rounding().map(|new| was.rounding().map_or(new, |old| old.min(new)));
-    let limit = |value: f64| match was.tolerance {
+    let tolerance = was.tolerance.or(given);
+    let limit = |value: f64| match tolerance {
         Some(tolerance) => tolerance.limit(value, largest, rounding.unwrap_or(0.0)),
         None => rounding.unwrap_or(UNMEASURED * largest),
     };
-    let bounded = was.tolerance.is_some() || rounding.is_some();
+    let bounded = tolerance.is_some() || rounding.is_some();
+    let unit = &was.unit;
     let mut worst: Option<(f64, Worst)> = None;
     let mut differing = 0;
     for ((at, was), (_, is)) in old.iter().zip(&new) {
@@ -176,8 +180,9 @@ fn numbers(was: &Numbers, is: &Numbers) -> Option<Kind> {
         if worst.as_ref().is_none_or(|(other, _)| size > *other) {
             let (at, component) = (at.0, at.1 + 1);
             let [was, is, limit] = [*was, *is, limit].map(Number);
-            let (differing, of) = (0, old.len());
-            worst = Some((size, Worst { at, component, was, is, limit, differing, of, bounded }));
+            let (differing, of, unit) = (0, old.len(), unit.clone());
+            worst =
+                Some((size, Worst { unit, at, component, was, is, limit, differing, of, bounded }));
         }
     }
     worst.map(|(_, worst)| Kind::Numbers(Worst { differing, ..worst }))

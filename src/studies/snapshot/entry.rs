@@ -57,11 +57,13 @@ choices! {
         Gap = "gap",
         /// Pressure on each contact node.
         Pressure = "pressure",
+        /// Force on the target.
+        ContactForce = "contact force",
     }
 }
 
 /// The numbers that are recorded at the end.
-pub const FIELDS: [Quantity; 7] = [
+pub const FIELDS: [Quantity; 8] = [
     Quantity::U,
     Quantity::Stress,
     Quantity::VonMisesStress,
@@ -69,6 +71,7 @@ pub const FIELDS: [Quantity; 7] = [
     Quantity::Reactions,
     Quantity::Gap,
     Quantity::Pressure,
+    Quantity::ContactForce,
 ];
 
 /// The facts that are recorded with some of these alone.

@@ -8,6 +8,8 @@ use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::numbers::Tolerance;
+use super::summary::{self, Summary};
 use super::{FORMAT, Input, Options, Quantity, Rounding, Run, VERSION, record};
 use base::error::{InputError, Result};
 use base::files::{self, json};
@@ -28,6 +30,12 @@ pub struct Snapshot {
     pub format: u32,
     /// The version of the program that recorded it.
     pub version: String,
+    /// What a reviewer reads of each run, made of the rest.
+    #[serde(default)]
+    pub summary: IndexMap<String, Summary>,
+    /// The tolerance of all arrays that give none of their own, nor have one of their run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Tolerance>,
     /// The units of the scene by quantity, each empty where the scene names none.
     pub units: Units,
     /// The path of the scene file from the folder of the snapshot, with `/`; absent where the scene has none
@@ -62,17 +70,36 @@ impl Snapshot {
         let recorded: engine::error::Result<Vec<Run>> =
             requests.par_iter().map(|request| record(request, rounding)).collect();
         let runs = recorded?.into_iter().map(|run| (run.options.name(), run)).collect();
-        Ok(Snapshot::of_runs(Input::from_scene(scene), None, runs))
+        Ok(Snapshot::of_runs(scene, None, None, runs))
     }
 
-    /// Returns the snapshot of runs that this program made of an input, read from `scene_file`.
+    /// Returns the snapshot of runs that this program made of a scene, read from `scene_file`.
     pub(super) fn of_runs(
-        input: Input,
+        scene: &Scene,
         scene_file: Option<String>,
+        tolerance: Option<Tolerance>,
         runs: IndexMap<String, Run>,
     ) -> Self {
-        let (version, units) = (VERSION.into(), input.scene.units.clone());
-        Snapshot { format: FORMAT, version, units, scene_file, input, runs }
+        let (version, units, input) =
+            (VERSION.into(), scene.units.clone(), Input::from_scene(scene));
+        let (format, summary) = (FORMAT, IndexMap::new());
+        let snapshot =
+            Snapshot { format, version, summary, tolerance, units, scene_file, input, runs };
+        snapshot.summarised(scene)
+    }
+
+    /// Sums up the runs of a scene anew.
+    pub(super) fn summarised(self, scene: &Scene) -> Self {
+        let own = self.with_tolerances();
+        let of = |(name, run): (&String, &Run)| (name.clone(), summary::of(run, scene));
+        Snapshot { summary: own.runs.iter().map(of).collect(), ..self }
+    }
+
+    /// Returns the snapshot with its tolerance in each run that gives none.
+    pub(super) fn with_tolerances(&self) -> Self {
+        let mut own = self.clone();
+        own.runs.values_mut().for_each(|run| run.tolerance = run.tolerance.or(self.tolerance));
+        own
     }
 
     /// Returns the scene that was recorded.
@@ -84,9 +111,10 @@ impl Snapshot {
     }
 
     /// Leaves out all numbers but those of the end that `only` names (of [`FIELDS`](super::FIELDS)), and all
-    /// iterations.
+    /// iterations; of none nothing.
     pub fn keep_only(&mut self, only: &[Quantity]) {
-        self.runs.values_mut().for_each(|run| run.keep_only(Some(only.to_vec())));
+        let only = (!only.is_empty()).then(|| only.to_vec());
+        self.runs.values_mut().for_each(|run| run.keep_only(only.clone()));
     }
 
     /// Returns the text of its file.

@@ -14,6 +14,7 @@
 //! |--------------------------------------------|----------------------------------------------------|
 //! | `file`, `input`                            | a snapshot, its reader and its writer; its scene   |
 //! | `run`, `entry`, `numbers`                  | a run recorded, and what rounding does to it       |
+//! | `summary`                                  | what a reviewer reads of it                        |
 //! | `difference`, `changes`, `first_difference` | what differs: what came out, what went in, where  |
 //! | `verified`, `verified_file`, `words`       | snapshots compared, and what is said of that       |
 //! | `command`                                  | a file for each `plane-contact snapshot ...`       |
@@ -27,6 +28,7 @@ mod first_difference;
 mod input;
 mod numbers;
 mod run;
+mod summary;
 mod verified;
 pub mod verified_file;
 mod words;

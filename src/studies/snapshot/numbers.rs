@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use output::numbers::Digits;
 use serde::{Deserialize, Serialize};
 
 /// The tolerance of numbers of which it is not known what rounding does, relative to the largest of the
@@ -193,6 +194,17 @@ impl Numbers {
     /// more.
     pub fn most_of_noise(&self) -> Option<f64> {
         self.rounding().filter(|most| *most > 0.0 && *most >= 1e-3 * self.largest())
+    }
+
+    /// Writes a number with the digits that are compared, by the array's own tolerance, one that is `given` for
+    /// all, or what rounding does.
+    pub fn written(&self, x: f64, given: Option<Tolerance>) -> String {
+        let (largest, rounding) = (self.largest(), self.rounding());
+        let limit = match self.tolerance.or(given) {
+            Some(tolerance) => tolerance.limit(x, largest, rounding.unwrap_or(0.0)),
+            None => rounding.unwrap_or(UNMEASURED * largest),
+        };
+        Digits::of(largest, Some(if largest > 0.0 { limit / largest } else { 0.0 })).write(x)
     }
 
     /// Returns numbers in rows, each of a node's or a triangle's number and its values.

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::difference::first_iteration;
 use super::first_difference::first;
-use super::numbers::Numbers;
+use super::numbers::{Numbers, Tolerance};
 use super::{Difference, Entry, Options, Quantity, compare, entry};
 use base::error::InputError;
 use engine::contact::{Sense, Status};
@@ -33,6 +33,9 @@ pub struct Run {
     /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub only: Option<Vec<Quantity>>,
+    /// The tolerance of all arrays that give none of their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Tolerance>,
     /// What is the same or not.
     pub facts: IndexMap<Entry, Value>,
     /// What is the same but for rounding.
@@ -57,7 +60,14 @@ pub struct Decision {
 impl Run {
     fn new(options: Options) -> Self {
         let (facts, numbers) = (IndexMap::new(), IndexMap::new());
-        Run { options, only: None, facts, numbers, decided_by_rounding: Vec::new() }
+        Run {
+            options,
+            only: None,
+            tolerance: None,
+            facts,
+            numbers,
+            decided_by_rounding: Vec::new(),
+        }
     }
 
     fn fact_is(&mut self, of: impl Into<Entry>, fact: impl Serialize) {
@@ -383,6 +393,9 @@ fn end(run: &mut Run, solution: &Solution, stiffness: &Stiffness) {
     let nodes = || solution.contact.iter();
     let gaps = nodes().map(|c| (c.node.number(), [c.gap]));
     run.numbers_are(Quantity::Gap, Numbers::rows(&units.length, gaps));
+    if let Some(passed) = engine::resultant(solution) {
+        run.numbers_are(Quantity::ContactForce, Numbers::list(&units.force, passed.force));
+    }
     let known = nodes().filter_map(|c| Some((c.node.number(), [c.pressure?])));
     run.numbers_are(Quantity::Pressure, Numbers::rows(&units.stress, known));
 }

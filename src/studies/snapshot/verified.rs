@@ -101,6 +101,7 @@ impl VerifiedRun {
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
 pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
+    let old = &old.with_tolerances();
     let both = |name: &str, was: &Run, is: &Run| VerifiedRun::compared(name, (old, was), (new, is));
     let run = |(name, sides): (&String, Sides<Run>)| match sides {
         Sides::Both(was, is) => both(name, was, is),
@@ -126,7 +127,7 @@ pub fn verify(
     scene: Option<&Scene>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Verified> {
-    let scene = given_or_own(snapshot, scene)?;
+    let (scene, snapshot) = (given_or_own(snapshot, scene)?, &snapshot.with_tolerances());
     let again = again(snapshot, &scene, |request, old| {
         let run = run_to_compare(request, old);
         done();
@@ -152,6 +153,7 @@ pub fn verify(
 pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
     again(snapshot, &given_or_own(snapshot, scene)?, |request, old| {
         let mut run = record_again(request, old, Rounding::Measured)?;
+        run.tolerance = old.tolerance;
         for (entry, numbers) in &mut run.numbers {
             numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
         }
@@ -176,7 +178,7 @@ fn again(
         .par_iter()
         .map(|(name, old)| Ok(((*name).clone(), run(&old.options.request(scene)?, old)?)));
     let runs = runs.collect::<Result<Vec<_>>>()?.into_iter().collect();
-    Ok(Snapshot::of_runs(Input::from_scene(scene), snapshot.scene_file.clone(), runs))
+    Ok(Snapshot::of_runs(scene, snapshot.scene_file.clone(), snapshot.tolerance, runs))
 }
 
 /// Records of a request what was recorded of an earlier run.

@@ -1,6 +1,7 @@
 //! Differences in words.
 
 use indexmap::IndexMap;
+use output::numbers::with_unit;
 use serde_json::Value;
 
 use super::{Change, Difference, Entry, Kind, Number, Presence, Quantity, Status, VerifiedRun};
@@ -69,11 +70,15 @@ fn difference(difference: &Difference) -> String {
         }
         Kind::Numbers(w) => {
             let limit = if w.bounded { "limit" } else { "rounding not measured, limit" };
-            let by = Number((w.is.0 - w.was.0).abs());
+            let by = (w.is.0 - w.was.0).abs();
+            let part = by / w.was.0.abs();
+            let part = if part.is_finite() { format!(" ({part:.1e} of it)") } else { "".into() };
+            let unit = if by.is_finite() { &*w.unit } else { "" };
+            let is = with_unit(&format!("{:e}", w.is), &w.unit);
+            let by = with_unit(&format!("{:.3e}", Number(by)), unit);
             format!(
-                "{entry}: {} of {} numbers differ, most at {} component {}: {:e}, was {:e}; by \
-                 {by:.3e}, {limit} {:.3e}",
-                w.differing, w.of, w.at, w.component, w.is, w.was, w.limit
+                "{entry}: {} of {} numbers differ, most at {} component {}: {is}, was {:e}; by {by}{part}, {limit} {:.3e}",
+                w.differing, w.of, w.at, w.component, w.was, w.limit
             )
         }
     }

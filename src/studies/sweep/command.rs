@@ -21,9 +21,9 @@ const RESULT: u64 = 1 << 20;
 /// Run a scene under many values of its fields and of options.
 #[derive(clap::Subcommand)]
 #[command(after_help = "\
-SWEEP is a file of JSON: format, scene (a name or a path beside it), options, and the values that
-take turns by JSON pointer: grid (every combination) or list. Each combination is a job. Its result
-is a file named by its key, a hash of all that it reads (scene, mesh, options) and of the version: a
+SWEEP is a file of JSON: format, scene (a name or a path beside it), options, and the values that \
+take turns by JSON pointer: grid (every combination) or list. Each combination is a job. Its result \
+is a file named by its key, a hash of all that it reads (scene, mesh, options) and of the version: a \
 job whose result is there does not run again. One that fails has a result too.
 
 Examples:

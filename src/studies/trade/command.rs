@@ -20,8 +20,8 @@ const RUNS: u16 = 3;
 /// Measure speed against accuracy: precisions, solvers and the paper's own parameters.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors
-anew; a trial that took 0.05 s is not repeated. Settings of contact are varied in f64 by
+Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors \
+anew; a trial that took 0.05 s is not repeated. Settings of contact are varied in f64 by \
 sparse-cholesky, meshes under unilateral. Writes trade.json and trade.svg to --out.
 
 Examples:

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use engine::{Solution, distance};
+use engine::{Solution, distance, over, resultant};
 
 /// Differences relative to the solution that is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -25,4 +25,37 @@ impl Errors {
             von_mises: of.bodies.iter().map(|body| body.relative.abs()).fold(0.0, f64::max),
         }
     }
+}
+
+/// What contact passes on, and how far that is from the solution compared with, over the latter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Contact {
+    /// The force on the target, force.
+    pub force: f64,
+    /// How far it is off.
+    pub force_error: f64,
+    /// The largest contact pressure, stress.
+    pub peak_pressure: f64,
+    /// How far it is off.
+    pub peak_pressure_error: f64,
+}
+
+impl Contact {
+    /// The contact of `solution` beside that of `truth`, on whatever mesh; nothing where none presses.
+    pub fn new(solution: &Solution, truth: &Solution) -> Option<Self> {
+        let [[force, peak_pressure], [true_force, true_peak]] = [of(solution)?, of(truth)?];
+        let error = |own: f64, truth| over(own - truth, truth).abs();
+        Some(Contact {
+            force,
+            force_error: error(force, true_force),
+            peak_pressure,
+            peak_pressure_error: error(peak_pressure, true_peak),
+        })
+    }
+}
+
+fn of(solution: &Solution) -> Option<[f64; 2]> {
+    let [fx, fy] = resultant(solution)?.force;
+    let pressures = solution.in_contact().filter_map(|node| node.pressure);
+    Some([fx.hypot(fy), pressures.reduce(f64::max)?])
 }

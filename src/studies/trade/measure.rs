@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::axis::{AXES, Axis, Truth};
-use super::errors::Errors;
+use super::errors::{Contact, Errors};
 use super::order::Order;
 use super::rows::{Row, Section, Trade};
 use super::trial::{Run, Trial};
@@ -39,6 +39,7 @@ pub fn measure(request: &Request, plan: Plan, runs: usize, watch: impl Fn(&str))
     };
     Trade {
         scene: scene.name.clone(),
+        units: scene.units.clone(),
         nodes: scene.model.nodes.len(),
         triangles: scene.model.triangles.len(),
         runs,
@@ -92,18 +93,19 @@ impl Bench<'_> {
         let last = solution.and_then(|solution| solution.steps.last());
         let same = |run: &Run| run.trial.own && run.trial.request.variant == trial.request.variant;
         let from_own = || self.between(place, self.runs.iter().position(same));
+        let finest = || self.runs.iter().rposition(|run| run.solution.is_ok());
         let (error, change) = match self.axis.truth {
             Truth::Equilibrium => {
                 let found = solution.zip(self.reference);
                 (found.map(|(own, truth)| Errors::new(own, truth)), from_own())
             }
-            Truth::Last(_) | Truth::Finest => {
-                let last = self.runs.iter().rposition(|run| run.solution.is_ok());
-                (self.between(place, last), None)
-            }
+            Truth::Last(_) | Truth::Finest => (self.between(place, finest()), None),
             Truth::Own(_) => (from_own(), None),
         };
+        let truth = finest().filter(|_| self.axis.truth == Truth::Finest);
+        let truth = truth.and_then(|place| self.runs[place].solution.as_ref().ok());
         Row {
+            contact: solution.zip(truth).and_then(|(own, truth)| Contact::new(own, truth)),
             label: trial.label.clone(),
             variant: trial.request.variant,
             equations: trial.request.scene.model.dofs(),

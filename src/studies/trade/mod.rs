@@ -21,7 +21,7 @@ pub mod trial_tables;
 
 pub use accuracy::{AccurateSolution, Rounding, check_accuracy, solve_to};
 pub use axis::{AXES, Axis, Truth};
-pub use errors::Errors;
+pub use errors::{Contact, Errors};
 pub use measure::{Plan, Point, measure, pareto, plan};
 pub use order::Order;
 pub use rows::{Row, Section, Trade};

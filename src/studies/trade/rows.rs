@@ -2,16 +2,20 @@
 
 use serde::Serialize;
 
-use super::errors::Errors;
+use super::errors::{Contact, Errors};
 use super::order::Order;
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
+use problem::scene::Units;
 
 /// Speed against accuracy on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trade {
     /// The name of the scene.
     pub scene: String,
+    /// Its units, which the document has beside this.
+    #[serde(skip)]
+    pub units: Units,
     /// The number of its nodes.
     pub nodes: usize,
     /// The number of its triangles.
@@ -58,6 +62,8 @@ pub struct Row {
     pub runs: usize,
     /// How far it is from what the section measures against, over that; nothing of a failure.
     pub error: Option<Errors>,
+    /// What contact passes on; of meshes only.
+    pub contact: Option<Contact>,
     /// How far it is from the same variant with the scene's own value; nothing where that was not
     /// tried.
     pub change: Option<Errors>,

@@ -1,11 +1,12 @@
 //! Speed against accuracy, for people, for machines and as a picture.
 
-use crate::trade::{AXES, AccurateSolution, Errors, Order, Rounding, Row, Section, Trade};
+use crate::trade::{AXES, AccurateSolution, Contact, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
 use output::model::{Cell, Report, Table};
-use output::numbers::reason;
+use output::numbers::{figure, reason, with_unit};
 use output::picture::{Axis, SERIES, Series, Style, chart};
 use problem::modelling::Variant;
+use problem::scene::Units;
 
 // Each axis has a colour of its own.
 const _: () = assert!(AXES.len() <= SERIES);
@@ -40,6 +41,10 @@ pub fn report(trade: &Trade) -> Report {
         let report = match section.rows.is_empty() {
             true => report.note("The scene does not have this parameter."),
             false => report.table(format!("Trials of {}", section.parameter), trials(section)),
+        };
+        let report = match section.rows.iter().any(|row| row.contact.is_some()) {
+            true => report.table("Contact on each mesh", contact(&section.rows, &trade.units)),
+            false => report,
         };
         match section.orders.is_empty() {
             true => report,
@@ -82,6 +87,16 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
     table.column("failure", |row| {
         row.failure.as_ref().and_then(|why| why.lines().next()).unwrap_or_default().to_string()
     })
+}
+
+fn contact<'a>(rows: &'a [Row], units: &Units) -> Table<Vec<(&'a Row, Contact)>> {
+    let number = |x: f64| figure(x, Some(1e-3));
+    Table::from_rows(rows.iter().filter_map(|row| Some((row, row.contact?))))
+        .column("mesh", |(row, _)| row.label.clone())
+        .column(with_unit("contact force,", &units.force), |(_, own)| number(own.force))
+        .column("off by", |(_, own)| Cell::percent(own.force_error))
+        .column(with_unit("peak pressure,", &units.stress), |(_, own)| number(own.peak_pressure))
+        .column("off by", |(_, own)| Cell::percent(own.peak_pressure_error))
 }
 
 fn orders(orders: &[Order]) -> Table<Vec<&Order>> {

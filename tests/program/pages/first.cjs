@@ -15,7 +15,10 @@ async function screen(browser) {
   const prose = await page.locator("header h1, header p, #first p, #first li").evaluateAll((all) => all.filter((one) => one.checkVisibility()).map((one) => one.innerText));
   const words = (text) => text.split(/\s+/).filter((word) => /[\p{L}\p{N}]/u.test(word)).length;
   const count = words(prose.join(" "));
-  assert.ok(count <= 220, `${count} words`);
+  assert.ok(count <= 220, `${count} words of prose`);
+  const all = words(await page.innerText("header div") + " " + (await page.innerText("#first")));
+  assert.ok(all <= 350, `${all} words`);
+  assert.match(await page.innerText(".verdict h2"), /^No\. /);
   for (const sentence of prose.flatMap((text) => text.split(/[.:;](?=\s)/))) assert.ok(words(sentence) <= 30, sentence);
   assert.deepEqual(said, []);
 }
@@ -27,6 +30,10 @@ async function paper(browser) {
   await page.setViewportSize({ width, height });
   await page.emulateMedia({ media: "print" });
   for (const [part, bottom] of await bottoms(page)) assert.ok(bottom <= height, `${part} ends at ${bottom}`);
+  const sizes = await page.evaluate(() => [...document.querySelectorAll("#first *, article *")].filter((one) => one.checkVisibility() && one.textContent.trim()).map((one) => 0.75 * parseFloat(getComputedStyle(one).fontSize)));
+  assert.ok(Math.min(...sizes) >= 6.99, `${Math.min(...sizes)} pt`);
+  const printed = (await page.pdf({ preferCSSPageSize: true })).toString("latin1").match(/\/Type\s*\/Page\b/g);
+  assert.ok(printed.length <= 24, `${printed.length} pages`);
   const meanings = await page.innerText(".key");
   const ids = await page.locator(".claims a").evaluateAll((all) => all.map(({ textContent }) => textContent));
   for (const id of ids) assert.match(meanings, new RegExp(`\\b${id} \\w`));

@@ -125,7 +125,7 @@ async function readable(browser) {
   const page = await context.newPage();
   await page.goto(pathToFileURL(file).href);
   const text = await page.textContent("body");
-  for (const part of ["Verdict", "Beside the verdict", "Each finding in full", "SHA-256"]) assert.ok(text.includes(part), part);
+  for (const part of ["No. As printed", "Beside the verdict", "Each finding in full", "SHA-256"]) assert.ok(text.includes(part), part);
   assert.equal(await page.locator("#first img").evaluateAll((all) => all.filter((image) => image.checkVisibility()).length), 2);
   assert.equal(await page.locator("#fields").isVisible(), false);
 }

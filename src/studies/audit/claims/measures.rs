@@ -13,7 +13,7 @@ use paper::door::Call;
 use problem::modelling::Variant;
 
 /// A relative change that shows in a picture: one part in a hundred.
-const NOTICEABLE: f64 = 0.01;
+pub(in crate::audit) const NOTICEABLE: f64 = 0.01;
 
 /// Where the target lies in random scenes in which the stamp jumped to twice c_tll, the nodes in contact,
 /// and those of them that the sign rule missed, as `golden/tables/statuses.md` has them.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use serde::Serialize;
 
-pub(super) use measures::nearest;
+pub(super) use measures::{NOTICEABLE, nearest};
 pub use register::{CLAIMS, ClaimId};
 
 use super::case::Case;

@@ -1,7 +1,5 @@
 //! What the printed faults cost, for people and for machines.
 
-use std::fmt::{self, Display, Formatter};
-
 use serde::Serialize;
 
 use crate::audit::claims::claim_tables::under;
@@ -100,7 +98,7 @@ pub fn report(document: &PricesOnScene, scene: &Scene) -> Report {
     .notes(failures)
     .notes(match unsound(prices) {
         Some(why) => vec![format!("{why}: no fault is priced.")],
-        None => without_cost(prices).iter().map(Cost::to_string).collect(),
+        None => without_cost(prices),
     });
     if repairs.is_empty() {
         return report.line(format!(
@@ -168,28 +166,11 @@ pub fn picture(repairs: &[Price]) -> String {
     chart("From the print to the solution, repair by repair", [x, y], &[series], &[caption])
 }
 
-/// What a fault costs, or that some cost nothing.
-pub struct Cost {
-    /// The error in energy that it causes, or what stands in its place.
-    pub cost: String,
-    /// Its name; of several, theirs.
-    pub names: String,
-    /// The fault in words; of several, nothing.
-    pub words: Option<String>,
-}
-
-impl Display for Cost {
-    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: {}", self.cost, self.names)?;
-        self.words.as_ref().map_or(Ok(()), |words| write!(out, ": {words}"))
-    }
-}
-
-/// Returns what each fault costs, the dearest first, then those that cost nothing.
+/// Says what each fault costs that costs something, the dearest first.
 ///
 /// # Errors
 /// That is not known: says why.
-pub fn by_cost(prices: &Outcome<Vec<Price>>) -> Result<Vec<Cost>, String> {
+pub fn by_cost(prices: &Outcome<Vec<Price>>) -> Result<Vec<String>, String> {
     let prices = prices.as_ref().map_err(not_measured)?;
     if let Some(why) = unsound(prices) {
         return Err(format!("{why}: no fault is priced."));
@@ -204,30 +185,17 @@ pub fn by_cost(prices: &Outcome<Vec<Price>>) -> Result<Vec<Cost>, String> {
             Weight::Shifts => format!("{error}, does not settle"),
             weight => weight.to_string(),
         };
-        let names = price.name.clone().unwrap_or("-".into());
-        Cost { cost, names, words: Some(price.fault.clone()) }
+        format!("{cost}: {} ({})", price.fault, price.name.as_deref().unwrap_or("-"))
     });
-    Ok(dear.chain(without_cost(prices)).collect())
+    Ok(dear.collect())
 }
 
-/// Returns the faults without effect, and those that are none here.
-fn without_cost(prices: &[Price]) -> Vec<Cost> {
+/// Names the faults without effect, and those that are none here.
+fn without_cost(prices: &[Price]) -> Vec<String> {
     let rows = [(Weight::Free, ""), (Weight::NoFault, ", as nothing slides")];
     let rows = rows.map(|(weight, why)| (listed(of_weight(prices, weight)), why));
     let rows = rows.into_iter().filter(|(names, _)| !names.is_empty());
-    let cost = |(names, why)| Cost { cost: "no effect".into(), names: names + why, words: None };
-    rows.map(cost).collect()
-}
-
-/// Says how far the corrected algorithm without any fault is from the equilibrium; nothing where that is not
-/// known.
-pub fn without_any(prices: &Outcome<Vec<Price>>) -> Option<String> {
-    let own = prices.as_ref().ok().filter(|prices| unsound(prices).is_none())?;
-    let far = own[0].outcome.as_ref().ok()?.equilibrium_relative?;
-    Some(format!(
-        "The corrected algorithm, without friction, is {} from the equilibrium.",
-        percent(far)
-    ))
+    rows.map(|(names, why)| format!("no effect: {names}{why}")).collect()
 }
 
 fn not_measured(why: &NoFigures) -> String {

@@ -17,8 +17,8 @@ use commands::{print_report, report_error, waiting, within};
 /// Record snapshots again, and print what changed.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Their runs, what is recorded of each, and their tolerances stay. What changed is printed as verify prints
-it; see it before by verify. Among several files scenes are skipped; of one that cannot be recorded the
+Their runs, what is recorded of each, and their tolerances stay. What changed is printed as verify prints \
+it; see it before by verify. Among several files scenes are skipped; of one that cannot be recorded the \
 exit status tells, and the others are recorded all the same.
 
 Examples:
@@ -51,7 +51,7 @@ fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) 
     let file = shown(path);
     let given = given_file.map(Scene::of_file).transpose()?;
     let old = Snapshot::of_file(path, text)?;
-    let (scene, said) = scene_of(path, &old, given.as_ref())?;
+    let (scene, said) = scene_of(path, &old, given.as_ref(), false)?;
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {

@@ -19,7 +19,7 @@ use commands::{offered, offered_readings, print_either, waiting};
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two
+Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two \
 values, one for each run. A difference is printed as by verify.
 
 Examples:

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::snapshot::Snapshot;
+use base::error::InputError;
 use base::files::{self, kind_of};
 use base::plain::shown;
 use commands::note;
@@ -36,14 +37,15 @@ impl GivenFile<'_> {
 }
 
 /// Returns the scene that a snapshot's runs are made of where it is not the one in the snapshot: a `given`
-/// one, or the file from which it was recorded; and what is to be said of it.
+/// one, or the file from which it was recorded, which may be required; and what is to be said of it.
 ///
 /// # Errors
-/// The scene is at fault.
+/// The scene is at fault, or required and gone.
 pub fn scene_of(
     file: &Path,
     snapshot: &Snapshot,
     given: Option<&Scene>,
+    is_required: bool,
 ) -> Result<(Option<Scene>, Option<String>)> {
     let (None, Some(path)) = (given, snapshot.scene_file.as_deref().map(Path::new)) else {
         return Ok((given.cloned(), None));
@@ -53,6 +55,11 @@ pub fn scene_of(
     let scene = scene.as_ref().map(Scene::of_file).transpose()?;
     let path = shown(path);
     let said = match &scene {
+        None if is_required => {
+            let what = format!("the scene file of {} is not there", shown(file));
+            let fix = "put it back, or record the snapshot anew; without --require-scenes the scene in it is run";
+            return Err(InputError::new(path, what, fix).into());
+        }
         None => Some(format!("scene file {path} is not there: the scene in the snapshot is run")),
         Some(scene) => {
             let [scene_sha256, mesh_sha256] = scene.hashes();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::snapshot::{Entry, FIELDS, Numbers, Quantity, Rounding, Snapshot};
+use crate::snapshot::{Entry, FIELDS, Numbers, Quantity, Rounding, Snapshot, Tolerance};
 use base::error::InputError;
 use base::files;
 use base::plain::shown;
@@ -17,11 +17,11 @@ use commands::{MethodArgs, offered, print_report, waiting};
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its
-discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its
-numbers, each array with what rounding does to it, as runs on inputs changed in the last digit show.
-A snapshot of a scene that fails as
-printed is a snapshot like any other. An existing snapshot is not replaced: see
+Writes a file of JSON for each scene: the scene and its mesh, whole; for each run its options, its \
+discrete facts (who is in contact, target edges, iterations, a failure and its listing line) and its \
+numbers, each array with what rounding does to it, as runs on inputs changed in the last digit show. \
+A snapshot of a scene that fails as \
+printed is a snapshot like any other. An existing snapshot is not replaced: see \
 snapshot accept.
 
 Examples:
@@ -46,6 +46,9 @@ pub struct Args {
         FIELDS.map(Quantity::name).join(", ")
     ))]
     only: Vec<Quantity>,
+    /// The relative tolerance of all arrays, in place of what rounding does: the part of an array's largest number.
+    #[arg(long, value_name = "REL", value_parser = relative)]
+    tolerance: Option<Tolerance>,
     /// File of the snapshot, of one scene alone [default: <scene>.snapshot.json in the folder out].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -69,9 +72,9 @@ pub fn run(args: &Args) -> Result<()> {
         let requests = requests.collect::<Result<Vec<_>, _>>()?;
         let mut snapshot =
             waiting("recording", || Snapshot::record(&scene, &requests, Rounding::Measured))?;
-        if !args.only.is_empty() {
-            snapshot.keep_only(&args.only);
-        }
+        snapshot.keep_only(&args.only);
+        snapshot.tolerance = args.tolerance;
+        let mut snapshot = snapshot.summarised(&scene);
         let file = args
             .out
             .clone()
@@ -81,6 +84,13 @@ pub fn run(args: &Args) -> Result<()> {
         print_report(recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
     Ok(())
+}
+
+/// Reads a relative tolerance.
+fn relative(text: &str) -> Result<Tolerance, String> {
+    let part = text.parse().ok().filter(|part| (0.0..1.0).contains(part));
+    let part: f64 = part.ok_or("a tolerance is a number from 0 to 1, such as 1e-3")?;
+    Ok(Tolerance { relative: Some(part), ..Tolerance::default() })
 }
 
 /// Reports what was recorded: a line for each run.

@@ -17,12 +17,12 @@ use commands::{print_either, progress, report_error, within};
 /// Run what snapshots recorded again and compare.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Runs the scene file that a snapshot was recorded from, as it is today, where that is still there, else the scene
+Runs the scene file that a snapshot was recorded from, as it is today, where that is still there, else the scene \
 in the snapshot. Among several files scenes are skipped.
-Facts and units are the same or not; numbers agree but for rounding, which is measured, or within the
-tolerance that the snapshot gives. What is new or missing and other lengths are differences.
-Of a difference it says what went in and differs too, where the runs first differ, and the printed
-condition that gave the first status that differs. The exit status also tells a difference, that nothing was compared, and that a snapshot cannot be read; the others are verified
+Facts and units are the same or not; numbers agree but for rounding, which is measured, or within the \
+tolerance that the snapshot gives. What is new or missing and other lengths are differences. \
+Of a difference it says what went in and differs too, where the runs first differ, and the printed \
+condition that gave the first status that differs. The exit status also tells a difference, that nothing was compared, and that a snapshot cannot be read; the others are verified \
 all the same.
 
 Examples:
@@ -36,6 +36,9 @@ pub struct Args {
     /// Run this scene [default: the file that a snapshot was recorded from, else the scene in it].
     #[arg(long, value_name = "SCENE")]
     scene: Option<PathBuf>,
+    /// Fail where the scene file that a snapshot was recorded from is gone.
+    #[arg(long, conflicts_with = "scene")]
+    require_scenes: bool,
     /// Print JSON in place of text.
     #[arg(long)]
     json: bool,
@@ -60,7 +63,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
         let what = "both --junit and --report write this file";
         return Err(InputError::new("--report", what, "name another file").into());
     }
-    let checked = check(snapshots, scene.as_ref());
+    let checked = check(snapshots, scene.as_ref(), args.require_scenes);
     if let Some(file) = &args.junit {
         files::write(file, &report::junit(&checked))?;
     }
@@ -85,6 +88,7 @@ fn report(checked: &[VerifiedFile], json: bool) -> Result<ExitStatus> {
 fn check(
     snapshots: Vec<(&Path, Result<Snapshot, InputError>)>,
     given: Option<&Scene>,
+    is_required: bool,
 ) -> Vec<VerifiedFile> {
     let read = snapshots.iter().filter_map(|(_, snapshot)| snapshot.as_ref().ok());
     let runs = read.map(|snapshot| snapshot.runs.len()).sum();
@@ -92,7 +96,7 @@ fn check(
     let check = |(path, snapshot): (&Path, Result<Snapshot, InputError>)| {
         let file = shown(path);
         let verified = snapshot.map_err(Error::from).and_then(|snapshot| {
-            let (scene, said) = scene_of(path, &snapshot, given)?;
+            let (scene, said) = scene_of(path, &snapshot, given, is_required)?;
             let verified = snapshot::verify(&snapshot, scene.as_ref(), &|| bar.inc(1));
             Ok((verified.map_err(|error| within(error, &file))?, said))
         });
