@@ -7,47 +7,6 @@ use std::path::Path;
 
 use crate::common::program::run;
 
-<<<<<<< HEAD
-=======
-/// Phrases with numbers that no table has, each with the reason.
-const GIVEN: &[(&str, &str)] = &[
-    ("eq. (1)", "an equation of the paper"),
-    ("The listing of fig. 3", "a figure of the paper"),
-    ("The listing of fig. 2", "a figure of the paper"),
-    ("the paper makes 20", "the paper's number of iterations"),
-    ("iterations of the paper's variants | 20", "a default of `iterations`"),
-    ("| thickness | 1 |", "as above"),
-    ("under friction | 16 |", "as above"),
-    ("sections 4 and 5", "sections of the page on how the listings are read"),
-    ("section 8", "as above"),
-    ("below 0 it has penetrated", "a definition"),
-    ("which exits with 1 where", "the exit status of another program"),
-    ("SHA-256 of each array", "the name of a hash"),
-    ("between 0 and 1", "a definition"),
-    ("at most 1,000 free equations", "the limit of exact runs, in `src/engine/linear/cost.rs`"),
-    ("most of them 0", "a definition"),
-    ("all are 0", "as above"),
-    (
-        "by more than 30 degrees",
-        "that of a circle of twelve edges, in `src/problem/scene/support.rs`",
-    ),
-    ("lines 7 and 8", "lines of a listing"),
-    ("1 or 0 for x", "the paper's table S"),
-    ("number, type, 2, physical tag", "a number of tags, in the paper's tables"),
-    ("numbered 1 to R", "the paper counts from 1"),
-    ("sqrt(2/3 e:e)", "a formula"),
-    ("MSH 2.0 to 2.2 or 4.1", "versions of a file format"),
-    ("IEEE 754", "a standard"),
-    ("fewer than 300 nodes", "a limit, tested by tests/program/mathcad.rs"),
-    ("Mathcad 14 or 15", "versions"),
-    ("Apache-2.0", "the name of a licence"),
-    ("20 lines at most", "a rule of style"),
-    ("lines 22 and 23", "lines of a listing"),
-    ("section 4", "a section of that page"),
-    ("section 5", "as above"),
-];
-
->>>>>>> h2
 /// The pages and their text.
 fn pages() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

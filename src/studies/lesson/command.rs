@@ -23,9 +23,9 @@ use commands::{offered, read_listing, report_written, waiting};
 /// Write a lesson: both listings, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
 #[command(after_help = "\
-The page is one file that opens offline. It shows the listing as printed with the current line lit, \
-the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and \
-the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene; \
+The page is one file that opens offline. It shows the listing as printed with the current line lit,
+the scene with its gaps magnified, and every array as it is filled; each reading, the tolerance and
+the worksheet's settings can be switched. A chapter for each finding shows it on its smallest scene;
 one goes from the print to the right answer, a repair at a time.
 
 Examples:

@@ -293,7 +293,7 @@ pub const FINDINGS: &[Finding] = &[
                      findings/K5 --variant stepped, eq. (1) on increments, does not cycle",
         },
         before: Preparation::AsPrinted,
-        number: "final period of the contact state under tied, iterations; 1 = settled",
+        number: "iterations after which the contact state repeats under tied; settled would be 1",
         measure: stiffness::cycle,
     },
     Finding {

@@ -216,7 +216,7 @@ function watch() {
 /** Lists the chapters. */
 function fillChapters() {
   const name = ({ name, title, finding, repairs }) => {
-    if (finding) return `${finding.id}: ${placeOf(finding)}`;
+    if (finding) return titleOf(finding);
     return repairs ? tell(title) : t("scene {name}", { name });
   };
   byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, name(scene))));
@@ -232,10 +232,12 @@ function fillChapter() {
   say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
 }
 
-/** Shows the chapter's title; that of a finding gives the answer away, and waits for the conclusion. */
+const titleOf = ({ id, title }) => `${id}: ${t(title)}`;
+
+/** Shows the chapter's title. */
 function showTitle() {
   const { finding, repairs, title } = chapter();
-  const words = finding ? `${finding.id}: ${page.isConcluded ? t(title) : placeOf(finding)}` : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
+  const words = finding ? titleOf(finding) : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
   document.title = byId("title").textContent = words;
 }
 

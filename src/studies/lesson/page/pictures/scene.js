@@ -62,9 +62,10 @@ function contactNodes(mesh, pairs) {
   });
 }
 
-/** A view: where a point of the scene is drawn, in pixels. */
-function viewOf(points, width, height, margin, magnify) {
-  const [[left, right], [low, high]] = [0, 1].map((j) => range(points.map((p) => p[j])));
+/** A view: where a point of the scene is drawn, in pixels; heights over a line of this slope. */
+function viewOf(points, width, height, margin, magnify, slope = 0) {
+  const over = ([x, y]) => [x, y - slope * x];
+  const [[left, right], [low, high]] = [0, 1].map((j) => range(points.map((p) => over(p)[j])));
   const span = Math.max(right - left, high - low) || 1;
   const fit = (size, room) => room / Math.max(size, 1e-9 * span);
   const [across, up] = [fit(right - left, width - 2 * margin), fit(high - low, height - 2 * margin)];
@@ -72,9 +73,12 @@ function viewOf(points, width, height, margin, magnify) {
   if (magnify && up > across) [sx, factor] = [across, Math.max(1, roundAtMost(Math.min(up / across, 1e6)))];
   const sy = sx * factor;
   const [cx, cy] = [(left + right) / 2, (low + high) / 2];
-  const to = ([x, y]) => [width / 2 + (x - cx) * sx, height / 2 - (y - cy) * sy];
-  const from = ([x, y]) => [cx + (x - width / 2) / sx, cy - (y - height / 2) / sy];
-  return { to, from, factor, sy };
+  const to = (p) => [width / 2 + (p[0] - cx) * sx, height / 2 - (over(p)[1] - cy) * sy];
+  const from = ([x, y]) => {
+    const at = cx + (x - width / 2) / sx;
+    return [at, cy - (y - height / 2) / sy + slope * at];
+  };
+  return { to, from, factor, sy, slope };
 }
 
 function arrow(context, from, to, stroke) {
@@ -157,6 +161,18 @@ const pictureHeight = () => Math.max(150, Math.min(340, 0.44 * page.width, 0.3 *
 /** Where an edge's name stands, between and below its ends. */
 const besideEdge = (a, b) => [(a[0] + b[0]) / 2, Math.max(a[1], b[1]) + 22];
 
+/** What a band of c_tll has at least, in pixels: the lines over it have two. */
+const LEAST_BAND = 3;
+
+/** The view of the zone: to scale, with its heights magnified, or where the band would still be hidden by lines, with the
+ * target's slope taken out and what is left magnified more. */
+function viewOfZone(points, ends, tolerance, width, height) {
+  const view = viewOf(points, width, height, 42, true);
+  const [[x1, y1], [x2, y2]] = [ends.reduce((a, b) => (b[0] < a[0] ? b : a), ends[0] ?? [0, 0]), ends.reduce((a, b) => (b[0] > a[0] ? b : a), ends[0] ?? [0, 0])];
+  if (tolerance * view.sy >= LEAST_BAND || x1 === x2) return view;
+  return viewOf(points, width, height, 42, true, (y2 - y1) / (x2 - x1));
+}
+
 /** Draws the zone: bodies, band of c_tll, search box of lines 5 to 7, arrow of line 10, links. The caption names what is there. */
 function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const canvas = byId("zone");
@@ -164,8 +180,8 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   const ends = zone.edges.flatMap(([, ends]) => ends).map(mesh.at);
   const points = [...zone.nodes.map(mesh.at), ...ends.flatMap(([x, y]) => [[x, y - tolerance], [x, y + tolerance]])];
   // While a node is dragged the view stays.
-  page.view = page.dragged ? page.view : viewOf(points, width, height, 42, true);
-  const { to, factor, sy } = page.view;
+  page.view = page.dragged ? page.view : viewOfZone(points, ends, tolerance, width, height);
+  const { to, factor, sy, slope } = page.view;
   drawBodies(context, mesh, (n) => to(mesh.at(n)));
   const placed = [];
   const labels = [];
@@ -212,7 +228,7 @@ function drawZone(mesh, pairs, zone, tolerance, turn, boxed) {
   for (const [text, at, ink, placed] of labels) label(context, text, at, colour(ink), "center", placed);
   const is = (status) => nodes.some(({ dy }) => dy === status);
   say("zone-caption", [
-    factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor }),
+    slope ? t("Heights are those over a line between the target’s ends, magnified {factor} times.", { factor }) : factor === 1 ? t("To scale.") : t("Heights are magnified {factor} times.", { factor }),
     ...(zone.edges.length ? [t("Green band: within c_tll of an edge’s line.")] : []),
     ...(isBoxed ? [t("Dashed box: where lines 5 to 7 search.")] : []),
     ...(seen.arrows ? [run().programs ? t("Arrow: yt, along the normal.") : t("Arrow: Y of line 10.")] : []),
@@ -237,33 +253,50 @@ function drawBox(context, to, pairs, boxed) {
   return true;
 }
 
-/** Draws each contact node at its height over its edge's line, the line drawn straight. */
+/** A node's height over the line of the target edge above or below it, else of the one that ends nearest to it. */
+function heightAsDrawn(mesh, zone, n) {
+  const [x, y] = mesh.at(n);
+  const lines = zone.edges.map(([, ends]) => ends.map(mesh.at)).filter(([a, b]) => a[0] !== b[0]);
+  const over = ([a, b]) => y - a[1] - ((x - a[0]) * (b[1] - a[1])) / (b[0] - a[0]);
+  const beside = ([a, b]) => Math.max(0, Math.min(a[0], b[0]) - x, x - Math.max(a[0], b[0]));
+  const [nearest] = lines.sort((one, other) => beside(one) - beside(other) || Math.abs(over(one)) - Math.abs(over(other)));
+  return nearest && over(nearest);
+}
+
+/** Draws each contact node at its height over its edge's line, the line drawn straight: by the listing's yt, else as the
+ * scene is drawn. */
 function drawGaps(mesh, pairs, zone, tolerance, turn) {
   const canvas = byId("gaps");
   const { context, width, height } = prepared(canvas, 170, page.width);
-  const known = contactNodes(mesh, pairs).filter((n) => zone.nodes.includes(n.node) && n.ct > 0 && n.yt !== undefined);
-  const most = Math.max(tolerance, ...known.map(({ yt }) => Math.abs(yt)));
+  const nodes = contactNodes(mesh, pairs).filter(({ node }) => zone.nodes.includes(node)).flatMap((n) => {
+    const isKnown = n.ct > 0 && n.yt !== undefined;
+    const above = isKnown ? n.height : heightAsDrawn(mesh, zone, n.node);
+    return above === undefined ? [] : [{ ...n, isKnown, height: above }];
+  });
+  const known = nodes.filter(({ isKnown }) => isKnown);
+  // A node that is far away stands at the rim, so that the band is seen.
+  const most = Math.max(tolerance, ...nodes.map(({ isKnown, height }) => Math.min(Math.abs(height), isKnown ? Infinity : 3 * tolerance)));
   const [left, right] = range(zone.nodes.map((n) => mesh.at(n)[0]));
   const sx = (width - 120) / (right - left || 1);
   const factor = roundAtMost((height / 2 - 28) / (most || 1) / sx);
-  const to = (x, gap) => [60 + (x - left) * sx, height / 2 - gap * sx * factor];
+  const to = (x, gap) => [60 + (x - left) * sx, Math.min(height - 12, Math.max(12, height / 2 - gap * sx * factor))];
   const band = Math.max(tolerance * sx * factor, 1);
   const strip = (from, to, style) => path(context, [[0, from], [width, from], [width, to], [0, to]], style);
   strip(height / 2, mesh.side > 0 ? height : 0, { fill: colour("target") });
   strip(height / 2 - band, height / 2 + band, { fill: colour("band"), alpha: 0.28 });
   path(context, [[0, height / 2], [width, height / 2]], { stroke: colour("target-ink"), width: 3 });
-  const placed = known.map(({ node, height: above }) => to(mesh.at(node)[0], above)).map(([x, y]) => [x - 7, y - 7, x + 7, y + 7]);
-  for (const { node, place, height: above, dy } of known) {
+  const placed = nodes.map(({ node, height: above }) => to(mesh.at(node)[0], above)).map(([x, y]) => [x - 7, y - 7, x + 7, y + 7]);
+  for (const { node, place, height: above, dy, isKnown } of nodes) {
     const point = to(mesh.at(node)[0], above);
-    arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
+    if (isKnown) arrow(context, point, [point[0], height / 2], colour(place === turn ? "accent" : "muted"));
     drawStatus(context, point, dy, place === turn);
     const below = point[1] > height / 2;
     label(context, mesh.figure.get(node) ?? String(node), [point[0], point[1] + (below ? 24 : -13)], colour("stamp-ink"), "center", placed);
   }
   const scale = factor === 1 ? [] : [t("Gaps are drawn {factor} times as large as lengths along x.", { factor })];
-  say("gaps-caption", known.length
-    ? [...scale, t("The target's side is tinted."), run().programs ? t("Apart: yt > 0; inside the target: yt < 0.") : t("Above the line: yt < 0; below it: yt > 0.")].join(" ")
-    : t("No gap is known yet."));
+  const signs = run().programs ? t("Apart: yt > 0; inside the target: yt < 0.") : t("Above the line: yt < 0; below it: yt > 0.");
+  const drawn = known.length < nodes.length ? [t("Without an arrow: as the scene is drawn, where the listing has no yt.")] : [];
+  say("gaps-caption", [...scale, t("The target's side is tinted."), ...(known.length ? [signs] : []), ...drawn].join(" "));
   canvas.setAttribute("aria-label", t("Gaps: {gaps}", { gaps: known.map((n) => `${mesh.name(n.node)} ${inProse(n.yt)}`).join("; ") || t("none yet") }));
 }
 

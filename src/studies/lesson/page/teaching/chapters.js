@@ -106,11 +106,10 @@ function showFinding({ finding: row, repairs, runs }) {
   if (repairs) place.replaceChildren(...repairsOf(repairs));
   if (!row) return;
   const lines = placeOf(row);
-  const goal = row.lines.length ? t("See what {lines} does that the text does not say.", { lines }) : t("See in the iterations what no line of a listing shows.");
   place.replaceChildren(
     make("summary", {}, make("h2", {}, `${row.id} (${lines})`)),
     described([
-      [t("Goal"), goal],
+      [t("Goal"), t("See in {lines}: {title}.", { lines: row.lines.length ? lines : t("the iterations"), title: t(row.title) })],
       [t("Try it"), ...trials(row, data.meshes[runs[0].mesh]).flatMap((trial) => [trial, " "])],
     ]),
   );
@@ -132,7 +131,6 @@ function unfoldConclusion() {
   if (page.isConcluded || !page.concluded) return;
   page.isConcluded = true;
   showConclusion();
-  showTitle();
   if (!isWide() || chapter().repairs) return;
   byId("finding").open = false;
   byId("conclusion").open = true;
@@ -156,19 +154,24 @@ function inPlainNumbers(text) {
   return text.replace(/-?\d+(\.\d+)?e-?\d+/g, (x) => short(Number(x)).replace(/[.,]?0*e\+?(.*)$/, (_, power) => `·10${raised(power.replace("−", "-"))}`));
 }
 
+/** Words as a sentence of their own. */
+const sentence = (words) => words[0].toUpperCase() + words.slice(1).replace(/\.?$/, ".");
+
 function ofFinding(row) {
   const { runs } = chapter();
   const named = (text) => text.replace(/(node|уз\S*) (\d+)/g, (_, word, n) => `${word} ${page.mesh.name(Number(n))}`);
-  const figure = `${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}.`;
-  // Without a load there are no displacements that a fault could change.
-  const priced = row.prices.filter(({ scene }) => scene !== chapter().name || isLoaded());
+  const figure = sentence(`${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}`);
+  // Without a load there are no displacements that a fault could change; where a scene shows a cost, others need not be named.
+  const loaded = row.prices.filter(({ scene }) => scene !== chapter().name || isLoaded());
+  const costly = loaded.filter(({ weight }) => weight !== "free");
+  const priced = costly.length ? costly : loaded;
   const prices = priced.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: priced.map(priceInWords).join("; ") })}` : "";
   const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
     [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), inPlainNumbers(named(interpreted(t(row.detail))))].join(": ") })],
-    [t("What is wrong"), `${t(row.title)}: ${t(row.why)}`],
+    [t("What is wrong"), sentence(`${t(row.title)}: ${t(row.why)}`)],
     [t("What it costs"), figure + prices],
-    [t("What repairs it"), `${t(row.repair)}; ${repaired}`],
+    [t("What repairs it"), sentence(`${t(row.repair)}; ${repaired}`)],
   ];
 }
 
