@@ -8,7 +8,7 @@ use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::prices::{self, Price};
 use crate::lesson::language::Language;
 use crate::lesson::page::{self as page, Chapter, Measured};
-use crate::lesson::{self as study, Repairs, Switch, reference, run as execute, switches};
+use crate::lesson::{self as study, Repairs, Switch, reference, switches};
 use base::files::{self, HTML};
 use base::plain::shown;
 use engine::error::Result;
@@ -70,8 +70,8 @@ fn lesson(args: &Args) -> Result<String> {
     }
     let chapters = waiting("executing the listings", || -> Result<Vec<_>> {
         // Refuses what a page cannot show.
-        for switch in asked.clone() {
-            execute(&scene, switch, &args.nodes)?;
+        for switch in &asked {
+            study::check(&scene, switch, &args.nodes)?;
         }
         let switches = asked.into_iter().chain(switches(&scene).into_iter().skip(1));
         // A reading that does not allow the model has no run (R6).
