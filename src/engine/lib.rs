@@ -46,5 +46,5 @@ pub use solution::{
 pub use solve::{check, solve};
 pub use sparse::is_dense;
 pub use stiffness::Stiffness;
-pub use stretches::{Resultant, Stretch, resultant, stretches};
+pub use stretches::{Resultant, Stretch, resultant, resultant_of_field, stretches};
 pub use unilateral::{Implied, implied};

@@ -49,7 +49,7 @@ pub fn stretches(solution: &Solution) -> Vec<Stretch> {
     let sides = model.sides.outline().filter_map(|side| pair(side.nodes)).filter(is_one);
     let sides: Vec<[usize; 2]> = sides.collect();
     let first = joined(nodes.len(), sides.iter().map(|[a, b]| (*a, *b)));
-    let forces = Forces::new(solution);
+    let forces = Forces::new(solution, &nodes);
     let stretch = |k: usize| {
         let own: Vec<&ContactNode> =
             (0..nodes.len()).filter(|i| first[*i] == k).map(|i| nodes[i]).collect();
@@ -76,11 +76,28 @@ pub fn resultant(solution: &Solution) -> Option<Resultant> {
     if solution.transmits_nothing() || contact.iter().any(|body| target.contains(body)) {
         return None;
     }
+    passed(solution, &target, solution.in_contact())
+}
+
+/// Returns what a field of displacements from elsewhere passes to the bodies of the target that rest on no other
+/// target, by all nodes that face them, as which of them are in contact is another program's to say. None
+/// without contact, and where both surfaces are one body's.
+pub fn resultant_of_field(field: &Solution) -> Option<Resultant> {
+    let [contact, target] = sides(&field.model)?;
+    let is_apart = contact.iter().all(|body| !target.contains(body));
+    is_apart.then(|| passed(field, &target, field.contact.iter()))?
+}
+
+fn passed<'a>(
+    solution: &'a Solution,
+    target: &[usize],
+    nodes: impl Iterator<Item = &'a ContactNode>,
+) -> Option<Resultant> {
     let bodies = bodies(solution);
     let is_last =
-        |at: &&ContactNode| bodies.get(&at.node).is_some_and(|[_, faced]| target.contains(faced));
-    let nodes: Vec<&ContactNode> = solution.in_contact().filter(is_last).collect();
-    Some(Forces::new(solution).resultant(&nodes))
+        |at: &&ContactNode| bodies.get(&at.node).is_none_or(|[_, faced]| target.contains(faced));
+    let nodes: Vec<&ContactNode> = nodes.filter(is_last).collect();
+    Some(Forces::new(solution, &nodes).resultant(&nodes))
 }
 
 /// Returns the indices of the body of each node that faces another body at the end, and of that body.
@@ -106,11 +123,11 @@ struct Forces<'a> {
 }
 
 impl<'a> Forces<'a> {
-    fn new(solution: &'a Solution) -> Self {
+    fn new(solution: &'a Solution, nodes: &[&ContactNode]) -> Self {
         let model = &*solution.model;
         let outer = &model.load + &solution.reactions;
-        let mut of_node: HashMap<NodeId, [f64; 2]> = solution
-            .in_contact()
+        let mut of_node: HashMap<NodeId, [f64; 2]> = nodes
+            .iter()
             .map(|at| (at.node, at.node.components(&outer).map(|force| -force)))
             .collect();
         for (triangle, state) in model.triangles.iter().zip(&solution.elements) {

@@ -27,12 +27,6 @@ pub struct FolderOptions {
     pub fields: bool,
 }
 
-impl Default for FolderOptions {
-    fn default() -> Self {
-        FolderOptions { pictures: true, fields: false }
-    }
-}
-
 /// Writes the files of a run to `folder`; returns the content of `result.json`. `plan` is the plan
 /// that the run followed, `command` what was typed.
 ///
@@ -46,7 +40,10 @@ pub fn write(
     wanted: FolderOptions,
     command: &str,
 ) -> Result<String> {
-    let mut files = contents(solution, assessment, plan, wanted, command);
+    let mut files = contents(solution, assessment, plan, wanted);
+    if wanted.pictures {
+        files.insert(0, (PAGE.into(), page(solution, assessment, &files, command).into_bytes()));
+    }
     files::write_all(folder, &files)?;
     let (_, result) = files.pop().expect("every run has a result");
     Ok(String::from_utf8(result).expect("JSON is UTF-8"))
@@ -90,22 +87,24 @@ pub fn names(wanted: FolderOptions) -> Vec<String> {
 
 /// Returns the files that a run may leave, for help: four a line, with what not every name says.
 pub fn help() -> String {
-    let files = files(FolderOptions::default()).into_iter().map(|(name, file)| match file {
-        File::Fields => name + " (for ParaView)",
-        File::Mesh => name + " (the paper's fig. 4)",
-        File::Result | File::Picture(_) | File::Pressure => name,
-    });
+    let files =
+        files(FolderOptions { pictures: true, fields: false }).into_iter().map(|(name, file)| {
+            match file {
+                File::Fields => name + " (for ParaView)",
+                File::Mesh => name + " (the paper's fig. 4)",
+                File::Result | File::Picture(_) | File::Pressure => name,
+            }
+        });
     let files: Vec<String> = std::iter::once(PAGE.to_string()).chain(files).collect();
     files.chunks(4).map(|line| line.join(", ")).collect::<Vec<_>>().join(",\n")
 }
 
 /// Returns the files of a run, each with its name; the last is `result.json`.
-pub fn contents(
+fn contents(
     solution: &Solution,
     assessment: &Assessment,
     plan: Option<&Plan>,
     wanted: FolderOptions,
-    command: &str,
 ) -> Vec<(String, Vec<u8>)> {
     let scene = &solution.request.scene;
     let drawing = &Drawing::new(scene, &format!("{} ({})", scene.title, solution.request.variant));
@@ -131,11 +130,7 @@ pub fn contents(
         })
     };
     let files = files(wanted).into_par_iter().with_max_len(1);
-    let mut files: Vec<_> = files.filter_map(|(name, file)| Some((name, content(file)?))).collect();
-    if wanted.pictures {
-        files.insert(0, (PAGE.into(), page(solution, assessment, &files, command).into_bytes()));
-    }
-    files
+    files.filter_map(|(name, file)| Some((name, content(file)?))).collect()
 }
 
 /// Returns a page of one file: the result, the pictures, the tables, and the command that makes it again.

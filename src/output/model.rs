@@ -14,8 +14,6 @@ use problem::model::{NodeId, TriangleId};
 pub struct Report {
     /// Its parts, in their order.
     pub blocks: Vec<Block>,
-    /// What stands before the names of the files of its figures.
-    pub(super) figures: String,
 }
 
 /// A part of a report.

@@ -313,7 +313,7 @@ fn a_file_that_may_not_grow_is_named_and_leaves_nothing() {
         r#"{"format": 1, "scene": "fig1", "grid": {"/options/variant": ["tied", "stepped"]}}"#;
     std::fs::write(folder.path().join("sweep.json"), sweep).expect("it is written");
     for (command, file) in [
-        ("audit fig1 --out", "a"),
+        ("solve fig1 --out", "a"),
         ("scene mesh hertz --out", "m"),
         ("snapshot record fig1 --out", "r.json"),
         ("lesson fig1 --out", "page.html"),

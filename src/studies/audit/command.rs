@@ -11,19 +11,14 @@ use crate::audit::words::{self, Depth};
 use crate::audit::{Audit, Case, audit, steps, tables};
 use crate::audit::{claims::claim_tables as claims, prices::price_tables as price_report};
 use base::error::InputError;
-use base::files;
 use base::suggestion::did_you_mean;
 use engine::error::Result;
-use engine::{Assessment, Hertz, Solution};
-use output::folder::FolderOptions;
-use output::{folder, json, pressure};
+use output::json;
 use paper::mirror::Reading;
-use problem::modelling::Variant;
 use problem::scene::Scene;
 
 use commands::{
-    ReadingArg, TablesArgs, command_line, note, offered, print, print_either, progress, waiting,
-    width,
+    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
 };
 
 /// Show what every ambiguity and every finding does on a scene.
@@ -50,11 +45,9 @@ Examples:
   plane-contact audit --finding C4
   plane-contact audit strand --finding K1
   plane-contact audit fig1 --prices
-  plane-contact audit fig1 --prices --repairs --out out/prices    prices.json, prices.svg
+  plane-contact audit fig1 --prices --repairs
   plane-contact audit --claim P12
-  plane-contact audit --reading R1=inside,R5=node_n
-  plane-contact audit strand --out out/audit      audit.txt, audit.json, pressure.svg, \
-                                                  a picture a finding and a variant")]
+  plane-contact audit --reading R1=inside,R5=node_n")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one [default: strand; with --finding, the
     /// finding's own].
@@ -87,9 +80,6 @@ pub struct Args {
     reading: ReadingArg,
     #[command(flatten)]
     tables: TablesArgs,
-    /// Write the tables, JSON and pictures to a folder.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -104,7 +94,6 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn prices(args: &Args) -> Result<()> {
     args.tables.check()?;
-    check_folder(args, &["prices.svg", "prices.json"])?;
     let reading = args.reading.reading;
     let case = case(args)?;
     let runs_of_repairs = if args.repairs { prices::runs_of_repairs() } else { 0 };
@@ -118,14 +107,8 @@ fn prices(args: &Args) -> Result<()> {
     };
     bar.finish();
     let document = price_report::PricesOnScene { reading, prices: &alone, repairs: &repairs };
-    let json = price_report::json(&document, &case.scene);
-    if let Some(out) = &args.out {
-        let picture = args.repairs.then(|| ("prices.svg", price_report::picture(&repairs)));
-        let files: Vec<_> = picture.into_iter().chain([("prices.json", json.clone())]).collect();
-        files::write_all(out, &files)?;
-    }
     if args.tables.json {
-        return print(&json);
+        return print(&price_report::json(&document, &case.scene));
     }
     args.tables.print(price_report::report(&document, &case.scene))
 }
@@ -171,27 +154,19 @@ fn listed<T>(
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let reading = args.reading.reading;
-    let file = format!("{}.json", claim.id);
-    check_folder(args, &[&file])?;
     let case = case(args)?;
     let (judged, by_reading) = waiting("judging", || {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
     let document = claims::ClaimOnScene { judged: &judged, by_reading: &by_reading };
-    let json = json::line(Some(&case.scene), &document);
-    if let Some(out) = &args.out {
-        files::write_all(out, &[(file, &json)])?;
-    }
     print_either(
         args.tables.json,
-        || json,
+        || json::line(Some(&case.scene), &document),
         || claims::explanation(&document, &case.scene, &reading),
     )
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
-    let [svg, document] = ["svg", "json"].map(|kind| format!("{}.{kind}", finding.id));
-    check_folder(args, &[&svg, &document])?;
     let scene = match &args.scene {
         Some(scene) => Scene::open(scene)?,
         None => finding.scene(),
@@ -199,20 +174,15 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
-    let json =
-        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured });
-    if let Some(out) = &args.out {
-        let picture = folder::finding_picture(finding.id.name(), &case.scene);
-        files::write_all(out, &[(svg, picture), (document, json())])?;
-    }
-    print_either(args.tables.json, json, || {
-        tables::explanation(finding, &measured, &case.scene, &reading)
-    })
+    print_either(
+        args.tables.json,
+        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured }),
+        || tables::explanation(finding, &measured, &case.scene, &reading),
+    )
 }
 
 fn whole(args: &Args) -> Result<()> {
     args.tables.check()?;
-    check_folder(args, &names())?;
     let case = case(args)?;
     let places = places(args)?;
     if !std::io::stderr().is_terminal() {
@@ -220,18 +190,14 @@ fn whole(args: &Args) -> Result<()> {
     }
     let bar = progress("auditing", steps(), "auditing {pos} of {len} {wide_bar} {eta}").logged();
     let watch = || bar.inc(1);
-    let is_whole = args.full || args.range || args.out.is_some() || args.tables.is_whole();
+    let is_whole = args.full || args.range || args.tables.is_whole();
     let found = audit(&case, &places, is_whole, &watch);
     bar.finish();
     if is_whole {
-        let json = tables::json(&found);
-        let report = words::report(&found, Depth::Full);
-        if let Some(out) = &args.out {
-            write(out, &case, &found, &report.text(usize::MAX), &json)?;
-        }
         if args.tables.json {
-            return print(&json);
+            return print(&tables::json(&found));
         }
+        let report = words::report(&found, Depth::Full);
         if args.full {
             return args.tables.print(report);
         }
@@ -243,53 +209,4 @@ fn whole(args: &Args) -> Result<()> {
 
 fn print_screen(found: &Audit) -> Result<()> {
     print(&words::report(found, Depth::Screen).text(width().min(words::WIDTH)))
-}
-
-/// Checks that files of these names can be written where a folder is named for them.
-fn check_folder<N: AsRef<str>>(args: &Args, names: &[N]) -> Result<()> {
-    Ok(args.out.iter().try_for_each(|out| files::check_folder(out, names))?)
-}
-
-/// The names of all files that an audit may leave.
-fn names() -> Vec<String> {
-    let findings = FINDINGS.iter().map(|finding| format!("findings/{}.svg", finding.id));
-    let runs = Variant::ALL.iter().flat_map(|variant| {
-        let of_run = folder::names(FolderOptions::default()).into_iter();
-        of_run.map(move |name| format!("{variant}/{name}"))
-    });
-    let own = ["audit.txt", "pressure.svg", "audit.json"].map(String::from);
-    findings.chain(runs).chain(own).collect()
-}
-
-/// `audit.txt`, `audit.json`, a picture of each finding's scene, and the pictures of each variant.
-fn write(out: &Path, case: &Case, audit: &Audit, text: &str, json: &str) -> Result<()> {
-    let mut files: Vec<(String, Vec<u8>)> = vec![("audit.txt".into(), text.into())];
-    for (finding, _) in &audit.findings {
-        let picture = folder::finding_picture(finding.id.name(), &finding.scene());
-        files.push((format!("findings/{}.svg", finding.id), picture.into_bytes()));
-    }
-    let others = [case.reference(), case.equilibrium()];
-    for variant in Variant::ALL {
-        if let Ok(solution) = case.run(*variant) {
-            let assessment = Assessment::against(solution, others);
-            let of_run = folder::contents(
-                solution,
-                &assessment,
-                None,
-                FolderOptions::default(),
-                &command_line(),
-            );
-            let named =
-                of_run.into_iter().map(|(name, bytes)| (format!("{variant}/{name}"), bytes));
-            files.extend(named);
-        }
-    }
-    let own = Variant::ALL.iter().filter_map(|v| case.run(*v).ok());
-    let runs: Vec<&Solution> = own.chain(others.into_iter().flatten()).collect();
-    if let Some(last) = runs.last().filter(|_| case.model().target().is_some()) {
-        let picture = pressure::picture(&case.scene, &runs, Hertz::from_solution(last).as_ref());
-        files.push(("pressure.svg".into(), picture.into_bytes()));
-    }
-    files.push(("audit.json".into(), json.into()));
-    Ok(files::write_all(out, &files)?)
 }

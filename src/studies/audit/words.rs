@@ -59,10 +59,8 @@ pub const WIDER: &str = "From a clearance of 0.9 mm on neither P10 nor P11 is fa
 /// How much of an audit is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// The first screen of `audit`.
+    /// The first screen of `audit`, and the first page of `report`.
     Screen,
-    /// The first page of `report`.
-    Page,
     /// All, as `audit --full` prints it.
     Full,
 }
@@ -99,7 +97,6 @@ pub fn report(audit: &Audit, depth: Depth) -> Report {
     let sections = sections(audit, depth).into_iter().map(Section::report);
     let first = sections.fold(first, Report::then);
     match depth {
-        Depth::Page => first,
         Depth::Full => first.then(evidence(audit, &[])),
         Depth::Screen => first.line(format!(
             "More: audit {name} --full | audit {name} --finding K1 | audit --range | report {name}"

@@ -5,7 +5,10 @@ use serde::Serialize;
 
 use base::error::Result;
 use engine::contact::{ContactNode, ROUNDING_OF_A_FORCE};
-use engine::{Distance, Implied, Solution, distance, implied, max_displacement, over};
+use engine::{
+    Distance, Implied, Resultant, Solution, distance, implied, max_displacement, over, resultant,
+    resultant_of_field,
+};
 use problem::model::NodeId;
 
 /// A field beside the reference solution.
@@ -68,6 +71,13 @@ impl<'a> Beside<'a> {
         Ok(Beside { reference, field, unbalanced, distance, bodies, differences })
     }
 
+    /// Returns what the field and the reference solution imply of contact; None without contact.
+    pub fn contact(&self) -> Option<[ContactValues; 2]> {
+        let Beside { field, reference, .. } = self;
+        let field = ContactValues::of(field, resultant_of_field(field))?;
+        Some([field, ContactValues::of(reference, resultant(reference))?])
+    }
+
     /// Returns whether the field is the reference solution within a part of it, in the energy norm and in
     /// displacements.
     pub fn is_within(&self, part: f64) -> bool {
@@ -109,8 +119,8 @@ pub struct ContactValues {
 }
 
 impl ContactValues {
-    /// Collects the values of a solution; None without contact.
-    pub fn of(solution: &Solution) -> Option<Self> {
+    /// Collects the values of a solution, which passes `passed` to the target; None without contact.
+    fn of(solution: &Solution, passed: Option<Resultant>) -> Option<Self> {
         solution.model.target()?;
         // Up to a part of `size` a value is rounding.
         let largest = |value: &dyn Fn(&ContactNode) -> Option<f64>, size: f64| {
@@ -124,7 +134,7 @@ impl ContactValues {
         let pressure = largest(&|at| at.pressure, 0.0);
         let size = pressure.map_or(0.0, |at| at.value);
         Some(ContactValues {
-            force: engine::resultant(solution).map(|passed| passed.force),
+            force: passed.map(|passed| passed.force),
             penetration: largest(&|at| Some(-at.gap), max_displacement(&solution.u)),
             pressure,
             pull: largest(&|at| Some(-at.pressure?), size),

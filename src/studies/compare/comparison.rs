@@ -95,7 +95,7 @@ fn verdict(compared: &Compared) -> [String; 2] {
             judged,
         ),
         format!(
-            "Largest difference of a displacement: {}, {} of the largest",
+            "Largest difference of a displacement: {}, {} of the solution's largest",
             with_unit(&figure(displacement, None), &units.length),
             part(displacement_relative)
         ),
@@ -166,8 +166,7 @@ fn place(beside: &Beside, node: NodeId) -> String {
 
 /// Lists what both imply of contact.
 fn contact(beside: &Beside) -> Report {
-    let both = [&beside.field, beside.reference].map(ContactValues::of);
-    let [Some(field), Some(reference)] = both else { return Report::default() };
+    let Some([field, reference]) = beside.contact() else { return Report::default() };
     let units = &beside.reference.request.scene.units;
     let force = |of: &ContactValues| match of.force {
         Some([x, y]) => {
@@ -246,9 +245,9 @@ struct Comparison<'a> {
 
 /// Returns the comparison as JSON.
 pub fn json(compared: &Compared) -> String {
-    let Beside { reference, field, .. } = &compared.beside;
+    let reference = compared.beside.reference;
     let request = &reference.request;
-    let [field, own] = [field, reference].map(ContactValues::of);
+    let [field, own] = compared.beside.contact().map_or([None; 2], |both| both.map(Some));
     let comparison = Comparison {
         scene: &request.scene.name,
         title: &request.scene.title,

@@ -8,34 +8,22 @@ use crate::audit::{Audit, Case, audit, steps};
 use crate::calculix::{self, Pair};
 use crate::compare;
 use crate::report::page;
-use crate::report::{Contents, Run, document};
+use crate::report::{Contents, Run};
 use base::error::InputError;
-use base::files::{self, HTML, MARKDOWN};
+use base::files::{self, HTML};
 use base::plain::{shell_word, shown};
 use engine::error::Result;
 use engine::estimates::Certainty;
 use engine::{Assessment, Solution};
-use output::markdown::figures_of;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
 
-use commands::{offered, progress, report_written, waiting};
+use commands::{progress, report_written, waiting};
 
 /// The most nodes of a mesh on which the print is repaired one finding at a time unasked: it takes some
 /// hundred runs, half a second on fig1 and minutes on strand, with 1,111 nodes.
 const MOST_NODES: usize = 500;
-
-base::choices! {
-    /// How an audit report is written.
-    Format {
-        /// A page of one file that opens offline, with the fields of every run under the pointer; prints as
-        /// A4 pages.
-        Html = "html",
-        /// Markdown, with its figures as files of SVG beside it.
-        Markdown = "markdown",
-    }
-}
 
 /// Write an audit report, ready to be handed in.
 #[derive(clap::Args)]
@@ -44,45 +32,32 @@ The first screen, and page 1 in print: a verdict, the runs beside the equilibriu
 and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts \
 unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures, \
 differences from CalculiX, what could not be checked, a glossary, and the command that makes it \
-again, versions and hashes. --format html and markdown say the same. The page has the fields of \
-every run at their end, under the pointer and at probes, and tables that copy as CSV; it prints on \
-A4. It takes a minute on strand, more with --repairs.
+again, versions and hashes. The page is one file that opens offline. It has the fields of every run \
+at their end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It \
+takes a minute on strand, more with --repairs.
 
 Examples:
   plane-contact report
   plane-contact report fig1 --out fig1.html
-  plane-contact report --format markdown                   with its figures beside it
   plane-contact report --ccx                               CalculiX beside it")]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one.
     #[arg(value_name = "SCENE", default_value = "strand")]
     scene: PathBuf,
-    /// html: one page that opens offline; markdown: figures are files of SVG beside it.
-    #[arg(long, default_value_t, value_parser = offered::<Format>(Format::ALL))]
-    format: Format,
     /// Repair the print one finding at a time on a mesh of more than 500 nodes too, in minutes on strand.
     #[arg(long)]
     repairs: bool,
     /// Run CalculiX too, by its own contact, beside unilateral.
     #[arg(long, value_name = "PROGRAM", num_args = 0..=1, default_missing_value = "ccx")]
     ccx: Option<String>,
-    /// The file [default: out/report, and .html or .md].
+    /// The file [default: out/report.html].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let out = args.out.clone().unwrap_or_else(|| {
-        let ending = match args.format {
-            Format::Html => "html",
-            Format::Markdown => "md",
-        };
-        Path::new("out/report").with_extension(ending)
-    });
-    match args.format {
-        Format::Html => files::check_file(&out, HTML)?,
-        Format::Markdown => check_markdown(&out)?,
-    }
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("report.html"));
+    files::check_file(&out, HTML)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
@@ -95,7 +70,7 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-/// Computes a report and writes it to a file, and its figures beside it where it is Markdown.
+/// Computes a report and writes it to a file.
 fn write(args: &Args, case: &Case, found: &Audit, out: &Path) -> Result<()> {
     let calculix = args.ccx.as_deref().map(|program| calculix(program, case)).transpose()?;
     let contents = Contents {
@@ -107,39 +82,7 @@ fn write(args: &Args, case: &Case, found: &Audit, out: &Path) -> Result<()> {
         runs: runs(case, found),
         calculix,
     };
-    match args.format {
-        Format::Html => files::write(out, &page::html(&contents))?,
-        Format::Markdown => {
-            let (folder, name, stem) = place_of(out)?;
-            let report = document(&contents).of_page(stem);
-            let page = MARKDOWN.to_string() + &report.markdown();
-            let mut written = report.figures();
-            written.push((name.into(), &page));
-            files::write_all(folder, &written)?;
-        }
-    }
-    Ok(())
-}
-
-/// Checks that a page of Markdown and its figures can be written, before they are computed.
-fn check_markdown(out: &Path) -> Result<()> {
-    let (folder, name, stem) = place_of(out)?;
-    let figures = figures_of(stem);
-    // Where there is no such folder, nothing is in the way.
-    let there = files::names(&folder.join(&figures), "svg").unwrap_or_default();
-    let mut names: Vec<String> = there.iter().map(|name| format!("{figures}/{name}")).collect();
-    names.push(name.into());
-    Ok(files::check_folder(folder, &names)?)
-}
-
-/// Returns the folder of a page, its name there, and this without its extension.
-fn place_of(out: &Path) -> Result<(&Path, &str, &str), InputError> {
-    let names = [out.file_name(), out.file_stem()].map(|name| name.and_then(|name| name.to_str()));
-    let [Some(name), Some(stem)] = names else {
-        let what = "its name is not in UTF-8";
-        return Err(InputError::new("--out", what, "name another file"));
-    };
-    Ok((out.parent().unwrap_or(Path::new("")), name, stem))
+    Ok(files::write(out, &page::html(&contents))?)
 }
 
 /// Returns the print repaired one finding at a time; nothing where that takes long and was not asked for, or
@@ -173,11 +116,7 @@ fn runs<'a>(case: &'a Case, audit: &Audit) -> Vec<Run<'a>> {
 
 /// Returns the command that makes the report again, but for the place of its file.
 fn command(args: &Args) -> String {
-    let mut command = format!(
-        "plane-contact report {} --format {}",
-        shell_word(&shown(&args.scene)),
-        args.format
-    );
+    let mut command = format!("plane-contact report {}", shell_word(&shown(&args.scene)));
     if args.repairs {
         command += " --repairs";
     }

@@ -40,7 +40,7 @@ const PAPER: &str = "<h1>Audit of A. M. Filipov, M. V. Khomenko, <cite lang=\"ru
 fn audited(audit: &Audit) -> String {
     let mut unexplained = String::new();
     let boxes =
-        sections(audit, Depth::Page).into_iter().map(|Section { name, heading, content }| {
+        sections(audit, Depth::Screen).into_iter().map(|Section { name, heading, content }| {
             let heading = heading.map(|words| format!("<h2>{}</h2>", escape(words)));
             let content = content.html();
             if name == "claims" {

@@ -1,4 +1,4 @@
-//! The audit report that a referee hands in, as one report: HTML and Markdown are renderings of it.
+//! The audit report that a referee hands in.
 
 pub(crate) mod command;
 mod first;
@@ -12,7 +12,7 @@ use crate::audit::findings::{FindingId, Presence};
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
-use crate::audit::words::{Depth, evidence, report as audit_report};
+use crate::audit::words::evidence;
 use crate::audit::{Audit, relative_radius};
 use crate::compare::{Compared, comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
@@ -63,16 +63,6 @@ impl Picture {
     fn html(&self) -> String {
         figure(&self.title, &self.svg)
     }
-}
-
-/// Returns the audit report as one document: the first screen, and what it rests on.
-pub fn document(contents: &Contents) -> Report {
-    pictures(contents)
-        .into_iter()
-        .fold(audit_report(contents.audit, Depth::Page), |report, Picture { title, svg }| {
-            report.figure(title, svg)
-        })
-        .then(parts(contents))
 }
 
 /// Returns what the first screen rests on, and what makes it again.
