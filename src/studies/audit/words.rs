@@ -41,7 +41,7 @@ const RUNS: &str = "Runs of the paper's algorithm beside the equilibrium";
 const OF_CALCULIX: &str = "CalculiX: a recorded run (guide calculix).";
 
 /// What the faults are, and what stands beside each.
-const FAULTS: &str = "Dearest faults, by their error in energy";
+const FAULTS: &str = "Dearest faults, by their error in energy without friction";
 
 /// Where all faults stand.
 const ALL_FAULTS: &str = "All: table \"Each fault alone\".";
@@ -217,8 +217,8 @@ fn coupling(Coupled { joins, share, failure }: &Coupled) -> String {
             "The paper's variants cannot be asked for this scene: {}.",
             why.in_short().trim_end_matches('.')
         ),
-        (None, Some(why @ NoFigures::Fails(_))) => {
-            format!("{joins}{id}; the print stops: {}.", why.in_short().trim_end_matches('.'))
+        (None, Some(NoFigures::Fails(_))) => {
+            format!("{joins}{id}, and the print stops.")
         }
         (None, None) => format!("{joins}{id}."),
     }
