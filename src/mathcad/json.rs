@@ -37,18 +37,15 @@ fn rows(list: &[Json]) -> Result<Value, String> {
     Ok(Value::grid(Grid::from_rows(cols, entries)))
 }
 
-/// A value that is written as JSON which [`read`] reads, entry by entry.
-#[derive(Clone, Copy, Debug)]
-pub struct Written<'a>(pub &'a Value);
-
-impl Serialize for Written<'_> {
+/// A value is written as JSON which [`read`] reads, entry by entry.
+impl Serialize for Value {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (rows, _) = self.0.size();
-        match self.0 {
+        let (rows, _) = self.size();
+        match self {
             Value::Number(x) => to.serialize_f64(*x),
             Value::Text(text) => to.serialize_str(text),
-            array @ (Value::Array(_) | Value::Nested(_)) => {
-                to.collect_seq((0..rows).map(|i| Row { array, i }))
+            Value::Array(_) | Value::Nested(_) => {
+                to.collect_seq((0..rows).map(|i| Row { array: self, i }))
             }
         }
     }
@@ -65,7 +62,7 @@ impl Serialize for Row<'_> {
         let mut row = to.serialize_seq(Some(cols))?;
         for j in 0..cols {
             let entry = self.array.entry(self.i, j).unwrap_or_default();
-            row.serialize_element(&Written(&entry))?;
+            row.serialize_element(&entry)?;
         }
         row.end()
     }

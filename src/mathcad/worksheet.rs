@@ -4,6 +4,8 @@ use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+use serde::Serialize;
+
 use super::failure::Cause;
 use super::function::Function;
 use super::listing::Listing;
@@ -22,47 +24,53 @@ pub const LEAST_DIGITS: u32 = 10;
 const ORIGIN: &str = "ORIGIN";
 
 /// A region as it was executed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ExecutedRegion {
     /// The region's identifier in the file.
+    #[serde(rename = "region")]
     pub id: String,
     /// The region's tag, which its author gave it; may be empty.
     pub tag: String,
     /// The region in the text notation.
     pub text: String,
     /// How it compares with what Mathcad saved.
+    #[serde(flatten)]
     pub agreement: Agreement,
     /// The regions whose saved results went into this one in place of what the interpreter does not
     /// have.
     pub inputs: BTreeSet<String>,
     /// The region's value, if the interpreter has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
 }
 
 /// How a region compares with what Mathcad saved.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "verdict", rename_all = "lowercase")]
 #[expect(missing_docs, reason = "what is said of each names its fields")]
 pub enum Agreement {
     /// It saved nothing: a definition, or a file that Mathcad did not calculate.
+    #[serde(rename = "nothing saved")]
     NothingSaved,
     /// Every number has the saved bits; a string is the same.
     Same,
     /// The numbers agree to so many digits, at least [`LEAST_DIGITS`].
-    Digits(u32),
+    Digits { digits: u32 },
     /// Both fail of the same cause; the words that Mathcad saved, and ours.
+    #[serde(rename = "failure")]
     SameFailure { saved: String, ours: String },
     /// Ours fails where nothing is saved; why.
-    Fails(String),
+    Fails { ours: String },
     /// They differ: what Mathcad saved, and ours.
     Differs { saved: String, ours: String },
     /// The interpreter does not have this construct, or what the region rests on.
-    Unsupported(String),
+    Unsupported { construct: String },
 }
 
 impl Agreement {
     /// Returns whether what Mathcad saved agrees with what is computed here.
     pub fn agrees(&self) -> bool {
-        matches!(self, Agreement::Same | Agreement::Digits(_) | Agreement::SameFailure { .. })
+        matches!(self, Agreement::Same | Agreement::Digits { .. } | Agreement::SameFailure { .. })
     }
 }
 
@@ -175,7 +183,7 @@ impl Execution<'_> {
         {
             let construct =
                 "Mathcad's order of eigenvalues and its signs of eigenvectors; the numbers agree";
-            agreement = Agreement::Unsupported(construct.into());
+            agreement = Agreement::Unsupported { construct: construct.into() };
         }
         if let (false, Some(Saved::Value(value))) = (agreement == Agreement::Same, &region.saved) {
             self.take_saved(region, value);
@@ -432,33 +440,43 @@ fn indented(lines: &[String]) -> Vec<String> {
 fn agreement(computed: &Computed, saved: Option<&Saved>) -> Agreement {
     match (computed, saved) {
         (Err(Cause::Unsupported { construct }), Some(Saved::Error(words))) => {
-            Agreement::Unsupported(format!("{construct}; Mathcad saved an error: «{words}»"))
+            Agreement::Unsupported {
+                construct: format!("{construct}; Mathcad saved an error: «{words}»"),
+            }
         }
-        (Err(Cause::Unsupported { construct }), _) => Agreement::Unsupported(construct.clone()),
+        (Err(Cause::Unsupported { construct }), _) => {
+            Agreement::Unsupported { construct: construct.clone() }
+        }
         (Ok(None), _) | (Ok(_), None) => Agreement::NothingSaved,
-        (_, Some(Saved::Unsupported(construct))) => Agreement::Unsupported(construct.clone()),
+        (_, Some(Saved::Unsupported(construct))) => {
+            Agreement::Unsupported { construct: construct.clone() }
+        }
         (Err(cause), Some(Saved::Error(words))) => {
             let (saved, ours) = (words.clone(), cause.to_string());
             match words::is_of(words, cause) {
                 Some(true) => Agreement::SameFailure { saved, ours },
                 Some(false) => Agreement::Differs { saved: format!("«{saved}»"), ours },
-                None => Agreement::Unsupported(format!("Mathcad's error «{saved}»; here: {ours}")),
+                None => Agreement::Unsupported {
+                    construct: format!("Mathcad's error «{saved}»; here: {ours}"),
+                },
             }
         }
         // Mathcad may know it from elsewhere.
         (Err(Cause::Undefined { name }), _) => {
-            Agreement::Unsupported(format!("`{name}`, which nothing above defines"))
+            Agreement::Unsupported { construct: format!("`{name}`, which nothing above defines") }
         }
         (Err(Cause::Arguments { expected, found }), _) if found < expected => {
-            Agreement::Unsupported("a call with fewer arguments, which is a function".into())
+            Agreement::Unsupported {
+                construct: "a call with fewer arguments, which is a function".into(),
+            }
         }
-        (Err(cause), None) => Agreement::Fails(cause.to_string()),
+        (Err(cause), None) => Agreement::Fails { ours: cause.to_string() },
         (Err(cause), Some(saved)) => {
             Agreement::Differs { saved: spelled(saved), ours: cause.to_string() }
         }
         (Ok(Some(ours)), Some(Saved::Value(saved))) => match digits(saved, ours) {
             Some(u32::MAX) => Agreement::Same,
-            Some(digits) if digits >= LEAST_DIGITS => Agreement::Digits(digits),
+            Some(digits) if digits >= LEAST_DIGITS => Agreement::Digits { digits },
             _ => {
                 let [saved, ours] = match (saved.to_string(), ours.to_string()) {
                     // Numbers look like arrays of one entry, and like strings.

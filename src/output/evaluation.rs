@@ -4,21 +4,20 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::json;
-use mathcad::json::Written;
-use mathcad::{Ended, Failure};
+use mathcad::{Ended, Failure, Value};
 
 /// What a program computed.
 #[derive(Serialize)]
 struct Evaluation<'a> {
     /// A number, words, or a list of rows.
-    value: Written<'a>,
+    value: &'a Value,
     /// What the program's own `trace` wrote.
     trace: &'a [String],
 }
 
 /// Returns what a program computed.
 pub fn json(outcome: &Ended) -> String {
-    json::streamed(&Evaluation { value: Written(&outcome.value), trace: &outcome.trace_output })
+    json::streamed(&Evaluation { value: &outcome.value, trace: &outcome.trace_output })
 }
 
 /// Returns why a program failed, and where: the function, its line and where the failed expression starts in

@@ -1,13 +1,9 @@
 //! A worksheet of Mathcad, executed beside the results that it saved.
 
-use std::collections::BTreeSet;
-
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use super::json;
 use super::model::{Report, Table};
-use mathcad::json::Written;
 use mathcad::worksheet::{Agreement, ExecutedRegion};
 
 /// Reports each region with what came of it, and how many regions came out how.
@@ -35,13 +31,15 @@ fn words(region: &&ExecutedRegion) -> String {
     let agreement = match &region.agreement {
         Agreement::NothingSaved => "nothing saved to compare with".into(),
         Agreement::Same => "same to the last bit".into(),
-        Agreement::Digits(digits) => format!("same to {digits} digits"),
+        Agreement::Digits { digits } => format!("same to {digits} digits"),
         Agreement::SameFailure { saved, ours } => format!("both fail: «{saved}»; here: {ours}"),
-        Agreement::Fails(why) => format!("nothing saved to compare with; it fails here: {why}"),
+        Agreement::Fails { ours: why } => {
+            format!("nothing saved to compare with; it fails here: {why}")
+        }
         Agreement::Differs { saved, ours } => {
             format!("differs: saved {}; here {}", short(saved), short(ours))
         }
-        Agreement::Unsupported(construct) => return format!("unsupported: {construct}"),
+        Agreement::Unsupported { construct } => return format!("unsupported: {construct}"),
     };
     agreement + &from
 }
@@ -56,11 +54,11 @@ fn summary(regions: &[ExecutedRegion]) -> String {
     let count =
         |is: &dyn Fn(&Agreement) -> bool| regions.iter().filter(|r| is(&r.agreement)).count();
     let same = count(&|v| *v == Agreement::Same);
-    let digits = count(&|v| matches!(v, Agreement::Digits(_)));
+    let digits = count(&|v| matches!(v, Agreement::Digits { .. }));
     let failures = count(&|v| matches!(v, Agreement::SameFailure { .. }));
     let differ = count(&|v| matches!(v, Agreement::Differs { .. }));
-    let fail = count(&|v| matches!(v, Agreement::Fails(_)));
-    let unsupported = count(&|v| matches!(v, Agreement::Unsupported(_)));
+    let fail = count(&|v| matches!(v, Agreement::Fails { .. }));
+    let unsupported = count(&|v| matches!(v, Agreement::Unsupported { .. }));
     format!(
         "{same} results same to the last bit, {digits} to ten digits or more, {failures} failures in \
          both, {differ} differ, {fail} regions fail here alone, {unsupported} are unsupported"
@@ -71,53 +69,10 @@ fn summary(regions: &[ExecutedRegion]) -> String {
 #[derive(Serialize)]
 struct Executed<'a> {
     file: &'a str,
-    regions: Vec<RegionRow<'a>>,
-}
-
-/// A region as it was executed.
-#[derive(Serialize)]
-struct RegionRow<'a> {
-    region: &'a str,
-    tag: &'a str,
-    /// The region in the text notation.
-    text: &'a str,
-    /// How the region compares with what Mathcad saved.
-    #[serde(flatten)]
-    verdict: Value,
-    /// The regions whose saved results went into this one.
-    inputs: &'a BTreeSet<String>,
-    /// The region's value: a number, words, or a list of rows; absent where there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    value: Option<Written<'a>>,
+    regions: &'a [ExecutedRegion],
 }
 
 /// Writes the regions on one line.
 pub fn json(file: &str, regions: &[ExecutedRegion]) -> String {
-    let regions = regions.iter().map(|region| RegionRow {
-        region: &region.id,
-        tag: &region.tag,
-        text: &region.text,
-        verdict: verdict(&region.agreement),
-        inputs: &region.inputs,
-        value: region.value.as_ref().map(Written),
-    });
-    json::streamed(&Executed { file, regions: regions.collect() })
-}
-
-fn verdict(verdict: &Agreement) -> Value {
-    match verdict {
-        Agreement::NothingSaved => json!({ "verdict": "nothing saved" }),
-        Agreement::Same => json!({ "verdict": "same" }),
-        Agreement::Digits(digits) => json!({ "verdict": "digits", "digits": digits }),
-        Agreement::SameFailure { saved, ours } => {
-            json!({ "verdict": "failure", "saved": saved, "ours": ours })
-        }
-        Agreement::Differs { saved, ours } => {
-            json!({ "verdict": "differs", "saved": saved, "ours": ours })
-        }
-        Agreement::Fails(ours) => json!({ "verdict": "fails", "ours": ours }),
-        Agreement::Unsupported(construct) => {
-            json!({ "verdict": "unsupported", "construct": construct })
-        }
-    }
+    json::streamed(&Executed { file, regions })
 }

@@ -82,7 +82,7 @@ fn regions_are_read_three_hundred_deep() {
     let deep = |parens: usize| {
         let [open, close] = ["<parens>", "</parens>"].map(|tag| tag.repeat(parens));
         match &evaluated(&[format!("{open}{}{close}", real(1.0))])[0].agreement {
-            Agreement::Unsupported(words) => words.clone(),
+            Agreement::Unsupported { construct: words } => words.clone(),
             other => panic!("{other:?}"),
         }
     };

@@ -138,8 +138,9 @@ fn what_is_no_worksheet_is_refused() {
         "</parens>".repeat(5_000)
     );
     let checked = document::read(&deep, "deep").map(|s| execute(&s, &Limits::default()));
-    let refused =
-        |c: &[ExecutedRegion]| c.iter().all(|c| matches!(c.agreement, Agreement::Unsupported(_)));
+    let refused = |c: &[ExecutedRegion]| {
+        c.iter().all(|c| matches!(c.agreement, Agreement::Unsupported { .. }))
+    };
     assert!(checked.is_err() || checked.is_ok_and(|checked| refused(&checked)));
 }
 
@@ -174,12 +175,12 @@ fn mathcad_s_own_worksheets() {
             let kind = match region.agreement {
                 Agreement::NothingSaved => continue,
                 Agreement::Same => "same",
-                Agreement::Digits(_) => "digits",
+                Agreement::Digits { .. } => "digits",
                 Agreement::SameFailure { .. } => "failure",
-                Agreement::Differs { .. } | Agreement::Fails(_) => {
+                Agreement::Differs { .. } | Agreement::Fails { .. } => {
                     panic!("{}, {}: {:?}", file.display(), region.id, region.agreement)
                 }
-                Agreement::Unsupported(_) => "unsupported",
+                Agreement::Unsupported { .. } => "unsupported",
             };
             *counts.entry(kind).or_default() += 1;
         }

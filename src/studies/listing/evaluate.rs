@@ -9,9 +9,7 @@ use base::files;
 use base::plain::shown;
 use engine::error::{Error, Result};
 use mathcad::{
-    Cause, Ended, Limits, Listing, Settings, Sheet, Value, file,
-    json::{self, Written},
-    unsupported::is_unit,
+    Cause, Ended, Limits, Listing, Settings, Sheet, Value, file, json, unsupported::is_unit,
 };
 use output::evaluation as report;
 use output::model::Report;
@@ -125,9 +123,7 @@ fn inputs(text: &str) -> Result<Sheet, InputError> {
 fn ended(outcome: &Ended) -> Report {
     let traces = outcome.trace_output.iter().map(|line| format!("trace: {line}"));
     let value = match &outcome.value {
-        nested @ Value::Nested(_) => {
-            serde_json::to_string(&Written(nested)).expect("an array of JSON")
-        }
+        nested @ Value::Nested(_) => serde_json::to_string(nested).expect("an array of JSON"),
         value => value.to_string().replace("; ", "\n"),
     };
     traces.chain([value]).fold(Report::default(), Report::line)

@@ -57,7 +57,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     print_either(args.json, json, || report::report(&checked))?;
     let some = |is: fn(&Agreement) -> bool| checked.iter().any(|region| is(&region.agreement));
     let differs =
-        some(|agreement| matches!(agreement, Agreement::Differs { .. } | Agreement::Fails(_)));
+        some(|agreement| matches!(agreement, Agreement::Differs { .. } | Agreement::Fails { .. }));
     Ok(ExitStatus::compared(!differs && some(Agreement::agrees)))
 }
 
