@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::{Run, Snapshot};
+use super::{Entry, Numbers, Run, Snapshot};
 use problem::scene::{Element, Mesh, Node};
 
 /// A difference of what went into two runs.
@@ -34,6 +34,13 @@ pub fn changes(old: (&Snapshot, &Run), new: (&Snapshot, &Run)) -> Vec<Change> {
     let [was, is] = [old, new]
         .map(|(_, run)| serde_json::to_value(&run.options).expect("options have string keys"));
     fields(&mut changes, "option", &was, &is);
+    let tolerances = [old, new].map(|(_, run)| {
+        let of =
+            |(entry, own): (&Entry, &Numbers)| Some((entry.to_string(), json!(own.tolerance?)));
+        let all = run.tolerance.map(|all| ("of all".to_string(), json!(all)));
+        Value::from_iter(all.into_iter().chain(run.numbers.iter().filter_map(of)))
+    });
+    fields(&mut changes, "tolerance", &tolerances[0], &tolerances[1]);
     let versions = [old, new].map(|(snapshot, _)| snapshot.version.clone());
     add(&mut changes, "version of the program".into(), versions);
     changes

@@ -95,6 +95,11 @@ impl Snapshot {
         Snapshot { summary: own.runs.iter().map(of).collect(), ..self }
     }
 
+    /// Returns whether its summary is that of its runs, which no hand changed since.
+    pub(super) fn is_summed_up(&self) -> bool {
+        self.scene().is_ok_and(|scene| self.clone().summarised(&scene).summary == self.summary)
+    }
+
     /// Returns the snapshot with its tolerance in each run that gives none.
     pub(super) fn with_tolerances(&self) -> Self {
         let mut own = self.clone();

@@ -196,7 +196,7 @@ impl Numbers {
         self.rounding().filter(|most| *most > 0.0 && *most >= 1e-3 * self.largest())
     }
 
-    /// Writes a number with the digits that are compared, by the array's own tolerance, one that is `given` for
+    /// Writes a number with the digits that are compared, six at most, by the array's own tolerance, one that is `given` for
     /// all, or what rounding does.
     pub fn written(&self, x: f64, given: Option<Tolerance>) -> String {
         let (largest, rounding) = (self.largest(), self.rounding());
@@ -204,6 +204,8 @@ impl Numbers {
             Some(tolerance) => tolerance.limit(x, largest, rounding.unwrap_or(0.0)),
             None => rounding.unwrap_or(UNMEASURED * largest),
         };
+        // What is no more than the limit is no other number than 0.
+        let x = if x.abs() <= limit { 0.0 } else { x };
         Digits::of(largest, Some(if largest > 0.0 { limit / largest } else { 0.0 })).write(x)
     }
 

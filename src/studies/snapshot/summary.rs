@@ -18,7 +18,10 @@ pub type Summary = IndexMap<String, String>;
 
 /// Sums up a run of a scene.
 pub fn of(run: &Run, scene: &Scene) -> Summary {
-    let array = |quantity| run.numbers.get(&Entry::from(quantity));
+    let array = |quantity| {
+        let numbers = run.numbers.get(&Entry::from(quantity));
+        numbers.filter(|numbers| !numbers.places().is_empty())
+    };
     let written = |numbers: &Numbers, values: Vec<f64>| {
         let written = values.into_iter().map(|x| numbers.written(x, run.tolerance));
         with_unit(&listed(written), &numbers.unit)

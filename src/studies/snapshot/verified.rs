@@ -21,6 +21,8 @@ pub struct Verified {
     pub input: Input,
     /// The runs, in the order of the snapshot.
     pub runs: Vec<VerifiedRun>,
+    /// Whether each summary is that of its snapshot's runs.
+    pub is_summed_up: bool,
 }
 
 choices! {
@@ -60,7 +62,7 @@ pub struct VerifiedRun {
 impl Verified {
     /// Returns whether anything was compared and nothing differs.
     pub fn is_same(&self) -> bool {
-        self.runs.iter().all(VerifiedRun::is_same) && !self.runs.is_empty()
+        self.runs.iter().all(VerifiedRun::is_same) && !self.runs.is_empty() && self.is_summed_up
     }
 }
 
@@ -101,7 +103,9 @@ impl VerifiedRun {
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
 pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
-    let old = &old.with_tolerances();
+    let is_summed_up = old.is_summed_up() && new.is_summed_up();
+    let [old, new] = [old, new].map(Snapshot::with_tolerances);
+    let [old, new] = [&old, &new];
     let both = |name: &str, was: &Run, is: &Run| VerifiedRun::compared(name, (old, was), (new, is));
     let run = |(name, sides): (&String, Sides<Run>)| match sides {
         Sides::Both(was, is) => both(name, was, is),
@@ -114,7 +118,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
         Some(((name, was), (other, is))) => vec![both(&format!("{name} and {other}"), was, is)],
         None => side_by_side(&old.runs, &new.runs).map(run).collect(),
     };
-    Verified { input: new.input.clone(), runs }
+    Verified { input: new.input.clone(), runs, is_summed_up }
 }
 
 /// Runs the scene of `snapshot`, or `scene` in its place, under the options of every run, and
@@ -127,7 +131,9 @@ pub fn verify(
     scene: Option<&Scene>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Verified> {
-    let (scene, snapshot) = (given_or_own(snapshot, scene)?, &snapshot.with_tolerances());
+    // What it says of its scene must be true, whatever scene is run.
+    let own = snapshot.scene()?;
+    let scene = scene.cloned().unwrap_or(own);
     let again = again(snapshot, &scene, |request, old| {
         let run = run_to_compare(request, old);
         done();
@@ -151,19 +157,8 @@ pub fn verify(
 /// # Errors
 /// The snapshot or the scene is at fault.
 pub fn accept(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Snapshot> {
-    again(snapshot, &given_or_own(snapshot, scene)?, |request, old| {
-        let mut run = record_again(request, old, Rounding::Measured)?;
-        run.tolerance = old.tolerance;
-        for (entry, numbers) in &mut run.numbers {
-            numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
-        }
-        Ok(run)
-    })
-}
-
-/// Returns `scene`, or that of the snapshot.
-fn given_or_own(snapshot: &Snapshot, scene: Option<&Scene>) -> Result<Scene> {
-    Ok(scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?)
+    let scene = scene.map_or_else(|| snapshot.scene(), |scene| Ok(scene.clone()))?;
+    again(snapshot, &scene, |request, old| record_again(request, old, Rounding::Measured))
 }
 
 /// Returns the snapshot of a scene with the runs of `snapshot`, each made by `run` of its request and of what
@@ -181,10 +176,14 @@ fn again(
     Ok(Snapshot::of_runs(scene, snapshot.scene_file.clone(), snapshot.tolerance, runs))
 }
 
-/// Records of a request what was recorded of an earlier run.
+/// Records of a request what was recorded of an earlier run, with the tolerances that it gives.
 fn record_again(request: &Request, old: &Run, rounding: Rounding) -> Result<Run> {
     let mut run = record(request, rounding)?;
     run.keep_only(old.only.clone());
+    run.tolerance = old.tolerance;
+    for (entry, numbers) in &mut run.numbers {
+        numbers.tolerance = old.numbers.get(entry).and_then(|numbers| numbers.tolerance);
+    }
     Ok(run)
 }
 

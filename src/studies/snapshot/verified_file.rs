@@ -60,6 +60,7 @@ pub fn report(checked: &[VerifiedFile], is_page: bool) -> Report {
             Ok(verified) => {
                 let report =
                     report.line(format!("{file}: {}", outcome(verified))).notes(scene.clone());
+                let report = report.notes((!verified.is_summed_up).then_some(SUMMARY));
                 verified.runs.iter().fold(report, |report, run| {
                     let report = report.note(format!("{}: {}", run.name, verdict(run)));
                     match run.differences.is_empty() && run.changes.is_empty() {
@@ -72,10 +73,14 @@ pub fn report(checked: &[VerifiedFile], is_page: bool) -> Report {
     })
 }
 
+/// What is said where the first lines of a file do not tell what is in it.
+const SUMMARY: &str = "the summary is not that of the runs in the file, which were changed by hand, or it was; snapshot accept writes it anew";
+
 fn outcome(verified: &Verified) -> String {
     let differ = verified.runs.iter().filter(|run| !run.is_same()).count();
     match (verified.runs.len(), differ) {
         (0, _) => "no run in it, nothing was compared".into(),
+        (_, 0) if !verified.is_summed_up => "the runs are the same, the summary differs".into(),
         (runs, 0) => format!("same, {}", counted(runs, "run", "runs")),
         (runs, _) => format!("{differ} of {runs} runs differ"),
     }
@@ -104,6 +109,9 @@ pub fn junit(checked: &[VerifiedFile]) -> String {
             }
             Ok(_) if runs.is_empty() => {
                 Some(outcome_of("failure", "nothing was compared".into(), ""))
+            }
+            Ok(verified) if !verified.is_summed_up => {
+                Some(outcome_of("failure", SUMMARY.into(), ""))
             }
             Ok(_) => None,
         };

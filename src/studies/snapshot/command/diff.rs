@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::snapshot::verified_file::{self as report, VerifiedFile};
-use crate::snapshot::{Options, Rounding, Snapshot, difference};
+use crate::snapshot::{Options, Rounding, Snapshot, accept, difference};
 use base::error::InputError;
 use base::exit::ExitStatus;
 use base::files;
@@ -19,7 +19,7 @@ use commands::{offered, offered_readings, print_either, waiting};
 /// Compare two snapshots, or a scene under two sets of options.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Each side is a snapshot or a scene; a scene is run. With one side alone, some option names two \
+Each side is a snapshot or a scene; a scene is run, beside a snapshot as that was. With one side alone, some option names two \
 values, one for each run. A difference is printed as by verify.
 
 Examples:
@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let first = SceneFile::read(names[0])?;
     let second = if names[0] == names[1] { first.clone() } else { SceneFile::read(names[1])? };
     let sides = waiting("running", || -> Result<_> {
-        Ok([side(args, 0, &first)?, side(args, 1, &second)?])
+        Ok([side(args, 0, [&first, &second])?, side(args, 1, [&second, &first])?])
     })?;
     let verified = difference(&sides[0], &sides[1]);
     let status = ExitStatus::compared(verified.is_same());
@@ -80,16 +80,30 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     Ok(status)
 }
 
-/// Reads a snapshot, or runs a scene.
-fn side(args: &Args, side: usize, file: &SceneFile) -> Result<Snapshot> {
-    if files::fields(&file.text).iter().any(|name| name == "format") {
-        let snapshot = Snapshot::read(&file.text);
-        // What it says of its scene must be true.
-        let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
-        let place = file.path().unwrap_or(&file.name);
-        return Ok(checked.map_err(|error| error.within(place))?);
+/// Returns the snapshot in a file; nothing of a scene.
+fn read(file: &SceneFile) -> Result<Option<Snapshot>> {
+    if files::fields(&file.text).iter().all(|name| name != "format") {
+        return Ok(None);
+    }
+    let snapshot = Snapshot::read(&file.text);
+    // What it says of its scene must be true.
+    let checked = snapshot.and_then(|snapshot| snapshot.scene().map(|_| snapshot));
+    let place = file.path().unwrap_or(&file.name);
+    Ok(Some(checked.map_err(|error| error.within(place))?))
+}
+
+/// Reads a snapshot, or runs a scene: as asked, or else the runs of the snapshot on the other side.
+fn side(args: &Args, side: usize, [file, other]: [&SceneFile; 2]) -> Result<Snapshot> {
+    if let Some(snapshot) = read(file)? {
+        return Ok(snapshot);
     }
     let scene = Scene::of_file(file)?;
+    let is_asked = args.variant.len() + args.solver.len() + args.scalar.len() + args.reading.len();
+    if is_asked == 0
+        && let Some(snapshot) = read(other)?
+    {
+        return accept(&snapshot, Some(&scene));
+    }
     let options = Options {
         variant: of_side(&args.variant, side, "--variant")?,
         reading: of_side(&args.reading, side, "--reading")?.unwrap_or_default(),

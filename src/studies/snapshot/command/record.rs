@@ -110,8 +110,9 @@ fn recorded(snapshot: &Snapshot) -> Report {
             let most = numbers.most_of_noise().filter(|_| entry.iteration.is_none())?;
             Some(format!("{entry}: no change below {most:.1e} can be seen, as rounding makes it"))
         };
+        let nothing = if numbers == 0 { "; none of --only is there" } else { "" };
         let line = format!(
-            "{} {name}: {facts} facts, {numbers} numbers{unmeasured}{failure}",
+            "{} {name}: {facts} facts, {numbers} numbers{nothing}{unmeasured}{failure}",
             snapshot.input.name
         );
         report.line(line).notes(run.numbers.iter().filter_map(said))
