@@ -5,12 +5,16 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 
-use super::contact::{ROUNDING_OF_A_FORCE, rounding};
+use super::contact::rounding;
 use super::quantities::ContactNode;
 use super::reactions::sides;
 use super::solution::{Detail, Solution};
 use numbers::joined::joined;
 use problem::model::{Model, NodeId};
+
+/// The part of the forces of the nodes up to which their sum is 0: what the path leaves out of balance, some 1e-9
+/// on a ring between two plates.
+const BALANCED: f64 = 1e-8;
 
 /// What contact passes to the target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -167,7 +171,7 @@ impl<'a> Forces<'a> {
         }
         let [fx, fy] = force;
         let size = fx.hypot(fy);
-        if size <= ROUNDING_OF_A_FORCE * sizes {
+        if size <= BALANCED * sizes {
             return Resultant { force: [0.0; 2], through: None };
         }
         // Divided twice: the square of a small force is 0.

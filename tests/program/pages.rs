@@ -8,13 +8,13 @@ use std::process::Command;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use plane_contact::mathcad::observe::{Executed, Named};
-use plane_contact::mathcad::{self, Recorder};
+use plane_contact::mathcad::{self, Listing, Recorder};
 use plane_contact::paper::corrected::{self, program};
 use plane_contact::paper::door::Call;
 use plane_contact::paper::listings::{self, Which, settings};
 use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::scene::{Scene, sha256_of};
-use plane_contact::studies::lesson::{self, Program, Repairs, Switch};
+use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -85,18 +85,17 @@ fn the_lesson_shows_what_the_trace_has() {
 /// are not 0.
 fn traces(folder: &Path) -> [String; 2] {
     let scene = Scene::open("fig1").expect("an embedded scene");
-    let run = lesson::run(&scene, Switch::as_printed(), &[]).expect("it is executed");
-    let call = Call::c_cnt(&run.model, &Reading::default(), &run.model.nodes).expect("it runs");
-    [(Which::CCnt, run.c_cnt), (Which::Km, run.km)].map(|(which, program)| {
-        let Program { listing, trace } = program.expect("it is executed");
-        let mut turns = trace.steps.into_iter().map(|step| (step.turn, step.line));
-        let mut steps = Vec::new();
+    let model = Switch::as_printed().model(&scene).expect("a sound model");
+    let call = Call::c_cnt(&model, &Reading::default(), &model.nodes).expect("it runs");
+    [Which::CCnt, Which::Km].map(|which| {
+        let listing = Switch::as_printed().listing(which);
+        let (mut turn, mut steps) = (None, Vec::new());
         let mut recorder = Recorder::new(|done: &Executed| {
-            let (turn, line) = turns.next().expect("the same statements");
-            assert_eq!(line, done.line);
+            turn = begun(&listing, done).unwrap_or(turn);
             let [reads, writes] = [&done.reads, &done.writes]
                 .map(|list| list.iter().map(accessed).collect::<Vec<_>>());
-            steps.push(json!({ "turn": turn, "line": line, "reads": reads, "writes": writes }));
+            steps
+                .push(json!({ "turn": turn, "line": done.line, "reads": reads, "writes": writes }));
         });
         let settings = settings(&Reading::default());
         let mut entries = Vec::new();
@@ -125,6 +124,16 @@ fn traces(folder: &Path) -> [String; 2] {
         std::fs::write(&path, text).expect("a file");
         path
     })
+}
+
+/// The contact node or triangle whose turn a `for` line begins, or that none does; None of another line.
+fn begun(listing: &Listing, done: &Executed) -> Option<Option<usize>> {
+    let text = &listing.lines().iter().find(|line| line.printed == done.line)?.text;
+    let value = done.writes.first().and_then(|written| written.value.number())? as usize;
+    match text.strip_prefix("for ")? {
+        range if range.starts_with("n ") || range.contains("rows(cnt)") => Some(Some(value)),
+        range => (range.starts_with("i1 ") && listing.name() == "c_cnt").then_some(None),
+    }
 }
 
 /// A name or an entry and its value: a number, a small array as its entries, all else by its kind.

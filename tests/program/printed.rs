@@ -182,7 +182,6 @@ fn a_report_is_html() {
         Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
     let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);
     assert_eq!(report.html(), page);
-    assert_eq!(report.figures(), [("figure-4.svg".to_string(), "<svg/>")]);
     let part = Report::default().heading("P1: b").deeper(1).note("c");
     let unfolding = Report::default().heading("A part").then(part).heading("Another").html();
     let expected = "<details id=\"a-part\"><summary><h2>A part</h2></summary>

@@ -12,7 +12,7 @@ use engine::estimates::{Cause, NoLimit, contact_ends};
 use engine::{Assessment, Cycle, Resultant, Solution, Stretch, locking_of, share_of_load};
 use numbers::largest::largest;
 use problem::model::NodeId;
-use problem::modelling::Variant;
+use problem::modelling::{Friction, Variant};
 
 /// What is said of the estimate of the error of the mesh.
 pub const PROBABLY_MORE: &str = "probably more";
@@ -281,6 +281,8 @@ fn mesh_error(assessment: &Assessment, solution: &Solution, error: Option<f64>) 
         (Some(error), _) => {
             let is_own =
                 solution.request.variant == Variant::Unilateral && solution.model.has_contact();
+            // The meshes of a trade are solved without friction.
+            let is_own = is_own && solution.request.contact.friction == Friction::NONE;
             let word = &solution.request.scene.word;
             let more = is_own.then(|| {
                 format!("; of the contact force and the peak pressure: trade {word} --only mesh")

@@ -43,7 +43,10 @@ pub fn report(trade: &Trade) -> Report {
             false => report.table(format!("Trials of {}", section.parameter), trials(section)),
         };
         let report = match section.rows.iter().any(|row| row.contact.is_some()) {
-            true => report.table("Contact on each mesh", contact(&section.rows, &trade.units)),
+            true => report.table(
+                "Contact on each mesh, without friction and for small displacements",
+                contact(&section.rows, &trade.units),
+            ),
             false => report,
         };
         match section.orders.is_empty() {
