@@ -290,8 +290,19 @@ impl Problem<'_> {
         dof: Dof,
     ) -> InputError {
         if pairings.iter().all(Option::is_none) {
-            let what = "no contact node faces the target, and nothing else restrains the bodies";
-            let fix = "name surfaces that face each other; list cnt in order along its surface";
+            let nodes = &self.model.nodes;
+            let before = self.surfaces.pairings(self.request.contact.coupling, nodes);
+            let [what, fix] = match before.iter().all(Option::is_none) {
+                true => [
+                    "no contact node faces the target, and nothing else restrains the bodies",
+                    "name surfaces that face each other; list cnt in order along its surface",
+                ],
+                false => [
+                    "the bodies move so far that no contact node faces the target any more, and nothing else restrains \
+                     them",
+                    "check the units of E and of the load",
+                ],
+            };
             return InputError::new("contact.cnt, contact.trg", what, fix);
         }
         let (node, direction) = (dof.node(), dof.axis());

@@ -26,7 +26,33 @@ pub const SCENE: json::Kind =
 /// # Errors
 /// The text is no scene file; the error names the field's path, the line and the column.
 pub fn parse(text: &[u8]) -> Result<Description> {
-    to_be_chosen(text).map_or_else(|| json::read(text, &SCENE), Err)
+    to_be_chosen(text).map_or_else(|| json::read(text, &SCENE).map_err(absent), Err)
+}
+
+/// What a scene file is asked for that no scene has: the start of the error that says so, and what to do.
+const ABSENT: [(&str, &str); 5] = [
+    ("there is no field \"spring", "springs are unsupported; CalculiX has them"),
+    ("there is no field \"contacts\"", PAIR),
+    ("a list where an object is expected", PAIR),
+    ("there is no field \"gravity\"", WEIGHT),
+    ("there is no field \"rho\"", WEIGHT),
+];
+
+const PAIR: &str = "a scene has one pair of surfaces, each of any number of stretches, and one friction; several pairs are \
+     unsupported; CalculiX has them";
+
+const WEIGHT: &str =
+    "weight is a load: {\"on\": a group of triangles, \"rho\": density, \"g\": [0, -9810]}";
+
+/// Says of what a scene cannot have that it is not here.
+fn absent(error: InputError) -> InputError {
+    let is_list =
+        |what: &str| what.starts_with("a list") && !error.place.starts_with("field contact,");
+    let asked = ABSENT.iter().find(|(what, _)| error.what.starts_with(what) && !is_list(what));
+    match asked {
+        Some((_, fix)) => InputError { fix: format!("{fix}; {}", error.fix), ..error },
+        None => error,
+    }
 }
 
 /// Takes the mesh out of the fields `mesh`, `node` and `elem` of a scene file; `beside` reads a file

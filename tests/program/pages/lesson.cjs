@@ -592,7 +592,7 @@ async function opening(browser) {
   assert.equal(await page.isHidden("#conclusion"), true, "what is to be found out is not said before");
   await page.click("#end");
   const conclusion = await page.locator("#conclusion dd").allTextContents();
-  assert.deepEqual(conclusion, ["c_cnt (as printed) finds, in contact: 2.1 (5), 2.2 (6), 2.3 (7), 2.5 (9).", "Inside the target and missed: 2.4 (8). Farther away than c_tll and taken: 2.3 (7).", "As printed it leaves an error of 95.9 % in energy.", "From the print to the right answer in 7 edits", "2 of 5 right"]);
+  assert.deepEqual(conclusion, ["c_cnt (as printed) finds, in contact: 2.1 (5), 2.2 (6), 2.3 (7), 2.5 (9).", "Inside the target and missed: 2.4 (8). Farther away than c_tll and taken: 2.3 (7).", "Under printed it leaves an error of 95.9 % in energy.", "From the print to the right answer in 7 edits", "2 of 5 right"]);
   await select(page, "#chapter", 2);
   await page.click("#question button:text-is('no')");
   assert.match(await page.textContent("#question [role=status]"), /\(\d of 1 right\).* That was the last node\./, "each chapter counts anew");

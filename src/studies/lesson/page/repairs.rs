@@ -5,6 +5,7 @@ use std::fmt::Display;
 use serde_json::{Value, json};
 
 use super::Shared;
+use crate::audit::evidence::NoFigures;
 use crate::audit::prices::price_tables::ORDER;
 use crate::lesson::Repairs;
 use crate::lesson::language::fill;
@@ -59,10 +60,14 @@ pub fn json(repairs: &Repairs) -> Value {
             "fault": words,
             "places": last.map(|fault| listed(fault.places())),
         });
-        if let Ok(run) = &price.outcome {
-            row["in_contact"] = json!(run.in_contact);
-            row["transmitted"] = json!(run.transmitted);
-            row["error"] = json!(run.error());
+        match &price.outcome {
+            Ok(run) => {
+                row["in_contact"] = json!(run.in_contact);
+                row["transmitted"] = json!(run.transmitted);
+                row["error"] = json!(run.error());
+            }
+            Err(NoFigures::Rounding) => row["by_rounding"] = json!(true),
+            Err(NoFigures::Fails(_) | NoFigures::Refused(_)) => (),
         }
         row
     };

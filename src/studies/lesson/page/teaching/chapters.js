@@ -179,7 +179,7 @@ function ofFinding(row) {
 function ofRepairs({ rows }) {
   const [first, last] = [rows[0], rows.findLast(({ finding }) => finding)];
   return [
-    [t("What the listing did"), t("As printed it leaves an error of {error} in energy.", { error: first.error === undefined ? t("no result") : percent(first.error) })],
+    [t("What the listing did"), t("Under printed it leaves an error of {error} in energy.", { error: first.error === undefined ? t("no result") : percent(first.error) })],
     [t("What repairs it"), t("After {count} repairs, the last of them {finding}, the error is {error}.", { count: last.repairs, finding: last.finding, error: percent(last.error) })],
   ];
 }
@@ -203,7 +203,7 @@ function ofScene() {
   return [
     [t("What the listing did"), t("c_cnt ({state}) finds, {contact}.", { state: stateOf("c_cnt"), contact: contactInWords(nodes.filter(({ dy }) => dy === 1).map(({ node }) => node)) })],
     [t("What is wrong"), wrong.join(" ") || t("No node is missed and none is taken that is apart.")],
-    ...(cost === undefined ? [] : [[t("What it costs"), t("As printed it leaves an error of {error} in energy.", { error: percent(cost) })]]),
+    ...(cost === undefined ? [] : [[t("What it costs"), t("Under printed it leaves an error of {error} in energy.", { error: percent(cost) })]]),
     ...(rows ? [[t("What repairs it"), make("a", { href: "#chapter=repairs" }, tell(data.scenes.find(({ repairs }) => repairs).title))]] : []),
   ];
 }

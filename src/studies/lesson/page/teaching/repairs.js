@@ -12,9 +12,9 @@ function openRepair(k) {
 function repairsOf({ rows, order }) {
   const cell = (text, value) => make("td", { "data-exact": value === undefined ? undefined : exact(value) }, text);
   const share = (x) => cell(x === undefined ? "–" : decimal((Math.round(1e4 * x) / 100).toFixed(2)), x);
-  const row = ({ repairs, finding, fault, places, in_contact, transmitted, error }) => {
+  const row = ({ repairs, finding, fault, places, in_contact, transmitted, error, by_rounding }) => {
     const link = finding ? make("a", { href: `#chapter=${finding}` }, finding) : "–";
-    const words = `${tell(fault)}${places ? ` (${places.replaceAll("-", "–")})` : ""}${error === undefined ? `; ${t("stops")}` : ""}`;
+    const words = `${tell(fault)}${places ? ` (${places.replaceAll("-", "–")})` : ""}${error === undefined ? `; ${by_rounding ? t("decided by rounding") : t("stops")}` : ""}`;
     const number = make("th", { scope: "row" }, make("button", {}, String(repairs)));
     return [number, cell(link), share(error), share(transmitted), cell(in_contact ?? "–"), make("td", { class: "words" }, words)];
   };
