@@ -514,6 +514,11 @@ impl Solution {
         self.contact.iter().filter(|node| node.in_contact)
     }
 
+    /// Returns the sum of the normal forces of the nodes in contact, force.
+    pub fn pressed(&self) -> f64 {
+        self.in_contact().filter_map(|node| node.force).sum()
+    }
+
     /// Returns whether a contact node is apart from the target, by more than a millionth of the largest
     /// displacement.
     pub fn is_apart(&self, contact: &ContactNode) -> bool {

@@ -76,27 +76,26 @@ pub fn stretches(solution: &Solution) -> Vec<Stretch> {
 /// Returns what contact passes to the bodies of the target that rest on no other target. None without
 /// contact, where both surfaces are one body's, and where nothing is passed on.
 pub fn resultant(solution: &Solution) -> Option<Resultant> {
-    let [contact, target] = sides(&solution.model)?;
-    if solution.transmits_nothing() || contact.iter().any(|body| target.contains(body)) {
+    if solution.transmits_nothing() {
         return None;
     }
-    passed(solution, &target, solution.in_contact())
+    passed(solution, solution.in_contact())
 }
 
-/// Returns what a field of displacements from elsewhere passes to the bodies of the target that rest on no other
-/// target, by all nodes that face them, as which of them are in contact is another program's to say. None
-/// without contact, and where both surfaces are one body's.
+/// Returns what a field of displacements from elsewhere passes to these bodies, by all contact nodes, as which of
+/// them are in contact is another program's to say. None without contact, and where both surfaces are one body's.
 pub fn resultant_of_field(field: &Solution) -> Option<Resultant> {
-    let [contact, target] = sides(&field.model)?;
-    let is_apart = contact.iter().all(|body| !target.contains(body));
-    is_apart.then(|| passed(field, &target, field.contact.iter()))?
+    passed(field, field.contact.iter())
 }
 
 fn passed<'a>(
     solution: &'a Solution,
-    target: &[usize],
     nodes: impl Iterator<Item = &'a ContactNode>,
 ) -> Option<Resultant> {
+    let [contact, target] = sides(&solution.model)?;
+    if contact.iter().any(|body| target.contains(body)) {
+        return None;
+    }
     let bodies = bodies(solution);
     let is_last =
         |at: &&ContactNode| bodies.get(&at.node).is_none_or(|[_, faced]| target.contains(faced));

@@ -85,10 +85,9 @@ fn passes_on(solution: &Solution) -> Option<String> {
             format!("Contact transmits {share}: force on the target {}", force(along))
         }
         (None, None) => {
-            let all = solution.in_contact().filter_map(|node| node.force).sum();
             format!(
                 "Contact presses one body on itself: the forces on its nodes sum to {}",
-                force(all)
+                force(solution.pressed())
             )
         }
         (None, Some([fx, fy])) => {
@@ -99,10 +98,9 @@ fn passes_on(solution: &Solution) -> Option<String> {
             };
             let (size, towards) = (fx.hypot(fy), towards([fx, fy]));
             if size == 0.0 {
-                let all = solution.in_contact().filter_map(|node| node.force).sum();
                 return Some(format!(
                     "Contact presses{why}: its forces balance, and sum to {}",
-                    force(all)
+                    force(solution.pressed())
                 ));
             }
             format!("Contact presses{why}: force on the target {}{towards}", force(size))

@@ -29,13 +29,14 @@ pub fn parse(text: &[u8]) -> Result<Description> {
     to_be_chosen(text).map_or_else(|| json::read(text, &SCENE).map_err(absent), Err)
 }
 
-/// What a scene file is asked for that no scene has: the start of the error that says so, and what to do.
-const ABSENT: [(&str, &str); 5] = [
-    ("there is no field \"spring", "springs are unsupported; CalculiX has them"),
-    ("there is no field \"contacts\"", PAIR),
-    ("a list where an object is expected", PAIR),
-    ("there is no field \"gravity\"", WEIGHT),
-    ("there is no field \"rho\"", WEIGHT),
+/// What a scene file is asked for that no scene has: the starts of the place and of the words of the error that
+/// says so, and what to do.
+const ABSENT: [[&str; 3]; 5] = [
+    ["", "there is no field \"spring", "springs are unsupported; CalculiX has them"],
+    ["", "there is no field \"contacts\"", PAIR],
+    ["field contact,", "a list where an object is expected", PAIR],
+    ["", "there is no field \"gravity\"", WEIGHT],
+    ["", "there is no field \"rho\"", WEIGHT],
 ];
 
 const PAIR: &str = "a scene has one pair of surfaces, each of any number of stretches, and one friction; several pairs are \
@@ -46,11 +47,11 @@ const WEIGHT: &str =
 
 /// Says of what a scene cannot have that it is not here.
 fn absent(error: InputError) -> InputError {
-    let is_list =
-        |what: &str| what.starts_with("a list") && !error.place.starts_with("field contact,");
-    let asked = ABSENT.iter().find(|(what, _)| error.what.starts_with(what) && !is_list(what));
-    match asked {
-        Some((_, fix)) => InputError { fix: format!("{fix}; {}", error.fix), ..error },
+    let is = |[place, what, _]: &&[&str; 3]| {
+        error.place.starts_with(place) && error.what.starts_with(what)
+    };
+    match ABSENT.iter().find(is) {
+        Some([_, _, fix]) => InputError { fix: format!("{fix}; {}", error.fix), ..error },
         None => error,
     }
 }

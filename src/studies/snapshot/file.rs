@@ -90,14 +90,16 @@ impl Snapshot {
 
     /// Sums up the runs of a scene anew.
     pub(super) fn summarised(self, scene: &Scene) -> Self {
-        let own = self.with_tolerances();
+        let mut own = self.with_tolerances();
+        // Whoever writes JSON may put them in another order.
+        own.runs.values_mut().for_each(Run::sort);
         let of = |(name, run): (&String, &Run)| (name.clone(), summary::of(run, scene));
         Snapshot { summary: own.runs.iter().map(of).collect(), ..self }
     }
 
-    /// Returns whether its summary is that of its runs, which no hand changed since.
-    pub(super) fn is_summed_up(&self) -> bool {
-        self.scene().is_ok_and(|scene| self.clone().summarised(&scene).summary == self.summary)
+    /// Returns whether its summary is that of its runs on its scene, which no hand changed since.
+    pub(super) fn is_summed_up(&self, scene: &Scene) -> bool {
+        self.clone().summarised(scene).summary == self.summary
     }
 
     /// Returns the snapshot with its tolerance in each run that gives none.

@@ -88,6 +88,12 @@ impl Run {
         self.facts.get(&of.into())
     }
 
+    /// Puts its entries in the order of computation.
+    pub(super) fn sort(&mut self) {
+        self.facts.sort_by_cached_key(|entry, _| entry.place());
+        self.numbers.sort_by_cached_key(|entry, _| entry.place());
+    }
+
     /// Leaves out what is not among the numbers `only`, where these are given.
     pub(super) fn keep_only(&mut self, only: Option<Vec<Quantity>>) {
         self.only = only;
@@ -207,8 +213,7 @@ fn run_of(request: &Request) -> Result<Run> {
     if let Some(solution) = Error::found(solved)? {
         end(&mut run, &solution, &stiffness);
     }
-    run.facts.sort_by_cached_key(|entry, _| entry.place());
-    run.numbers.sort_by_cached_key(|entry, _| entry.place());
+    run.sort();
     Ok(run)
 }
 

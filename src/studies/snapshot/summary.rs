@@ -84,20 +84,15 @@ fn in_contact(run: &Run) -> Option<String> {
     Some(format!("{count} in contact: {named}{more}"))
 }
 
-/// Returns the start of the SHA-256 of each array of the end, and of all that is recorded of iterations, in the
-/// order of computation.
+/// Returns the start of the SHA-256 of each array of the end, and of all that is recorded of iterations.
 fn arrays(run: &Run) -> String {
     let hash = |value: Value| sha256(&value)[..8].to_string();
+    let of_end = run.numbers.iter().filter(|(entry, _)| entry.iteration.is_none());
+    let of_end = of_end.map(|(entry, own)| format!("{entry} {}", hash(json!(own.values))));
     let facts = run.facts.iter().map(|(entry, fact)| (*entry, fact.clone()));
     let numbers = run.numbers.iter().map(|(entry, own)| (*entry, json!(own.values)));
-    let (mut facts, mut numbers): (Vec<_>, Vec<_>) = (facts.collect(), numbers.collect());
-    facts.sort_by_key(|(entry, _)| entry.place());
-    numbers.sort_by_key(|(entry, _)| entry.place());
-    let is_of_end = |(entry, _): &(Entry, Value)| entry.iteration.is_none();
-    let (of_end, path): (Vec<_>, Vec<_>) = numbers.into_iter().partition(is_of_end);
-    let of_end = of_end.into_iter().map(|(entry, own)| format!("{entry} {}", hash(own)));
-    facts.retain(|fact| !is_of_end(fact));
-    let path = [facts, path].concat();
+    let path: Vec<(Entry, Value)> =
+        facts.chain(numbers).filter(|(entry, _)| entry.iteration.is_some()).collect();
     let path = (!path.is_empty()).then(|| format!("iterations {}", hash(json!(path))));
     listed(of_end.chain(path))
 }

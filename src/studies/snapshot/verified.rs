@@ -103,7 +103,13 @@ impl VerifiedRun {
 
 /// Compares two snapshots, the runs of the same name with each other; where each has one run, these.
 pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
-    let is_summed_up = old.is_summed_up() && new.is_summed_up();
+    let mut sides = [old, new].into_iter();
+    let is_summed_up = sides.all(|side| side.scene().is_ok_and(|scene| side.is_summed_up(&scene)));
+    Verified { is_summed_up, ..compared(old, new) }
+}
+
+/// Compares the runs of two snapshots, whose summaries are taken for theirs.
+fn compared(old: &Snapshot, new: &Snapshot) -> Verified {
     let [old, new] = [old, new].map(Snapshot::with_tolerances);
     let [old, new] = [&old, &new];
     let both = |name: &str, was: &Run, is: &Run| VerifiedRun::compared(name, (old, was), (new, is));
@@ -118,7 +124,7 @@ pub fn difference(old: &Snapshot, new: &Snapshot) -> Verified {
         Some(((name, was), (other, is))) => vec![both(&format!("{name} and {other}"), was, is)],
         None => side_by_side(&old.runs, &new.runs).map(run).collect(),
     };
-    Verified { input: new.input.clone(), runs, is_summed_up }
+    Verified { input: new.input.clone(), runs, is_summed_up: true }
 }
 
 /// Runs the scene of `snapshot`, or `scene` in its place, under the options of every run, and
@@ -133,13 +139,14 @@ pub fn verify(
 ) -> Result<Verified> {
     // What it says of its scene must be true, whatever scene is run.
     let own = snapshot.scene()?;
+    let is_summed_up = snapshot.is_summed_up(&own);
     let scene = scene.cloned().unwrap_or(own);
     let again = again(snapshot, &scene, |request, old| {
         let run = run_to_compare(request, old);
         done();
         run
     })?;
-    let verified = difference(snapshot, &again);
+    let verified = compared(snapshot, &again);
     let runs = verified.runs.into_par_iter().map(|run| {
         let old = &snapshot.runs[&run.name];
         let path = decided_by_rounding(&old.options.request(&scene)?, &run)?;
@@ -148,7 +155,7 @@ pub fn verify(
             None => run,
         })
     });
-    Ok(Verified { runs: runs.collect::<Result<_>>()?, ..verified })
+    Ok(Verified { runs: runs.collect::<Result<_>>()?, is_summed_up, ..verified })
 }
 
 /// Records the runs of `snapshot` again, on its own scene or on `scene` in its place. What is recorded

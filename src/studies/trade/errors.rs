@@ -58,7 +58,7 @@ fn of(solution: &Solution) -> Option<[f64; 2]> {
     let [fx, fy] = resultant(solution)?.force;
     // Of forces that balance, as on a ring between two plates, the sum of their sizes.
     let force = match fx.hypot(fy) {
-        0.0 => solution.in_contact().filter_map(|node| node.force).sum(),
+        0.0 => solution.pressed(),
         size => size,
     };
     let pressures = solution.in_contact().filter_map(|node| node.pressure);

@@ -70,7 +70,9 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
     let first = SceneFile::read(names[0])?;
     let second = if names[0] == names[1] { first.clone() } else { SceneFile::read(names[1])? };
     let sides = waiting("running", || -> Result<_> {
-        Ok([side(args, 0, [&first, &second])?, side(args, 1, [&second, &first])?])
+        let there = [read(&first)?, read(&second)?];
+        let [own, other] = &there;
+        Ok([side(args, 0, &first, [own, other])?, side(args, 1, &second, [other, own])?])
     })?;
     let verified = difference(&sides[0], &sides[1]);
     let status = ExitStatus::compared(verified.is_same());
@@ -92,17 +94,22 @@ fn read(file: &SceneFile) -> Result<Option<Snapshot>> {
     Ok(Some(checked.map_err(|error| error.within(place))?))
 }
 
-/// Reads a snapshot, or runs a scene: as asked, or else the runs of the snapshot on the other side.
-fn side(args: &Args, side: usize, [file, other]: [&SceneFile; 2]) -> Result<Snapshot> {
-    if let Some(snapshot) = read(file)? {
-        return Ok(snapshot);
+/// Returns the snapshot of a side, or runs its scene: as asked, or else the runs of the snapshot on the other side.
+fn side(
+    args: &Args,
+    side: usize,
+    file: &SceneFile,
+    [own, other]: [&Option<Snapshot>; 2],
+) -> Result<Snapshot> {
+    if let Some(snapshot) = own {
+        return Ok(snapshot.clone());
     }
     let scene = Scene::of_file(file)?;
     let is_asked = args.variant.len() + args.solver.len() + args.scalar.len() + args.reading.len();
     if is_asked == 0
-        && let Some(snapshot) = read(other)?
+        && let Some(snapshot) = other
     {
-        return accept(&snapshot, Some(&scene));
+        return accept(snapshot, Some(&scene));
     }
     let options = Options {
         variant: of_side(&args.variant, side, "--variant")?,
