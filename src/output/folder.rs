@@ -187,5 +187,5 @@ fn pressures(solution: &Solution, assessment: &Assessment) -> String {
 
 /// Draws the mesh of a finding's scene, under the finding's id.
 pub fn finding_picture(id: &str, scene: &Scene) -> String {
-    picture::mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
+    picture::small_mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
 }

@@ -1,11 +1,11 @@
 //! A chart: curves over one axis, each axis linear or logarithmic. A curve has its name at its end.
 
-use super::page::{MARGIN, Page, Sign, text_width};
+use super::page::{Page, Sign, text_width};
 use super::svg::{Anchor, Coloured, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
 use crate::numbers::{power_of_ten, ticks};
 
 /// The height of the area inside the axes, of a chart that stands alone and of a small one, pixels.
-const HEIGHT: f64 = 440.0;
+const HEIGHT: f64 = 340.0;
 const SMALL: f64 = 156.0;
 
 /// The room for the labels of the vertical axis, pixels.
@@ -81,8 +81,8 @@ fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
     let curves = series.iter().filter(|series| is_curve(series.style));
     let names = curves.map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
     let width = page.inner() - LEFT - names.fold(0.0, f64::max);
-    let top = page.y + 6.0;
-    let pixel = |x: f64, y: f64| [MARGIN + LEFT + x * width, top + (1.0 - y) * height];
+    let (left, top) = (page.margin + LEFT, page.y + 6.0);
+    let pixel = |x: f64, y: f64| [left + x * width, top + (1.0 - y) * height];
 
     let (mut lines, mut words) = (group().stroke(GRID, 1.0), group());
     for (x, label) in scales[0].ticks() {
@@ -142,7 +142,7 @@ fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
         names.push(text([x, y + 5.0], Anchor::Start, name).fill(colour));
     }
     page.put(names);
-    let under = [MARGIN + LEFT + width / 2.0, top + height + 40.0];
+    let under = [left + width / 2.0, top + height + 40.0];
     page.put(text(under, Anchor::Middle, axes[0].label));
     page.y = top + height + 56.0;
     page.legend(&legend);

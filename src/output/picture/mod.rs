@@ -50,7 +50,15 @@ const MOST_NUMBERED: usize = 40;
 
 /// Draws the mesh: its bodies, the contact nodes and the target edges.
 pub fn mesh(drawing: &Drawing) -> String {
-    let mut page = Page::new(&drawing.title);
+    mesh_on(Page::new(&drawing.title), drawing)
+}
+
+/// Draws the mesh among other pictures.
+pub fn small_mesh(drawing: &Drawing) -> String {
+    mesh_on(Page::small(&drawing.title), drawing)
+}
+
+fn mesh_on(mut page: Page, drawing: &Drawing) -> String {
     let outline = if drawing.is_fine() { boundary_edges(&drawing.triangles) } else { Vec::new() };
     // Arrows have room where they begin.
     let size = ROOM * Bounds::around(&drawing.points).larger_side();

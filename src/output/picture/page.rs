@@ -9,18 +9,20 @@ use super::view::{Bounds, Frame, View};
 use crate::numbers::{Decimal, significant};
 use base::xml::Element;
 
-/// The width of a picture that stands alone, and of one of several on a screen, pixels.
-const WIDTH: f64 = 1100.0;
-const SMALL: f64 = 660.0;
+/// The width of a picture that stands alone, and of one of several on a screen, pixels. Printed at 2/3, they
+/// fill a page and a column of A4, and their text has 7 pt.
+const WIDTH: f64 = 1000.0;
+const SMALL: f64 = 490.0;
 
-/// The room that is left free at each side, pixels.
-pub const MARGIN: f64 = 40.0;
+/// The room that such pictures leave free at each side, pixels.
+const MARGIN: f64 = 40.0;
+const SMALL_MARGIN: f64 = 4.0;
 
 /// The room between two panels or two signs of the legend, pixels.
 const GAP: f64 = 24.0;
 
-/// The least and the largest height of a panel, pixels.
-const PANEL_HEIGHT: [f64; 2] = [300.0, 600.0];
+/// The least and the largest height of a panel, over the width of one of two.
+const PANEL_HEIGHT: [f64; 2] = [0.6, 1.2];
 
 /// The width of the colour bar, pixels.
 const BAR_WIDTH: f64 = 640.0;
@@ -44,8 +46,8 @@ pub enum Sign {
 pub struct Page {
     title: String,
     width: f64,
-    /// The room under the last part, pixels.
-    foot: f64,
+    /// The room that is left free at each side, pixels.
+    pub margin: f64,
     content: Element,
     /// Where the next part begins, pixels from the top.
     pub y: f64,
@@ -55,10 +57,10 @@ impl Page {
     /// Begins a page that has its title only.
     pub fn new(words: &str) -> Self {
         let mut page =
-            Self { width: WIDTH, foot: MARGIN / 2.0, y: MARGIN - 10.0, ..Page::small(words) };
+            Self { width: WIDTH, margin: MARGIN, y: MARGIN - 10.0, ..Page::small(words) };
         for words in wrap(words, TITLE_SIZE, page.inner()) {
             page.y += TITLE_SIZE * 1.3;
-            let title = text_of_size(TITLE_SIZE, [MARGIN, page.y - 6.0], &words);
+            let title = text_of_size(TITLE_SIZE, [page.margin, page.y - 6.0], &words);
             page.put(title.set("font-weight", "bold"));
         }
         page.y += 10.0;
@@ -67,19 +69,20 @@ impl Page {
 
     /// Begins a page of a picture among others, whose title stands outside it.
     pub fn small(title: &str) -> Self {
-        Self { title: title.into(), width: SMALL, foot: 0.0, content: group().fill(DARK), y: 0.0 }
+        let content = group().fill(DARK);
+        Self { title: title.into(), width: SMALL, margin: SMALL_MARGIN, content, y: 0.0 }
     }
 
     /// The width between the margins, pixels.
     pub fn inner(&self) -> f64 {
-        self.width - 2.0 * MARGIN
+        self.width - 2.0 * self.margin
     }
 
     /// Writes a paragraph below what is there.
     pub fn paragraph(&mut self, words: &str) {
         for words in wrap(words, TEXT_SIZE, self.inner()) {
             self.y += TEXT_SIZE * 1.45;
-            self.put(text([MARGIN, self.y - 5.0], Anchor::Start, &words));
+            self.put(text([self.margin, self.y - 5.0], Anchor::Start, &words));
         }
         self.y += 3.0;
     }
@@ -94,21 +97,23 @@ impl Page {
         draw: impl Fn(&View) -> Element,
     ) {
         let (top, inner, [width, height]) = (self.y, self.inner(), whole.size());
-        let frame = |x: f64, y: f64, size: [f64; 2]| Frame { corner: [MARGIN + x, top + y], size };
+        let frame =
+            |x: f64, y: f64, size: [f64; 2]| Frame { corner: [self.margin + x, top + y], size };
+        let panel = (inner - GAP) / 2.0;
+        let [lowest, highest] = PANEL_HEIGHT.map(|ratio| ratio * panel);
         let Some(zone) = zone else {
-            let scale = (inner / width).min(PANEL_HEIGHT[1] / height);
+            let scale = (inner / width).min(highest / height);
             let size = [width * scale, height * scale];
             let view = View::new(whole, frame((inner - size[0]) / 2.0, 6.0, size), false);
             self.put(draw(&view));
             return self.scale_bar(&view, unit);
         };
-        let panel = (inner - GAP) / 2.0;
-        let size = [panel, (panel * (height / width)).clamp(PANEL_HEIGHT[0], PANEL_HEIGHT[1])];
-        let right = frame(panel + GAP, 30.0, size);
-        let whole = View::new(whole, frame(0.0, 30.0, size), false);
+        let size = [panel, (panel * (height / width)).clamp(lowest, highest)];
+        let right = frame(panel + GAP, 38.0, size);
+        let whole = View::new(whole, frame(0.0, 38.0, size), false);
         let enlarged = View::new(&with_ratio(zone, size[0] / size[1]), right, true);
         let times = enlarged.scale / whole.scale;
-        let words = format!("b: contact zone, enlarged {times:.1} times (the frame in a)");
+        let words = format!("b: the frame in a, × {times:.1}");
         self.put(text([whole.frame.corner[0], top + 18.0], Anchor::Start, "a: the whole"));
         self.put(text([right.corner[0], top + 18.0], Anchor::Start, &words));
         self.put(draw(&whole));
@@ -149,7 +154,7 @@ impl Page {
         // Indented: half of a tick's label stands out at either end.
         self.y = self.y.round();
         let width = BAR_WIDTH.min(self.inner() - 20.0);
-        self.put(scale.bar([MARGIN + 10.0, self.y + 2.0], width));
+        self.put(scale.bar([self.margin + 10.0, self.y + 2.0], width));
         self.y += ColourScale::HEIGHT + 6.0;
     }
 
@@ -158,11 +163,11 @@ impl Page {
         if entries.is_empty() {
             return;
         }
-        let mut x = MARGIN;
+        let mut x = self.margin;
         for (sign, words) in entries {
             let width = 34.0 + text_width(words, TEXT_SIZE);
-            if x > MARGIN && x + width > self.width - MARGIN {
-                x = MARGIN;
+            if x > self.margin && x + width > self.width - self.margin {
+                x = self.margin;
                 self.y += 24.0;
             }
             let y = self.y + 9.0;
@@ -182,7 +187,7 @@ impl Page {
 
     /// Returns the text of the SVG file.
     pub fn finish(self) -> String {
-        document([self.width, (self.y + self.foot).ceil()], &self.title, self.content)
+        document([self.width, (self.y + self.margin / 2.0).ceil()], &self.title, self.content)
     }
 
     /// Puts an element where its own coordinates say.
@@ -195,7 +200,7 @@ impl Page {
         let width = (self.inner() - GAP * (count - 1) as f64) / count as f64;
         let [across, high] = whole.size();
         let size = [width, (width * high / across).min(width)];
-        let corner = |k: usize| [MARGIN + (width + GAP) * k as f64, self.y + 24.0];
+        let corner = |k: usize| [self.margin + (width + GAP) * k as f64, self.y + 24.0];
         (0..count).map(|k| View::new(whole, Frame { corner: corner(k), size }, false)).collect()
     }
 }
