@@ -15,7 +15,7 @@ crate::choices! {
         Algorithm = "algorithm",
         /// No equilibrium was found, or more than one.
         Equilibrium = "equilibrium",
-        /// A fault of the program, which panicked: please report it.
+        /// A fault of the program, a panic: please report it.
         Panic = "panic",
     }
 }

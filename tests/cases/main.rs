@@ -48,7 +48,7 @@ macro_rules! areas {
 }
 
 areas!(
-    bodies commands contact edited fields files hostile limits meshes mistakes pictures sentences
+    bodies commands contact edited fields files guide hostile limits meshes mistakes pictures sentences
     snapshots solvers summary sweeps trade worksheets
 );
 
