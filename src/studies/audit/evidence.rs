@@ -1,11 +1,10 @@
 //! What is measured on a case, or why there is nothing; and whether the inputs that mean the same
-//! ([`Case::equivalents`]) show it too.
+//! ([`Case::equivalents`](super::Case::equivalents)) show it too.
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::Case;
 use base::error::InputError;
 use engine::Solution;
 use engine::error::Error;
@@ -31,18 +30,6 @@ pub fn beyond_noise(share: f64) -> f64 {
 
 /// What was measured; or why there are no figures.
 pub type Outcome<T> = Result<T, NoFigures>;
-
-/// Measures on a case and on the inputs that mean the same ([`confirmed`]).
-///
-/// # Errors
-/// Those of the measure; rounding decides.
-pub fn repeated<T>(
-    case: &Case,
-    measure: impl Fn(&Case) -> Outcome<T>,
-    figures: fn(&T) -> Vec<Option<f64>>,
-) -> Outcome<T> {
-    confirmed(measure(case), case.equivalents().iter().map(&measure), figures)
-}
 
 /// Returns an outcome where `others`, measured on inputs that mean the same, have the same `figures`, each
 /// over the scale of its kind.

@@ -114,11 +114,6 @@ pub fn range(reading: Reading) -> Result<Range> {
     placed.collect()
 }
 
-/// The number of places that differ: the paper's example as we assume it is in the range of every parameter.
-pub fn distinct(places: impl Iterator<Item = ParameterValue> + Clone) -> usize {
-    places.clone().filter(|place| !place.own).count() + usize::from(places.clone().any(|p| p.own))
-}
-
 /// Claim P12 at the places that are not the example as we assume it.
 #[derive(Debug, PartialEq)]
 pub struct Recorded {

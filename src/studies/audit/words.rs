@@ -4,7 +4,7 @@
 
 use crate::audit::claims::claim_tables as claims;
 use crate::audit::claims::{JudgedClaim, NOTICEABLE, Scope, Verdict};
-use crate::audit::conclusion::{Coupled, Fields, Nearest, Spread, of_the_paper};
+use crate::audit::conclusion::{Coupled, Fields, Nearest, of_the_paper};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
 use crate::audit::prices::price_tables as prices;
@@ -133,7 +133,7 @@ pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
 }
 
 /// Reports what the first screen rests on: what the verdict leaves out, the claims, what the printed faults
-/// cost and the way of `repairs` where that was asked for, readings, findings, variants, friction.
+/// cost and the way of `repairs` where that was asked for, readings, findings, variants.
 pub fn evidence(audit: &Audit, repairs: &[Price]) -> Report {
     let Audit { scene, conclusion, claims, by_reading, prices, .. } = audit;
     let beside = beside(audit);
@@ -250,21 +250,6 @@ fn beside(audit: &Audit) -> Vec<String> {
         if conclusion.reading == Reading::default() {
             said.extend([range::RECORDED.to_string(), WIDER.into()]);
         }
-    }
-    if let Some(Spread { places, error: [least, most], changes, true_from }) = &conclusion.range {
-        let verdicts = match changes.len() {
-            0 => "no verdict changes".to_string(),
-            _ => format!("the verdicts that change are those on {}", listed(changes)),
-        };
-        said.push(format!(
-            "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} from \
-             the equilibrium; {verdicts}.",
-            percent(*least),
-            percent(*most)
-        ));
-        said.extend(true_from.iter().map(|(id, value)| {
-            format!("{id} is true at each clearance tried from {value} mm on.")
-        }));
     }
     said
 }

@@ -15,7 +15,7 @@ use engine::error::Result;
 Examples:
   plane-contact snapshot record fig1
   plane-contact snapshot verify out/fig1.snapshot.json
-  plane-contact snapshot diff fig1 --variant tied,stepped
+  plane-contact snapshot diff old.json new.json
   plane-contact snapshot accept my/snapshot.json")]
 pub enum Command {
     Record(record::Args),
