@@ -121,7 +121,6 @@ fn contents(
                     unit: &array.unit,
                     values: &array.values,
                     displacement: &solution.displacements(),
-                    largest_at: None,
                 };
                 picture::field(drawing, &field).into_bytes()
             }

@@ -3,15 +3,14 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use crate::audit::claims::{CLAIMS, Claim, by_reading};
-use crate::audit::findings::{FINDINGS, Finding};
+use crate::audit::claims::{Claim, ClaimId, by_reading};
+use crate::audit::findings::{Finding, FindingId};
 use crate::audit::prices;
 use crate::audit::range::{Range, range};
 use crate::audit::words::{self, Depth};
 use crate::audit::{Audit, Case, audit, steps, tables};
 use crate::audit::{claims::claim_tables as claims, prices::price_tables as price_report};
 use base::error::InputError;
-use base::suggestion::did_you_mean;
 use engine::error::Result;
 use output::json;
 use paper::mirror::Reading;
@@ -54,12 +53,12 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     /// Explain one finding.
-    #[arg(long, value_name = "ID", value_parser = offered::<String>(FINDINGS.iter().map(|finding| finding.id)))]
-    finding: Option<String>,
+    #[arg(long, value_name = "ID", value_parser = offered::<FindingId>(FindingId::ALL))]
+    finding: Option<FindingId>,
     /// Explain and judge one claim of the paper.
     #[arg(long, value_name = "ID", conflicts_with = "finding",
-        value_parser = offered::<String>(CLAIMS.iter().map(|claim| claim.id)))]
-    claim: Option<String>,
+        value_parser = offered::<ClaimId>(ClaimId::ALL))]
+    claim: Option<ClaimId>,
     /// Judge the claims over the range of what the paper leaves open too: clearance, radius, mesh,
     /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "prices"])]
@@ -83,13 +82,12 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    if let Some(id) = &args.finding {
-        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id.name())?);
+    match (args.finding, args.claim) {
+        (Some(id), _) => explain(args, Finding::of(id)),
+        (None, Some(id)) => judge_one(args, Claim::of(id)),
+        (None, None) if args.prices => prices(args),
+        (None, None) => whole(args),
     }
-    if let Some(id) = &args.claim {
-        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id.name())?);
-    }
-    if args.prices { prices(args) } else { whole(args) }
 }
 
 fn prices(args: &Args) -> Result<()> {
@@ -131,24 +129,6 @@ fn places(args: &Args) -> Result<Range> {
         return Err(InputError::new("--reading", what, "leave R8 or --range out").into());
     }
     Ok(range(reading)?)
-}
-
-/// Finds what a register lists under an id.
-fn listed<T>(
-    option: &str,
-    id: &str,
-    register: &'static [T],
-    id_of: fn(&T) -> &'static str,
-) -> Result<&'static T, InputError> {
-    register.iter().find(|entry| id_of(entry).eq_ignore_ascii_case(id)).ok_or_else(|| {
-        let ids: Vec<&str> = register.iter().map(id_of).collect();
-        let what = option.trim_start_matches('-');
-        InputError::new(
-            option,
-            format!("there is no {what} {id:?}"),
-            format!("{}the {what}s are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
-        )
-    })
 }
 
 /// Judges one claim on the scene.

@@ -5,10 +5,7 @@ mod first;
 mod glossary;
 pub mod page;
 
-use crate::audit::claims::Verdict;
 use crate::audit::claims::claim_tables::in_full;
-use crate::audit::evidence::NoFigures;
-use crate::audit::findings::{FindingId, Presence};
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
@@ -18,7 +15,6 @@ use crate::compare::{Compared, comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
 use output::folder;
 use output::html::figure;
-use output::layout::listed;
 use output::model::{Report, Table};
 use output::picture::{self, Drawing};
 use output::quantities::triangle_array;
@@ -71,7 +67,6 @@ fn parts(contents: &Contents) -> Report {
         .then(audited(contents.audit, &contents.repairs))
         .then(figures(contents))
         .then(other_codes(contents))
-        .then(unchecked(contents.audit))
         .then(glossary::report())
         .then(origin(contents))
 }
@@ -221,43 +216,6 @@ fn other_codes(contents: &Contents) -> Report {
             recorded.into_iter().chain([again]).fold(report, Report::line)
         }
     }
-}
-
-/// Reports the claims that cannot be checked, the runs that stop, and the findings that are not
-/// triggered.
-fn unchecked(audit: &Audit) -> Report {
-    let claims = audit.claims.iter().filter(|j| j.measured.verdict == Verdict::NotCheckable);
-    let claims = claims.map(|judged| {
-        let claim = &judged.claim;
-        format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
-    });
-    let why = |none: &NoFigures| match none {
-        NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
-        NoFigures::Refused(_) => {
-            format!("which cannot be asked for this scene: {}", none.in_short())
-        }
-        NoFigures::Rounding => "on which rounding decides".into(),
-    };
-    let variants = audit.variants.iter().filter_map(|row| {
-        Some(format!("variant {}, {}", row.variant, why(row.outcome.as_ref().err()?)))
-    });
-    let readings = audit.readings.iter().filter_map(|effect| {
-        Some(format!("reading {}, {}", effect.reading, why(effect.failure.as_ref()?)))
-    });
-    let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Presence::NotTriggered);
-    let untriggered: Vec<FindingId> = untriggered.map(|(finding, _)| finding.id).collect();
-    let findings = (!untriggered.is_empty()).then(|| {
-        let ids = listed(&untriggered);
-        format!(
-            "findings that this scene does not trigger, each shown on its own smallest scene: {ids}"
-        )
-    });
-    Report::default()
-        .heading("What could not be checked on this scene")
-        .notes(claims)
-        .notes(variants)
-        .notes(readings)
-        .notes(findings)
 }
 
 /// Reports what makes the report again: the command, and what it starts from.
