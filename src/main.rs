@@ -83,7 +83,7 @@ impl Cli {
         }
         let fault = |what, fix| Err(InputError::new("the command line", what, fix).into());
         match (self.command, &self.completions) {
-            (Some(command), None) => command.run().map_err(named_by_option),
+            (Some(command), None) => command::run(&command).map_err(named_by_option),
             (Some(_), Some(_)) => {
                 fault("--completions stands in place of a command", "leave one out")
             }

@@ -16,7 +16,6 @@ use base::error::Result;
 use base::files;
 use engine::plan::Plan;
 use engine::{Assessment, Quantity, Solution, TriangleValues};
-use problem::scene::Scene;
 
 /// What a folder holds beside `fields.vtu` and `result.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,9 +181,4 @@ fn pressures(solution: &Solution, assessment: &Assessment) -> String {
         std::iter::once(solution).chain(equilibrium.filter(is_other)).collect();
     let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
     pressure::picture(&solution.request.scene, &runs, hertz)
-}
-
-/// Draws the mesh of a finding's scene, under the finding's id.
-pub fn finding_picture(id: &str, scene: &Scene) -> String {
-    picture::mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
 }

@@ -7,6 +7,9 @@ use std::sync::LazyLock;
 
 use plane_contact::engine::estimates::{Certainty, Estimates};
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
+use plane_contact::engine::quantities::{
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
+};
 use plane_contact::engine::{
     Assessment, Solution, SolutionDistance, Stiffness, distance, implied, solve, summaries,
 };
@@ -100,7 +103,7 @@ fn thousands(number: usize) -> String {
 /// The quantities of a result, each declared once.
 #[test]
 fn quantities() {
-    let page = plane_contact::output::quantities::page();
+    let page = quantities_page();
     assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
 }
 
@@ -290,17 +293,9 @@ fn claims() {
     let count =
         |verdict: &Verdict| JUDGED.iter().filter(|j| j.measured.verdict == *verdict).count();
     let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
-    let title = format!(
-        "What the paper claims, {}: {}.",
-        counts(),
-        counts.collect::<Vec<_>>().join(", ")
-    );
-    assert_table(
-        "claims",
-        &title,
-        "audit --range",
-        &verdicts().markdown(),
-    );
+    let title =
+        format!("What the paper claims, {}: {}.", counts(), counts.collect::<Vec<_>>().join(", "));
+    assert_table("claims", &title, "audit --range", &verdicts().markdown());
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
@@ -345,7 +340,7 @@ fn over_the_range() -> Table<Vec<(&'static JudgedClaim, Parameter)>> {
     });
     Table::from_rows(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
         .column("claim", |(judged, _)| judged.claim.id.name())
-        .column("what is varied", |(_, parameter)| parameter.meaning())
+        .column("what is varied", |(_, parameter)| parameter.explained())
         .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
             over(judged, *parameter)
         })
@@ -608,4 +603,45 @@ fn of_contact(solution: &Solution) -> [f64; 5] {
         body.max_von_mises_stress
     };
     [square.sqrt(), (-square / slope).sqrt(), largest, stress("block"), stress("stamp")]
+}
+
+/// All quantities of a result as a page in Markdown.
+fn quantities_page() -> String {
+    "# The quantities of a result\n\n\
+     Made of `src/engine/quantities/mod.rs`, where each is declared once; a test makes this page again. \
+     The field is that of `result.json`; the title heads the columns of tables, CSV and pages, and \
+     names the array in `fields.vtu`, in lower case with `_` for blanks. A quantity without a title is \
+     in `result.json` only. Lengths, stresses and forces are in the units of the scene; `1` has no \
+     unit, `share` is a part of 1.\n"
+        .to_string()
+        + &quantities_of("An iteration (`iterations`)", IterationRow::QUANTITIES)
+        + &quantities_of("A body (`bodies`)", BodySummary::QUANTITIES)
+        + &quantities_of("A restraint (`reactions`)", SupportForce::QUANTITIES)
+        + &quantities_of("A node", NodeFields::QUANTITIES)
+        + &quantities_of("A triangle (`elements`)", TriangleValues::QUANTITIES)
+        + &quantities_of("A contact node (`contact`)", ContactNode::QUANTITIES)
+}
+
+fn quantities_of<T>(place: &str, quantities: &[Quantity<T>]) -> String {
+    let row = |q: &Quantity<T>| {
+        let shape = match q.components().len() {
+            1 => "scalar",
+            2 => "vector",
+            _ => "tensor",
+        };
+        let cells = [
+            &format!("`{}`", q.name),
+            &q.title.replace('|', "\\|"),
+            &q.symbols.join(", ").replace('|', "\\|"),
+            q.unit.name(),
+            shape,
+            &q.meaning.replace('|', "\\|"),
+        ];
+        format!("| {} |\n", cells.join(" | "))
+    };
+    format!(
+        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
+         |---|---|---|---|---|---|\n{}",
+        quantities.iter().map(row).collect::<String>()
+    )
 }

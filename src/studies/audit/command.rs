@@ -16,9 +16,7 @@ use output::json;
 use paper::mirror::Reading;
 use problem::scene::Scene;
 
-use commands::{
-    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
-};
+use commands::{ReadingArg, TablesArgs, note, offered, print, progress, waiting, width};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -105,10 +103,8 @@ fn prices(args: &Args) -> Result<()> {
     };
     bar.finish();
     let document = price_report::PricesOnScene { reading, prices: &alone, repairs: &repairs };
-    if args.tables.json {
-        return print(&price_report::json(&document, &case.scene));
-    }
-    args.tables.print(price_report::report(&document, &case.scene))
+    let report = || price_report::report(&document, &case.scene);
+    args.tables.print_either(Some(&case.scene), &document, report)
 }
 
 /// Opens the case of the scene that is asked for.
@@ -139,11 +135,8 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
     let document = claims::ClaimOnScene { judged: &judged, by_reading: &by_reading };
-    print_either(
-        args.tables.json,
-        || json::line(Some(&case.scene), &document),
-        || claims::explanation(&document, &case.scene, &reading),
-    )
+    let report = || claims::explanation(&document, &case.scene, &reading);
+    args.tables.print_either(Some(&case.scene), &document, report)
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
@@ -154,11 +147,9 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
-    print_either(
-        args.tables.json,
-        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured }),
-        || tables::explanation(finding, &measured, &case.scene, &reading),
-    )
+    let row = tables::FindingRow { finding, measured: &measured };
+    let report = || tables::explanation(finding, &measured, &case.scene, &reading);
+    args.tables.print_either(Some(&case.scene), &row, report)
 }
 
 fn whole(args: &Args) -> Result<()> {
@@ -175,7 +166,7 @@ fn whole(args: &Args) -> Result<()> {
     bar.finish();
     if is_whole {
         if args.tables.json {
-            return print(&tables::json(&found));
+            return print(&json::line(Some(&found.scene), &found));
         }
         let report = words::report(&found, Depth::Full);
         if args.full {

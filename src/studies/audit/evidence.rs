@@ -5,12 +5,11 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
+use super::variants::mesh_error;
 use base::error::InputError;
 use engine::Solution;
 use engine::error::Error;
-use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
-use numbers::finite;
 use output::layout::first_line;
 use output::model::Cell;
 use output::numbers::{Digits, short};
@@ -119,9 +118,7 @@ impl<V> Evidence<V> {
     pub fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
         let error = |(run, solution): (&str, &Solution)| MeshError {
             run: run.into(),
-            energy_relative: finite(
-                Discretisation::new(&solution.model, &solution.elements).relative(),
-            ),
+            energy_relative: mesh_error(solution),
         };
         self.mesh_errors = runs.into_iter().map(error).collect();
         self

@@ -45,7 +45,7 @@ pub use case::Case;
 use claims::{CLAIMS, JudgedClaim, UnderReading};
 use conclusion::Conclusion;
 use engine::estimates::{Perturbed, perturbed};
-use engine::{BodySummary, NearestDecision, Solution, summaries};
+use engine::{BodySummary, Solution, summaries};
 use evidence::{NoFigures, Outcome};
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
@@ -105,8 +105,6 @@ pub struct EquilibriumRow {
     pub overlap: Option<String>,
     /// The error of the mesh in the energy norm, relative; nothing where it is not known.
     pub mesh_error: Option<f64>,
-    /// The decision of its contact state that is nearest to another one.
-    pub nearest: Option<NearestDecision>,
     /// What changes of the input in the last digits do to it.
     pub rounding: Option<Perturbed>,
 }
@@ -177,7 +175,6 @@ fn equilibrium_row(solution: &Solution, is_whole: bool) -> EquilibriumRow {
         bodies: summaries(solution),
         overlap: output::tables::overlap(solution),
         mesh_error: variants::mesh_error(solution),
-        nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: if is_whole { perturbed(solution) } else { None },
     }
 }

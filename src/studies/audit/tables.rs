@@ -10,7 +10,6 @@ use crate::audit::readings::Effect;
 use crate::audit::variants::{VariantRow, VariantRun};
 use crate::audit::{Audit, EquilibriumRow, words};
 use engine::Cycle;
-use output::json;
 use output::layout::listed;
 use output::model::{Cell, Report, Table};
 use output::numbers::short;
@@ -135,16 +134,8 @@ fn beside(row: &VariantRow) -> Vec<Cell> {
 
 /// Reports a solution that others are compared with, and what rounding does to it.
 fn solution_without_mistakes(what: &str, other: Option<&EquilibriumRow>) -> Report {
-    let Some(EquilibriumRow {
-        model,
-        in_contact,
-        target_share: _,
-        bodies,
-        overlap,
-        mesh_error,
-        nearest: _,
-        rounding,
-    }) = other
+    let Some(EquilibriumRow { model, in_contact, bodies, overlap, mesh_error, rounding, .. }) =
+        other
     else {
         return Report::default().note(format!("{what}: there is none"));
     };
@@ -192,11 +183,6 @@ pub(super) fn name_of_listing<S: Serializer>(
 /// Writes the name of a scene.
 pub(super) fn name<S: Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&scene.name)
-}
-
-/// Returns the audit of a scene as JSON.
-pub fn json(audit: &Audit) -> String {
-    json::line(Some(&audit.scene), audit)
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

@@ -6,9 +6,8 @@ use crate::extremes::digit_tables::report;
 use crate::extremes::{GENERATORS, Generator, measure};
 use clap::builder::PossibleValuesParser;
 use engine::error::Result;
-use output::json;
 
-use commands::{TablesArgs, print, waiting};
+use commands::{TablesArgs, waiting};
 
 /// Find where a method breaks down, every answer compared with exact numbers.
 #[derive(clap::Args)]
@@ -36,8 +35,5 @@ pub fn run(args: &Args) -> Result<()> {
         |g: &&Generator| args.names.is_empty() || args.names.iter().any(|n| n == g.name);
     let chosen: Vec<&'static Generator> = GENERATORS.iter().filter(is_chosen).collect();
     let measured = waiting("sweeping", || measure(&chosen));
-    if args.tables.json {
-        return print(&json::line(None, &json!({ "rows": measured })));
-    }
-    args.tables.print(report(&measured))
+    args.tables.print_either(None, &json!({ "rows": measured }), || report(&measured))
 }

@@ -7,10 +7,9 @@ use crate::trade::{self, AXES, Axis};
 use clap::builder::PossibleValuesParser;
 use engine::Request;
 use engine::error::Result;
-use output::json;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, print, progress};
+use commands::{ReadingArg, TablesArgs, progress};
 
 /// The runs of each trial by default.
 const RUNS: u16 = 3;
@@ -57,8 +56,5 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let measured = trade::measure(&request, plan, runs, watch);
     bar.finish();
-    if args.tables.json {
-        return print(&json::line(Some(&scene), &measured));
-    }
-    args.tables.print(report(&measured))
+    args.tables.print_either(Some(&scene), &measured, || report(&measured))
 }

@@ -175,7 +175,7 @@ pub fn over_the_range(claims: &[JudgedClaim]) -> Report {
     judged.fold(Report::default(), |report, judged| {
         let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.judged));
         Parameter::ALL.iter().fold(report, |report, parameter| {
-            report.detail(format!("{}: {}", parameter.meaning(), over(judged, *parameter)))
+            report.detail(format!("{}: {}", parameter.explained(), over(judged, *parameter)))
         })
     })
 }

@@ -54,7 +54,8 @@ fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) 
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
-        new.scene_file = scene.path().and_then(|scene| files::from_folder_of(path, Path::new(scene)));
+        new.scene_file =
+            scene.path().and_then(|scene| files::from_folder_of(path, Path::new(scene)));
     }
     let was = text.as_deref().unwrap_or_default();
     let text = new.readable_text()?;

@@ -79,7 +79,8 @@ pub fn run(args: &Args) -> Result<()> {
             .out
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
-        snapshot.scene_file = scene_file.path().and_then(|scene| files::from_folder_of(&file, Path::new(scene)));
+        snapshot.scene_file =
+            scene_file.path().and_then(|scene| files::from_folder_of(&file, Path::new(scene)));
         write_new(&file, &snapshot.readable_text()?)?;
         print_report(recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
