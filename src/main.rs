@@ -1,7 +1,6 @@
 //! The command line; its commands are listed in `src/studies/command.rs`.
 #![forbid(unsafe_code)]
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -44,9 +43,6 @@ struct Cli {
     /// Print the completions of a shell: bash, elvish, fish, powershell, zsh.
     #[arg(long, value_name = "SHELL", value_parser = shells::SHELLS)]
     completions: Option<String>,
-    /// Write the man pages of all commands to a folder.
-    #[arg(long, value_name = "DIR", conflicts_with = "completions")]
-    man: Option<PathBuf>,
     /// Print errors alone to standard error: no progress, no notes.
     #[arg(short, long, global = true, hide = true)]
     quiet: bool,
@@ -86,18 +82,15 @@ impl Cli {
             (false, false) => Verbosity::Usual.choose(),
         }
         let fault = |what, fix| Err(InputError::new("the command line", what, fix).into());
-        match (self.command, &self.completions, &self.man) {
-            (Some(command), None, None) => command.run().map_err(named_by_option),
-            (Some(_), _, _) => {
-                fault("--completions and --man stand in place of a command", "leave one out")
+        match (self.command, &self.completions) {
+            (Some(command), None) => command::run(&command).map_err(named_by_option),
+            (Some(_), Some(_)) => {
+                fault("--completions stands in place of a command", "leave one out")
             }
-            (None, None, None) => {
+            (None, None) => {
                 fault("there is no command", "name a command: plane-contact --help lists them")
             }
-            (None, Some(shell), _) => shells::print_completions(shell).map(|()| ExitStatus::Done),
-            (None, None, Some(folder)) => {
-                shells::write_man_pages(&grammar(), folder).map(|()| ExitStatus::Done)
-            }
+            (None, Some(shell)) => shells::print_completions(shell).map(|()| ExitStatus::Done),
         }
     }
 }

@@ -40,6 +40,13 @@ impl ExitStatus {
     }
 }
 
+/// What is done without a status of its own.
+impl From<()> for ExitStatus {
+    fn from((): ()) -> Self {
+        ExitStatus::Done
+    }
+}
+
 impl From<ExitStatus> for ExitCode {
     fn from(status: ExitStatus) -> Self {
         status.number().into()

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::{offered, offered_readings, print_report};
+use crate::{offered, offered_readings, print, print_report};
 use base::error::InputError;
 use base::files;
 use base::plain::{shown, six_digits};
@@ -18,6 +18,7 @@ use problem::modelling::{
     Coupling, Friction, Geometry, StatusRule, Variant, check_iterations, check_tolerance,
 };
 use problem::scene::{Scene, SceneBuilder};
+use serde::Serialize;
 
 /// The option of the commands that execute or mirror a listing.
 #[derive(clap::Args)]
@@ -265,6 +266,19 @@ impl TablesArgs {
         let mark = json::line(None, &BTreeMap::from([("tables", names)]));
         tables.push((TABLES.into(), mark));
         Ok(files::write_all(folder, &tables)?)
+    }
+
+    /// Prints what was computed on a scene as JSON, where that is asked for, else its report.
+    ///
+    /// # Errors
+    /// Those of [`TablesArgs::print`].
+    pub fn print_either(
+        &self,
+        scene: Option<&Scene>,
+        own: &impl Serialize,
+        report: impl FnOnce() -> Report,
+    ) -> Result<()> {
+        if self.json { print(&json::line(scene, own)) } else { self.print(report()) }
     }
 
     /// Prints a report, and writes its tables.

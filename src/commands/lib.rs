@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod group;
 mod offered;
 mod printing;
 pub mod process;

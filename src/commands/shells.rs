@@ -1,13 +1,10 @@
-//! What shells and `man` have from the program: completions and man pages.
-
-use std::path::Path;
+//! What shells have from the program: completions.
 
 use clap::Command;
 use clap_complete::CompleteEnv;
 use clap_complete::env::Shells;
 
-use crate::printing::{print, report_written};
-use base::files;
+use crate::printing::print;
 use engine::error::Result;
 
 /// The shells that completions are for.
@@ -33,24 +30,4 @@ pub fn print_completions(shell: &str) -> Result<()> {
         .write_registration(COMPLETE, name, program, program, &mut script)
         .expect("memory can be written");
     print(&String::from_utf8(script).expect("it is UTF-8"))
-}
-
-/// Writes the man pages of a command and of those in it to a folder.
-///
-/// # Errors
-/// The folder cannot be written.
-pub fn write_man_pages(grammar: &Command, folder: &Path) -> Result<()> {
-    files::write_all(folder, &man_pages(grammar))?;
-    report_written(folder);
-    Ok(())
-}
-
-/// Returns the man pages of a command and of those in it, each with the name of its file.
-fn man_pages(command: &Command) -> Vec<(String, Vec<u8>)> {
-    let inner = command.get_subcommands().filter(|command| command.get_name() != "help");
-    let mut pages: Vec<_> = inner.flat_map(man_pages).collect();
-    let (page, mut text) = (clap_mangen::Man::new(command.clone()), Vec::new());
-    page.render(&mut text).expect("memory can be written");
-    pages.push((page.get_filename(), text));
-    pages
 }

@@ -16,7 +16,6 @@ use base::error::Result;
 use base::files;
 use engine::plan::Plan;
 use engine::{Assessment, Quantity, Solution, TriangleValues};
-use problem::scene::Scene;
 
 /// What a folder holds beside `fields.vtu` and `result.json`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,7 +120,6 @@ fn contents(
                     unit: &array.unit,
                     values: &array.values,
                     displacement: &solution.displacements(),
-                    largest_at: None,
                 };
                 picture::field(drawing, &field).into_bytes()
             }
@@ -184,8 +182,11 @@ fn pressures(solution: &Solution, assessment: &Assessment) -> String {
     let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
     pressure::picture(&solution.request.scene, &runs, hertz)
 }
+<<<<<<< HEAD
 
 /// Draws the mesh of a finding's scene, under the finding's id.
 pub fn finding_picture(id: &str, scene: &Scene) -> String {
     picture::small_mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
 }
+=======
+>>>>>>> h3

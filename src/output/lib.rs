@@ -14,7 +14,7 @@
 //! | `evaluation`, `failure`, `json`                    | JSON, and what is in it                |
 //! | `matrix_market`                                    | a matrix as a file                     |
 //! | `worksheet`                                        | a worksheet of Mathcad, compared       |
-//! | `edited`, `scenes`                                 | edited listings, scenes that are there |
+//! | `edited`                                           | edited listings                        |
 //! | `model`; `text`, `csv`, `markdown`, `html`         | reports of tables, and their renderings |
 //! | `layout`, `numbers`                                | lists of words, numbers as text        |
 #![forbid(unsafe_code)]
@@ -38,7 +38,6 @@ pub mod plan;
 pub mod pressure;
 pub mod quantities;
 mod result_file;
-pub mod scenes;
 pub mod tables;
 pub mod text;
 pub mod vtu;

@@ -1,6 +1,5 @@
 //! The plan of a run, for people and for machines.
 
-use super::json;
 use super::model::{Cell, Report, Table};
 use super::numbers::{quantity, six_digits};
 use super::tables::equilibrium;
@@ -114,9 +113,4 @@ pub fn report(plan: &Plan, scene: &Scene) -> Report {
 
 fn row(name: &str, value: impl Into<Cell>, why: impl Into<Cell>) -> Vec<Cell> {
     vec![name.into(), value.into(), why.into()]
-}
-
-/// Writes the plan as JSON.
-pub fn json(scene: &Scene, plan: &Plan) -> String {
-    json::line(Some(scene), plan)
 }

@@ -1,12 +1,11 @@
-//! The quantities of a result as columns of a table and as arrays of numbers, and the page of all.
+//! The quantities of a result as columns of a table and as arrays of numbers.
 
 use serde_json::{Value as Json, json};
 
 use super::model::{Cell, Table};
 use super::numbers::{Digits, decimals_of_places, quantity as with_its_unit};
 use engine::quantities::{
-    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
-    Unit, Value,
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
 };
 use problem::scene::Units;
 
@@ -161,45 +160,4 @@ fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
         })
     };
     quantities.iter().filter(|quantity| !quantity.title.is_empty()).map(quantity).collect()
-}
-
-/// Writes all quantities of a result as a page in Markdown: `golden/quantities.md`.
-pub fn page() -> String {
-    "# The quantities of a result\n\n\
-     Made of `src/engine/quantities/mod.rs`, where each is declared once; a test makes this page again. \
-     The field is that of `result.json`; the title heads the columns of tables, CSV and pages, and \
-     names the array in `fields.vtu`, in lower case with `_` for blanks. A quantity without a title is \
-     in `result.json` only. Lengths, stresses and forces are in the units of the scene; `1` has no \
-     unit, `share` is a part of 1.\n"
-        .to_string()
-        + &section("An iteration (`iterations`)", IterationRow::QUANTITIES)
-        + &section("A body (`bodies`)", BodySummary::QUANTITIES)
-        + &section("A restraint (`reactions`)", SupportForce::QUANTITIES)
-        + &section("A node", NodeFields::QUANTITIES)
-        + &section("A triangle (`elements`)", TriangleValues::QUANTITIES)
-        + &section("A contact node (`contact`)", ContactNode::QUANTITIES)
-}
-
-fn section<T>(place: &str, quantities: &[Quantity<T>]) -> String {
-    let row = |q: &Quantity<T>| {
-        let shape = match q.components().len() {
-            1 => "scalar",
-            2 => "vector",
-            _ => "tensor",
-        };
-        let cells = [
-            &format!("`{}`", q.name),
-            &q.title.replace('|', "\\|"),
-            &q.symbols.join(", ").replace('|', "\\|"),
-            q.unit.name(),
-            shape,
-            &q.meaning.replace('|', "\\|"),
-        ];
-        format!("| {} |\n", cells.join(" | "))
-    };
-    format!(
-        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
-         |---|---|---|---|---|---|\n{}",
-        quantities.iter().map(row).collect::<String>()
-    )
 }

@@ -201,9 +201,7 @@ impl Jobs {
         Ok(match solved {
             Ok(solution) => row(&solution),
             Err(why) => {
-                let row =
-                    json!({"exit_status": why.exit_status().number(), "error": why.to_string()});
-                row.as_object().expect("it is an object").clone()
+                known(json!({"exit_status": why.exit_status().number(), "error": why.to_string()}))
             }
         })
     }
@@ -297,28 +295,30 @@ fn set(document: &mut Value, pointer: &str, value: &Value) -> Option<()> {
 
 /// Returns what a solution says, flat, for a data frame; what has no value is left out.
 fn row(solution: &Solution) -> Row {
-    let mut row = Row::new();
     let last = solution.last();
-    let mut set = |name: &str, value: Value| {
-        if !value.is_null() {
-            row.insert(name.into(), value);
-        }
-    };
-    set("exit_status", json!(solution.exit_status().number()));
-    set("error", json!(solution.doubt().map(|doubt| doubt.what)));
-    set("iterations", json!(solution.steps.len()));
-    set("in_contact", json!(last.in_contact));
-    set("cycle", json!(last.cycle.as_ref().map(|cycle| cycle.length)));
-    set("max_displacement", json!(max_displacement(&solution.u)));
-    set("target_force", json!(solution.target_force()));
     let pressures = solution.contact.iter().filter_map(|node| node.pressure);
-    set("max_pressure", json!(pressures.reduce(f64::max)));
     let gaps = solution.contact.iter().map(|node| node.gap);
-    set("min_gap", json!(gaps.reduce(f64::min)));
+    let mut row = json!({
+        "exit_status": solution.exit_status().number(),
+        "error": solution.doubt().map(|doubt| doubt.what),
+        "iterations": solution.steps.len(),
+        "in_contact": last.in_contact,
+        "cycle": last.cycle.as_ref().map(|cycle| cycle.length),
+        "max_displacement": max_displacement(&solution.u),
+        "target_force": solution.target_force(),
+        "max_pressure": pressures.reduce(f64::max),
+        "min_gap": gaps.reduce(f64::min),
+    });
     for body in summaries(solution) {
-        set(&format!("max_von_mises_stress {}", body.name), json!(body.max_von_mises_stress));
-        set(&format!("max_von_mises_strain {}", body.name), json!(body.max_von_mises_strain));
-        set(&format!("max_displacement {}", body.name), json!(body.max_displacement));
+        row[format!("max_von_mises_stress {}", body.name)] = json!(body.max_von_mises_stress);
+        row[format!("max_von_mises_strain {}", body.name)] = json!(body.max_von_mises_strain);
+        row[format!("max_displacement {}", body.name)] = json!(body.max_displacement);
     }
-    row
+    known(row)
+}
+
+/// Returns the fields of an object that have a value.
+fn known(object: Value) -> Row {
+    let fields = object.as_object().into_iter().flatten().filter(|(_, value)| !value.is_null());
+    fields.map(|(name, value)| (name.clone(), value.clone())).collect()
 }

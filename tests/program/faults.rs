@@ -194,7 +194,7 @@ fn a_long_run_ends_by_a_signal_and_leaves_the_old_files() {
     whole(folder.path());
     let before = files(&folder.path().join("o"));
     for (signal, number) in [("INT", 2), ("TERM", 15)] {
-        let mut child = start(folder.path(), &["trade", "strand", "--out", "o"]);
+        let mut child = start(folder.path(), &["report", "strand", "--out", "o/r.html"]);
         std::thread::sleep(Duration::from_millis(300));
         let (lived, of) = kill(&mut child, signal);
         assert_eq!(of, Some(number));

@@ -97,29 +97,3 @@ fn every_shell_has_a_script() {
         assert!(!printed(&["--completions", shell]).is_empty());
     }
 }
-
-/// Every command has a page, which `man` renders.
-#[test]
-fn every_command_has_a_man_page() {
-    let folder = TempDir::new().expect("a folder");
-    let pages = folder.path().join("man");
-    printed(&["--man", pages.to_str().expect("UTF-8")]);
-    let names = commands()
-        .into_iter()
-        .map(|command| format!("plane-contact-{}.1", command.replace(' ', "-")));
-    let names: Vec<String> = names.chain(["plane-contact.1".into()]).collect();
-    for name in &names {
-        let page = std::fs::read_to_string(pages.join(name)).expect(name);
-        for part in [".TH ", ".SH NAME", ".SH SYNOPSIS"] {
-            assert!(page.contains(part), "{part}: {page}");
-        }
-    }
-    assert_eq!(std::fs::read_dir(&pages).expect("it is there").count(), names.len());
-    let rendered = |name: &String| {
-        let man = Command::new("man").arg("-l").arg(Path::new(&pages).join(name)).output();
-        man.is_ok_and(|man| String::from_utf8_lossy(&man.stdout).contains("SYNOPSIS"))
-    };
-    let mut man = Command::new("man");
-    man.arg("--version");
-    assert!(!is_there(man, "REQUIRE_SHELLS") || names.iter().all(rendered));
-}

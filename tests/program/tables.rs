@@ -7,19 +7,25 @@ use std::sync::LazyLock;
 
 use plane_contact::engine::estimates::{Certainty, Estimates};
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
+use plane_contact::engine::quantities::{
+    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, SupportForce, TriangleValues,
+};
 use plane_contact::engine::{
     Assessment, Solution, SolutionDistance, Stiffness, distance, implied, solve, summaries,
 };
+use plane_contact::output::model::Table;
+use plane_contact::output::numbers::short;
 use plane_contact::problem::model::{Body, Model};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Variant};
 use plane_contact::problem::scene::Derived;
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::claims::{ClaimId, Verdict};
+use plane_contact::studies::audit::claims::claim_tables::{counts, over};
+use plane_contact::studies::audit::claims::{ClaimId, JudgedClaim, Verdict};
 use plane_contact::studies::audit::evidence::NoFigures;
 use plane_contact::studies::audit::findings::FindingId;
 use plane_contact::studies::audit::prices::{self, CorrectedRun, Price, Weight};
-use plane_contact::studies::audit::range::{self, Recorded};
-use plane_contact::studies::benchmark::{Hertz as Benchmark, Kind, Punch, Strand};
+use plane_contact::studies::audit::range::{self, Parameter, Recorded};
+use plane_contact::studies::benchmark::{Blocks, Hertz as Benchmark, Kind, Punch, Strand};
 use plane_contact::studies::calculix::{Pair, RECORDED, run};
 use plane_contact::studies::trade;
 use plane_contact::{Request, Scene};
@@ -97,7 +103,7 @@ fn thousands(number: usize) -> String {
 /// The quantities of a result, each declared once.
 #[test]
 fn quantities() {
-    let page = plane_contact::output::quantities::page();
+    let page = quantities_page();
     assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
 }
 
@@ -287,23 +293,15 @@ fn claims() {
     let count =
         |verdict: &Verdict| JUDGED.iter().filter(|j| j.measured.verdict == *verdict).count();
     let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
-    let title = format!(
-        "What the paper claims, {}: {}.",
-        studies::audit::claims::claim_tables::counts(),
-        counts.collect::<Vec<_>>().join(", ")
-    );
-    assert_table(
-        "claims",
-        &title,
-        "audit --range",
-        &studies::audit::claims::claim_tables::verdicts(&JUDGED).markdown(),
-    );
+    let title =
+        format!("What the paper claims, {}: {}.", counts(), counts.collect::<Vec<_>>().join(", "));
+    assert_table("claims", &title, "audit --range", &verdicts().markdown());
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
          figures on the scene strand, whose mesh is of Gmsh, differ a little.",
         "audit --range",
-        &studies::audit::claims::claim_tables::range(&JUDGED).markdown(),
+        &over_the_range().markdown(),
     );
     // What the verdict on the paper's own example cites.
     let p12 = JUDGED.iter().find(|judged| judged.claim.id == ClaimId::P12).expect("a claim");
@@ -320,6 +318,32 @@ fn claims() {
         by_rounding: others().filter(|measured| measured.by_rounding).count(),
     };
     assert_eq!(found, range::RECORDED);
+}
+
+/// The verdicts with their values.
+fn verdicts() -> Table<Vec<&'static JudgedClaim>> {
+    Table::from_rows(JUDGED.iter())
+        .column("claim", |judged| judged.claim.id.name())
+        .column("where in the paper", |judged| judged.claim.place)
+        .column("the paper's words", |judged| judged.claim.translation)
+        .column("what is judged", |judged| judged.claim.judged)
+        .column("verdict", |judged| judged.measured.words())
+        .column("scope", |judged| judged.scope.to_string())
+        .column("value", |judged| judged.measured.figure(short))
+        .column("what the value is", |judged| judged.claim.number)
+}
+
+/// The verdicts that are not the same over the whole range.
+fn over_the_range() -> Table<Vec<(&'static JudgedClaim, Parameter)>> {
+    let changes = JUDGED.iter().filter(|judged| {
+        judged.elsewhere.windows(2).any(|w| w[0].measured.verdict != w[1].measured.verdict)
+    });
+    Table::from_rows(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
+        .column("claim", |(judged, _)| judged.claim.id.name())
+        .column("what is varied", |(_, parameter)| parameter.explained())
+        .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
+            over(judged, *parameter)
+        })
 }
 
 /// Every variant beside CalculiX's own contact under the same friction. Where `ccx` is not installed
@@ -385,7 +409,13 @@ fn calculix() {
 /// What the scenes of `scene mesh` are made of.
 #[test]
 fn scenes() {
-    let rows = Kind::all().into_iter().flat_map(|kind| {
+    let kinds = [
+        Kind::Blocks(Blocks::default()),
+        Kind::Hertz(Benchmark::default()),
+        Kind::Punch(Punch::default()),
+        Kind::Strand(Strand::default()),
+    ];
+    let rows = kinds.into_iter().flat_map(|kind| {
         let builder = kind.generate().expect("the defaults are sound");
         let scene = builder.build().expect("the defaults are sound");
         let [fx, fy] = scene.model.total_load().map(rounded);
@@ -573,4 +603,45 @@ fn of_contact(solution: &Solution) -> [f64; 5] {
         body.max_von_mises_stress
     };
     [square.sqrt(), (-square / slope).sqrt(), largest, stress("block"), stress("stamp")]
+}
+
+/// All quantities of a result as a page in Markdown.
+fn quantities_page() -> String {
+    "# The quantities of a result\n\n\
+     Made of `src/engine/quantities/mod.rs`, where each is declared once; a test makes this page again. \
+     The field is that of `result.json`; the title heads the columns of tables, CSV and pages, and \
+     names the array in `fields.vtu`, in lower case with `_` for blanks. A quantity without a title is \
+     in `result.json` only. Lengths, stresses and forces are in the units of the scene; `1` has no \
+     unit, `share` is a part of 1.\n"
+        .to_string()
+        + &quantities_of("An iteration (`iterations`)", IterationRow::QUANTITIES)
+        + &quantities_of("A body (`bodies`)", BodySummary::QUANTITIES)
+        + &quantities_of("A restraint (`reactions`)", SupportForce::QUANTITIES)
+        + &quantities_of("A node", NodeFields::QUANTITIES)
+        + &quantities_of("A triangle (`elements`)", TriangleValues::QUANTITIES)
+        + &quantities_of("A contact node (`contact`)", ContactNode::QUANTITIES)
+}
+
+fn quantities_of<T>(place: &str, quantities: &[Quantity<T>]) -> String {
+    let row = |q: &Quantity<T>| {
+        let shape = match q.components().len() {
+            1 => "scalar",
+            2 => "vector",
+            _ => "tensor",
+        };
+        let cells = [
+            &format!("`{}`", q.name),
+            &q.title.replace('|', "\\|"),
+            &q.symbols.join(", ").replace('|', "\\|"),
+            q.unit.name(),
+            shape,
+            &q.meaning.replace('|', "\\|"),
+        ];
+        format!("| {} |\n", cells.join(" | "))
+    };
+    format!(
+        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
+         |---|---|---|---|---|---|\n{}",
+        quantities.iter().map(row).collect::<String>()
+    )
 }

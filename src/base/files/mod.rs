@@ -8,7 +8,9 @@ mod read;
 mod write;
 
 pub use kind::{fields, is_json, kind_of};
-pub use read::{MOST, names, read, read_from, read_in, read_most, read_near, text, utf8};
+pub use read::{
+    MOST, from_folder_of, names, read, read_from, read_in, read_most, read_near, text, utf8,
+};
 pub use write::{
     DECK, HTML, JUNIT, MARKDOWN, PER_CENT, WORKSHEET, abandon, check_file, check_folder, check_new,
     is_same_place, rewrite, temporary_folder, write, write_all, write_new,

@@ -5,8 +5,6 @@
 //! no library reorders them. Where a false operand of `∧` is to decide though another fails (R4),
 //! operands that cannot fail come first.
 
-use std::collections::BTreeSet;
-
 use super::{CorrectedExport, Export, ITERATED, MOVED, listing};
 use ::mathcad::syntax::{
     Comparison, Expr, Kind, Operation, Operator, Range, Slot, Statement, Step,
@@ -207,14 +205,7 @@ fn literal(value: &Value) -> String {
 
 /// Translates a listing, whose results are its value and `more` of its names.
 fn function(listing: &Listing, more: &str, conjunction: Conjunction, globals: &Globals) -> String {
-    let mut scalars = BTreeSet::new();
-    let mut translator = Translator { listing, globals, scalars: BTreeSet::new(), conjunction };
-    // A name that is a number in one statement and an array in another is none.
-    for _ in 0..2 {
-        translator.scalars = scalars.clone();
-        scalars.clear();
-        translator.find_scalars(&listing.program, &mut scalars);
-    }
+    let translator = Translator { listing, globals, conjunction };
     let parameters: Vec<_> =
         listing.parameters.iter().map(|slot| ascii(listing.names.name(*slot))).collect();
     let mut text =
@@ -227,8 +218,6 @@ fn function(listing: &Listing, more: &str, conjunction: Conjunction, globals: &G
 struct Translator<'a> {
     listing: &'a Listing,
     globals: &'a Globals,
-    /// Names that hold numbers only.
-    scalars: BTreeSet<Slot>,
     conjunction: Conjunction,
 }
 
@@ -237,34 +226,17 @@ impl Translator<'_> {
         ascii(self.listing.names.name(slot))
     }
 
-    fn find_scalars(&self, block: &[Statement], found: &mut BTreeSet<Slot>) {
-        for Statement { step, .. } in block {
-            match step {
-                Step::For { name, .. } => drop(found.insert(*name)),
-                Step::Assign { target, value } if self.is_scalar(value) => {
-                    found.extend(target.name());
-                }
-                _ => {}
-            }
-            step.blocks().into_iter().for_each(|block| self.find_scalars(block, found));
-        }
-    }
-
+    /// Returns whether an expression is known to be a number, whatever the names of the listing hold.
     fn is_scalar(&self, expr: &Expr) -> bool {
         use Operator::*;
         let parts = expr.parts.as_slice();
         match &expr.kind {
-            Kind::Apply(Compare(_) | All | Magnitude) => true,
+            Kind::Apply(Magnitude) => true,
             Kind::Literal(value) => value.number().is_some(),
-            Kind::Name(name) => {
-                self.scalars.contains(name) || matches!(self.global(expr), Some(Value::Number(_)))
-            }
+            Kind::Name(_) => matches!(self.global(expr), Some(Value::Number(_))),
             Kind::Apply(Entry) => !matches!(self.global(&parts[0]), Some(Value::Nested(_))),
             Kind::Group | Kind::Apply(Negative | Calculate(_)) => {
                 parts.iter().all(|part| self.is_scalar(part))
-            }
-            Kind::Call(name) => {
-                matches!(self.listing.names.name(*name), "rows" | "min" | "max")
             }
             // Operations on arrays serve numbers too.
             _ => false,

@@ -10,7 +10,6 @@ const REASONS: &[(&str, &str)] = &[
     ("share", "printed stops, or no load acts"),
     ("nearest", "there is no equilibrium, or no variant of the paper runs"),
     ("fields", "there is no equilibrium, or the scene has no contact"),
-    ("range", "it was not tried: audit --range"),
     ("reading", "the default of every reading"),
     ("variant", "no run measures it"),
     ("reason", "it is measured, or there is nothing to measure"),

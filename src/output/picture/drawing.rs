@@ -49,8 +49,6 @@ pub struct Field<'a> {
     pub values: &'a [f64],
     /// The displacement of each point, finite, length.
     pub displacement: &'a [[f64; 2]],
-    /// The point that has the largest value, of a quantity that points have and not triangles.
-    pub largest_at: Option<usize>,
 }
 
 impl Drawing {

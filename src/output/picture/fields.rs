@@ -23,7 +23,7 @@ const DRAWN_DISPLACEMENT: f64 = 0.035;
 /// If there is not one value per triangle and one displacement per point, all finite.
 pub fn field(drawing: &Drawing, field: &Field) -> String {
     let Drawing { points, triangles, .. } = drawing;
-    let Field { quantity, unit, values, displacement, largest_at } = *field;
+    let Field { quantity, unit, values, displacement } = *field;
     assert_eq!(values.len(), triangles.len(), "one value per triangle");
     assert_eq!(displacement.len(), points.len(), "one displacement per point");
     let is_finite = values.iter().chain(displacement.as_flattened()).all(|x| x.is_finite());
@@ -43,17 +43,13 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
     let deformed: Vec<[f64; 2]> =
         moved.map(|(point, u)| [0, 1].map(|axis| point[axis] + times * u[axis])).collect();
 
-    // Where the extremes are: in the middle of a triangle, or at a point.
+    // The extremes are in the middle of a triangle.
     let scale = ColourScale::from_values(values);
     let [smallest, largest] = [-1.0, 1.0]
         .map(|sign| largest(values.iter().map(|x| sign * x)).expect("at least one triangle"));
     let middle = |triangle: usize, places: &[[f64; 2]]| -> [f64; 2] {
         let corners = triangles[triangle].map(|point| places[point]);
         [0, 1].map(|axis| corners.iter().map(|corner| corner[axis] / 3.0).sum())
-    };
-    let largest_among = |places: &[[f64; 2]]| match largest_at {
-        Some(point) => places[point],
-        None => middle(largest.first, places),
     };
 
     let boundary = boundary_edges(triangles);
@@ -89,9 +85,8 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
         drawn.push(segments(&boundary, &after).stroke(OUTLINE, width));
         if !scale.is_uniform() {
             // White under the red: it stands out from any colour.
-            let ring = |colour, width| {
-                circle(largest_among(&after), 7.0).fill("none").stroke(colour, width)
-            };
+            let at = middle(largest.first, &after);
+            let ring = |colour, width| circle(at, 7.0).fill("none").stroke(colour, width);
             drawn.push(group().with(ring("#ffffff", 4.5)).with(ring("#d4001a", 2.2)));
         }
         drawn
@@ -114,9 +109,8 @@ pub fn field(drawing: &Drawing, field: &Field) -> String {
         true => format!("The value is the same in every triangle: {most}."),
         false => format!(
             "Largest value {most} at {} (red circle){}; smallest value {least} at {}{}.",
-            place(largest_among(points)),
-            // A largest value at a point is that of every triangle about it.
-            others(if largest_at.is_some() { 0 } else { largest.others }),
+            place(middle(largest.first, points)),
+            others(largest.others),
             place(middle(smallest.first, points)),
             others(smallest.others)
         ),

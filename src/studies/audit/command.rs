@@ -3,23 +3,20 @@
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-use crate::audit::claims::{CLAIMS, Claim, by_reading};
-use crate::audit::findings::{FINDINGS, Finding};
+use crate::audit::claims::{Claim, ClaimId, by_reading};
+use crate::audit::findings::{Finding, FindingId};
 use crate::audit::prices;
 use crate::audit::range::{Range, range};
 use crate::audit::words::{self, Depth};
 use crate::audit::{Audit, Case, audit, steps, tables};
 use crate::audit::{claims::claim_tables as claims, prices::price_tables as price_report};
 use base::error::InputError;
-use base::suggestion::did_you_mean;
 use engine::error::Result;
 use output::json;
 use paper::mirror::Reading;
 use problem::scene::Scene;
 
-use commands::{
-    ReadingArg, TablesArgs, note, offered, print, print_either, progress, waiting, width,
-};
+use commands::{ReadingArg, TablesArgs, note, offered, print, progress, waiting, width};
 
 /// Show what every ambiguity and every finding does on a scene.
 #[derive(clap::Args)]
@@ -54,12 +51,12 @@ pub struct Args {
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     /// Explain one finding.
-    #[arg(long, value_name = "ID", value_parser = offered::<String>(FINDINGS.iter().map(|finding| finding.id)))]
-    finding: Option<String>,
+    #[arg(long, value_name = "ID", value_parser = offered::<FindingId>(FindingId::ALL))]
+    finding: Option<FindingId>,
     /// Explain and judge one claim of the paper.
     #[arg(long, value_name = "ID", conflicts_with = "finding",
-        value_parser = offered::<String>(CLAIMS.iter().map(|claim| claim.id)))]
-    claim: Option<String>,
+        value_parser = offered::<ClaimId>(ClaimId::ALL))]
+    claim: Option<ClaimId>,
     /// Judge the claims over the range of what the paper leaves open too: clearance, radius, mesh,
     /// shape of the stamp, unit of c_tol; takes several times as long.
     #[arg(long, conflicts_with_all = ["scene", "finding", "claim", "prices"])]
@@ -83,13 +80,12 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    if let Some(id) = &args.finding {
-        return explain(args, listed("--finding", id, FINDINGS, |finding| finding.id.name())?);
+    match (args.finding, args.claim) {
+        (Some(id), _) => explain(args, Finding::of(id)),
+        (None, Some(id)) => judge_one(args, Claim::of(id)),
+        (None, None) if args.prices => prices(args),
+        (None, None) => whole(args),
     }
-    if let Some(id) = &args.claim {
-        return judge_one(args, listed("--claim", id, CLAIMS, |claim| claim.id.name())?);
-    }
-    if args.prices { prices(args) } else { whole(args) }
 }
 
 fn prices(args: &Args) -> Result<()> {
@@ -107,10 +103,8 @@ fn prices(args: &Args) -> Result<()> {
     };
     bar.finish();
     let document = price_report::PricesOnScene { reading, prices: &alone, repairs: &repairs };
-    if args.tables.json {
-        return print(&price_report::json(&document, &case.scene));
-    }
-    args.tables.print(price_report::report(&document, &case.scene))
+    let report = || price_report::report(&document, &case.scene);
+    args.tables.print_either(Some(&case.scene), &document, report)
 }
 
 /// Opens the case of the scene that is asked for.
@@ -133,24 +127,6 @@ fn places(args: &Args) -> Result<Range> {
     Ok(range(reading)?)
 }
 
-/// Finds what a register lists under an id.
-fn listed<T>(
-    option: &str,
-    id: &str,
-    register: &'static [T],
-    id_of: fn(&T) -> &'static str,
-) -> Result<&'static T, InputError> {
-    register.iter().find(|entry| id_of(entry).eq_ignore_ascii_case(id)).ok_or_else(|| {
-        let ids: Vec<&str> = register.iter().map(id_of).collect();
-        let what = option.trim_start_matches('-');
-        InputError::new(
-            option,
-            format!("there is no {what} {id:?}"),
-            format!("{}the {what}s are {}", did_you_mean(id, ids.iter().copied()), ids.join(", ")),
-        )
-    })
-}
-
 /// Judges one claim on the scene.
 fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
     let reading = args.reading.reading;
@@ -159,11 +135,8 @@ fn judge_one(args: &Args, claim: &Claim) -> Result<()> {
         (claim.judge(&case, &Vec::new()), by_reading(std::slice::from_ref(claim), &case))
     });
     let document = claims::ClaimOnScene { judged: &judged, by_reading: &by_reading };
-    print_either(
-        args.tables.json,
-        || json::line(Some(&case.scene), &document),
-        || claims::explanation(&document, &case.scene, &reading),
-    )
+    let report = || claims::explanation(&document, &case.scene, &reading);
+    args.tables.print_either(Some(&case.scene), &document, report)
 }
 
 fn explain(args: &Args, finding: &Finding) -> Result<()> {
@@ -174,11 +147,9 @@ fn explain(args: &Args, finding: &Finding) -> Result<()> {
     let reading = args.reading.reading;
     let case = Case::within_memory(&scene, reading)?;
     let measured = finding.measure(&case);
-    print_either(
-        args.tables.json,
-        || json::line(Some(&case.scene), &tables::FindingRow { finding, measured: &measured }),
-        || tables::explanation(finding, &measured, &case.scene, &reading),
-    )
+    let row = tables::FindingRow { finding, measured: &measured };
+    let report = || tables::explanation(finding, &measured, &case.scene, &reading);
+    args.tables.print_either(Some(&case.scene), &row, report)
 }
 
 fn whole(args: &Args) -> Result<()> {
@@ -195,7 +166,7 @@ fn whole(args: &Args) -> Result<()> {
     bar.finish();
     if is_whole {
         if args.tables.json {
-            return print(&tables::json(&found));
+            return print(&json::line(Some(&found.scene), &found));
         }
         let report = words::report(&found, Depth::Full);
         if args.full {

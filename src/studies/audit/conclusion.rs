@@ -1,5 +1,5 @@
-//! What follows from the results of an audit: whether the print couples the bodies, which run comes nearest,
-//! how far its fields are off, and how far what the paper leaves open moves that.
+//! What follows from the results of an audit: whether the print couples the bodies, which run comes nearest, and
+//! how far its fields are off.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
@@ -7,10 +7,9 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::Case;
-use super::claims::{ClaimId, JudgedClaim, Verdict, nearest as least};
+use super::claims::nearest as least;
 use super::evidence::{NoFigures, beyond_noise};
 use super::findings::{Evidence, Finding, FindingId, Presence};
-use super::range::{Parameter, distinct};
 use super::readings::Effect;
 use super::variants::VariantRow;
 use engine::estimates::{ErrorEstimates, Estimates};
@@ -34,8 +33,6 @@ pub struct Conclusion {
     /// The findings that are present here, and that no fault puts back into the corrected algorithm, so that
     /// they have no price: listings/corrected/README.md says what repairs each.
     pub unpriced: Vec<FindingId>,
-    /// How far that moves the verdicts; nothing where it was not tried.
-    pub range: Option<Spread>,
 }
 
 /// Whether Km joins the bodies, and what passes between them.
@@ -104,24 +101,10 @@ pub struct Fields {
     pub errors: ErrorEstimates,
 }
 
-/// The error of the paper's algorithm over the range of what the paper leaves open.
-#[derive(Clone, Debug, Serialize)]
-pub struct Spread {
-    /// The places of the range that differ.
-    pub places: usize,
-    /// The least and the largest number of claim P12.
-    pub error: [f64; 2],
-    /// The claims whose verdict is another one somewhere in the range.
-    pub changes: Vec<ClaimId>,
-    /// The claims that are true at each clearance that was tried from one on, with the least such one, mm.
-    pub true_from: Vec<(ClaimId, f64)>,
-}
-
 impl Conclusion {
     /// Draws the conclusion of what was found on a case.
     pub fn new(
         case: &Case,
-        claims: &[JudgedClaim],
         readings: &[Effect],
         findings: &[(&'static Finding, Evidence)],
         variants: &[VariantRow],
@@ -132,7 +115,6 @@ impl Conclusion {
             nearest: nearest(variants, readings, case.reading()),
             fields: fields(case, variants),
             unpriced: unpriced(findings),
-            range: spread(claims),
         }
     }
 }
@@ -238,30 +220,4 @@ fn unpriced(findings: &[(&'static Finding, Evidence)]) -> Vec<FindingId> {
     let is_priced = |id| FAULTS.iter().any(|fault| fault.is_of(id));
     let present = findings.iter().filter(|(_, measured)| measured.verdict == Presence::Present);
     present.map(|(finding, _)| finding.id).filter(|id| !is_priced(*id)).collect()
-}
-
-/// Returns how far the range moves the verdicts; nothing where it was not tried.
-fn spread(claims: &[JudgedClaim]) -> Option<Spread> {
-    let tried = || claims.iter().filter(|judged| !judged.elsewhere.is_empty());
-    let p12 = tried().find(|judged| judged.claim.id == ClaimId::P12)?;
-    let numbers = || p12.elsewhere.iter().filter_map(|other| other.measured.number);
-    let changes = |judged: &&JudgedClaim| {
-        let mut pairs = judged.elsewhere.windows(2);
-        pairs.any(|pair| pair[0].measured.verdict != pair[1].measured.verdict)
-    };
-    let true_from = |judged: &JudgedClaim| {
-        let clearances = judged
-            .elsewhere
-            .iter()
-            .filter(|other| other.place.parameter == Parameter::Clearance)
-            .rev()
-            .take_while(|other| other.measured.verdict == Verdict::True);
-        Some((judged.claim.id, clearances.last()?.place.value))
-    };
-    Some(Spread {
-        places: distinct(p12.elsewhere.iter().map(|other| other.place)),
-        error: [numbers().reduce(f64::min)?, numbers().reduce(f64::max)?],
-        changes: tried().filter(changes).map(|judged| judged.claim.id).collect(),
-        true_from: tried().filter(changes).filter_map(true_from).collect(),
-    })
 }

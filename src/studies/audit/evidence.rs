@@ -1,17 +1,15 @@
 //! What is measured on a case, or why there is nothing; and whether the inputs that mean the same
-//! ([`Case::equivalents`]) show it too.
+//! ([`Case::equivalents`](super::Case::equivalents)) show it too.
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use super::Case;
+use super::variants::mesh_error;
 use base::error::InputError;
 use engine::Solution;
 use engine::error::Error;
-use engine::estimates::discretisation::Discretisation;
 use engine::estimates::moves;
-use numbers::finite;
 use output::layout::first_line;
 use output::model::Cell;
 use output::numbers::{Digits, short};
@@ -31,18 +29,6 @@ pub fn beyond_noise(share: f64) -> f64 {
 
 /// What was measured; or why there are no figures.
 pub type Outcome<T> = Result<T, NoFigures>;
-
-/// Measures on a case and on the inputs that mean the same ([`confirmed`]).
-///
-/// # Errors
-/// Those of the measure; rounding decides.
-pub fn repeated<T>(
-    case: &Case,
-    measure: impl Fn(&Case) -> Outcome<T>,
-    figures: fn(&T) -> Vec<Option<f64>>,
-) -> Outcome<T> {
-    confirmed(measure(case), case.equivalents().iter().map(&measure), figures)
-}
 
 /// Returns an outcome where `others`, measured on inputs that mean the same, have the same `figures`, each
 /// over the scale of its kind.
@@ -132,9 +118,7 @@ impl<V> Evidence<V> {
     pub fn on<'a>(mut self, runs: impl IntoIterator<Item = (&'a str, &'a Solution)>) -> Self {
         let error = |(run, solution): (&str, &Solution)| MeshError {
             run: run.into(),
-            energy_relative: finite(
-                Discretisation::new(&solution.model, &solution.elements).relative(),
-            ),
+            energy_relative: mesh_error(solution),
         };
         self.mesh_errors = runs.into_iter().map(error).collect();
         self

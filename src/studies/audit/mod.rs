@@ -44,13 +44,12 @@ pub use case::Case;
 
 use claims::{CLAIMS, JudgedClaim, UnderReading};
 use conclusion::Conclusion;
-use engine::contact::ContactNode;
 use engine::estimates::{Perturbed, perturbed};
-use engine::{BodySummary, NearestDecision, Solution, solve, summaries};
+use engine::{BodySummary, Solution, summaries};
 use evidence::{NoFigures, Outcome};
 use findings::{Evidence, FINDINGS, Finding};
 use prices::Price;
-use problem::modelling::{ContactModel, Friction, Variant};
+use problem::modelling::ContactModel;
 use problem::scene::Scene;
 use range::Range;
 use readings::Effect;
@@ -88,21 +87,6 @@ pub struct Audit {
     /// Why one of these two, or both, are missing on a scene with contact.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unsolved: Vec<String>,
-    /// The contact under other coefficients of friction.
-    pub friction: Vec<FrictionContact>,
-}
-
-/// The coefficients of friction under which contact is shown: none, dry concrete on steel by and
-/// large, and more than nodes need to stick.
-pub const FRICTION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, f64::INFINITY];
-
-/// The contact under a coefficient of friction.
-#[derive(Clone, Debug, Serialize)]
-pub struct FrictionContact {
-    /// The coefficient.
-    pub friction: Friction,
-    /// The contact nodes in contact; or why there is no equilibrium.
-    pub nodes: Outcome<Vec<ContactNode>>,
 }
 
 /// An equilibrium that runs are compared with, in short.
@@ -121,8 +105,6 @@ pub struct EquilibriumRow {
     pub overlap: Option<String>,
     /// The error of the mesh in the energy norm, relative; nothing where it is not known.
     pub mesh_error: Option<f64>,
-    /// The decision of its contact state that is nearest to another one.
-    pub nearest: Option<NearestDecision>,
     /// What changes of the input in the last digits do to it.
     pub rounding: Option<Perturbed>,
 }
@@ -134,9 +116,8 @@ pub fn steps() -> usize {
 
 /// Audits a scene: claims, readings, findings and variants, each against the default, and what each printed
 /// fault costs; claims also at the `places` of the range of what the paper leaves open. Where it `is_whole`,
-/// not for the first screen alone, also the claims under each other reading, the contact under other
-/// coefficients of friction, and what rounding does to the solutions that others are compared with. `watch`
-/// is called after each step.
+/// not for the first screen alone, also the claims under each other reading, and what rounding does to the
+/// solutions that others are compared with. `watch` is called after each step.
 pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sync)) -> Audit {
     case.prepare();
     watch();
@@ -153,13 +134,11 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
         true => watched(claims::by_reading(CLAIMS, case), watch),
         false => watched(Vec::new(), watch),
     };
-    let friction =
-        || case.model().target().filter(|_| is_whole).map_or(Vec::new(), |_| friction(case));
     let prices = || prices::on(case, watch).map_err(NoFigures::from);
     // All at once, the longest first: each alone would end with one long run on one core.
-    let (prices, (findings, (readings, (claims, (by_reading, (variants, friction)))))) =
+    let (prices, (findings, (readings, (claims, (by_reading, variants))))) =
         rayon::join(prices, || {
-            let others = || rayon::join(by_reading, || rayon::join(variants, friction));
+            let others = || rayon::join(by_reading, variants);
             rayon::join(findings, || rayon::join(readings, || rayon::join(claims, others)))
         });
     let (equilibrium, reference) = rayon::join(
@@ -167,7 +146,7 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
         || case.reference().map(|solution| equilibrium_row(solution, is_whole)),
     );
     Audit {
-        conclusion: Conclusion::new(case, &claims, &readings, &findings, &variants),
+        conclusion: Conclusion::new(case, &readings, &findings, &variants),
         scene: case.scene.clone(),
         claims,
         by_reading,
@@ -179,7 +158,6 @@ pub fn audit(case: &Case, places: &Range, is_whole: bool, watch: &(dyn Fn() + Sy
         equilibrium,
         reference,
         unsolved: case.unsolved(),
-        friction,
     }
 }
 
@@ -197,25 +175,6 @@ fn equilibrium_row(solution: &Solution, is_whole: bool) -> EquilibriumRow {
         bodies: summaries(solution),
         overlap: output::tables::overlap(solution),
         mesh_error: variants::mesh_error(solution),
-        nearest: solution.equilibrium.as_ref().and_then(|found| found.nearest),
         rounding: if is_whole { perturbed(solution) } else { None },
     }
-}
-
-/// Returns the contact under each coefficient.
-fn friction(case: &Case) -> Vec<FrictionContact> {
-    let rubbing = |mu: &f64| {
-        let friction = Friction::new(*mu).expect("the coefficients are not negative");
-        let request = case.request(Variant::Unilateral).equilibrium();
-        let contact = ContactModel { friction, ..request.contact };
-        let nodes = match solve(&request.contact(contact), &mut |_| ()) {
-            Err(why) => Err(why.into()),
-            Ok(run) if perturbed(&run).is_some_and(|found| found.decides()) => {
-                Err(NoFigures::Rounding)
-            }
-            Ok(run) => Ok(run.in_contact().cloned().collect()),
-        };
-        FrictionContact { friction, nodes }
-    };
-    FRICTION.par_iter().map(rubbing).collect()
 }

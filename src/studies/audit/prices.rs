@@ -9,8 +9,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
-use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::Case;
 use super::evidence::{NoFigures, Outcome, confirmed, flat};
@@ -59,7 +58,7 @@ pub struct Price {
     /// What it does: of a repair, what those do that are left.
     pub weight: Weight,
     /// What came of the run; of a fault that is none here, that it was not made.
-    #[serde(flatten, serialize_with = "beside_weight")]
+    #[serde(flatten, serialize_with = "flat")]
     pub outcome: Outcome<CorrectedRun>,
 }
 
@@ -146,19 +145,6 @@ fn error(outcome: &Outcome<CorrectedRun>) -> f64 {
         Ok(run) => run.error(),
         Err(NoFigures::Refused(_)) => 0.0,
         Err(NoFigures::Fails(_) | NoFigures::Rounding) => f64::INFINITY,
-    }
-}
-
-/// Writes what came of a run where it says more than the weight.
-fn beside_weight<S: Serializer>(
-    outcome: &Outcome<CorrectedRun>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    match outcome {
-        Ok(_) | Err(NoFigures::Fails(_)) => flat(outcome, serializer),
-        Err(NoFigures::Refused(_) | NoFigures::Rounding) => {
-            serializer.serialize_map(Some(0))?.end()
-        }
     }
 }
 

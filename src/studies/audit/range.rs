@@ -17,31 +17,20 @@ use problem::scene::Scene;
 choices! {
     /// What the paper leaves open of its example.
     Parameter {
-        /// The radius of the duct less that of the strand, mm.
+        /// Clearance, mm.
         Clearance = "clearance",
-        /// The radius of the strand under the same clearance, mm.
+        /// Radius of the strand at the same clearance, mm.
         Radius = "radius",
-        /// The length of the edges on the lower half of the duct's wall, mm.
+        /// Edges on the duct's lower wall, mm.
         Mesh = "mesh",
-        /// The height of the stamp's flat top over the strand's radius.
+        /// Height of the stamp's top over the strand's radius.
         Top = "top",
-        /// c_tol, mm: the paper's number in millimetres or in metres.
+        /// c_tol, mm.
         Unit = "unit",
     }
 }
 
 impl Parameter {
-    /// What its values are, with their unit.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Parameter::Clearance => "clearance, mm",
-            Parameter::Radius => "radius of the strand at the same clearance, mm",
-            Parameter::Mesh => "edges on the duct's lower wall, mm",
-            Parameter::Top => "height of the stamp's top over the strand's radius",
-            Parameter::Unit => "c_tol, mm",
-        }
-    }
-
     /// The values that are tried, that of the paper's example as we assume it among them.
     pub fn values(self) -> &'static [f64] {
         match self {
@@ -112,11 +101,6 @@ pub fn range(reading: Reading) -> Result<Range> {
         Ok((ParameterValue { parameter, value, own: is_own }, case))
     });
     placed.collect()
-}
-
-/// The number of places that differ: the paper's example as we assume it is in the range of every parameter.
-pub fn distinct(places: impl Iterator<Item = ParameterValue> + Clone) -> usize {
-    places.clone().filter(|place| !place.own).count() + usize::from(places.clone().any(|p| p.own))
 }
 
 /// Claim P12 at the places that are not the example as we assume it.

@@ -1,7 +1,5 @@
 //! The tables that an audit rests on, its JSON, and what explains a finding.
 
-use std::collections::BTreeSet;
-
 use serde::{Serialize, Serializer};
 
 use crate::audit::claims::claim_tables as claims;
@@ -10,20 +8,18 @@ use crate::audit::findings::{Evidence, Finding, Repair};
 use crate::audit::prices::price_tables as prices;
 use crate::audit::readings::Effect;
 use crate::audit::variants::{VariantRow, VariantRun};
-use crate::audit::{Audit, EquilibriumRow, FrictionContact, words};
+use crate::audit::{Audit, EquilibriumRow, words};
 use engine::Cycle;
-use output::json;
 use output::layout::listed;
 use output::model::{Cell, Report, Table};
-use output::numbers::{or_dash, short};
+use output::numbers::short;
 use output::tables::perturbed;
 use paper::listings::Which;
 use paper::mirror::Reading;
-use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
-/// Reports what the verdict and the claims rest on: readings, findings, variants, friction.
+/// Reports what the verdict and the claims rest on: readings, findings, variants.
 pub fn evidence(audit: &Audit) -> Report {
     Report::default()
         .heading("Readings, findings and variants")
@@ -31,7 +27,6 @@ pub fn evidence(audit: &Audit) -> Report {
         .table("2. Findings (`audit --finding C4` explains one)", findings(&audit.findings))
         .note(prices::AND_FINDINGS)
         .then(variants(audit))
-        .then(friction(&audit.friction))
 }
 
 /// Reports the readings; why one fails stands under the table, each reason once.
@@ -92,7 +87,7 @@ fn variants(audit: &Audit) -> Report {
         audit.variants.iter().map(|row| [words::variant(row), beside(row)].concat()),
     );
     let report = Report::default().table("3. Variants side by side", table).notes(&audit.unsolved);
-    if audit.friction.is_empty() {
+    if audit.conclusion.coupled.is_none() {
         return report;
     }
     report
@@ -139,16 +134,8 @@ fn beside(row: &VariantRow) -> Vec<Cell> {
 
 /// Reports a solution that others are compared with, and what rounding does to it.
 fn solution_without_mistakes(what: &str, other: Option<&EquilibriumRow>) -> Report {
-    let Some(EquilibriumRow {
-        model,
-        in_contact,
-        target_share: _,
-        bodies,
-        overlap,
-        mesh_error,
-        nearest: _,
-        rounding,
-    }) = other
+    let Some(EquilibriumRow { model, in_contact, bodies, overlap, mesh_error, rounding, .. }) =
+        other
     else {
         return Report::default().note(format!("{what}: there is none"));
     };
@@ -163,42 +150,6 @@ fn solution_without_mistakes(what: &str, other: Option<&EquilibriumRow>) -> Repo
         ))
         .details(overlap)
         .details(rounding.iter().flat_map(perturbed))
-}
-
-/// Reports which nodes stick and slide under each coefficient of friction, with their pressure and
-/// shear.
-fn friction(cases: &[FrictionContact]) -> Report {
-    if cases.is_empty() {
-        return Report::default();
-    }
-    let nodes: BTreeSet<NodeId> = cases
-        .iter()
-        .flat_map(|case| case.nodes.iter().flatten().map(|contact| contact.node))
-        .collect();
-    let table = Table::from_rows(nodes).column("node", |node| *node);
-    let table = cases.iter().fold(table, |table, case| {
-        table.column(format!("friction {}", case.friction), |node| {
-            let contact = case.nodes.as_ref().ok()?.iter().find(|c| c.node == *node)?;
-            let [pressure, shear] = [contact.pressure, contact.shear].map(|x| or_dash(x, tenth));
-            Some(format!("{pressure} {shear} {}", contact.status?))
-        })
-    });
-    let failures = cases.iter().filter_map(|case| {
-        let why = case.nodes.as_ref().err()?;
-        Some(format!("friction {}: {why}", case.friction))
-    });
-    Report::default()
-        .table(
-            "4. Pressure, shear and status of the nodes in contact by coefficient of friction \
-             (unilateral, mortar)",
-            table,
-        )
-        .notes(failures)
-}
-
-fn tenth(x: f64) -> String {
-    // 0 added to −0 is 0.
-    format!("{:.1}", (10.0 * x).round() / 10.0 + 0.0)
 }
 
 /// A finding on a scene.
@@ -232,11 +183,6 @@ pub(super) fn name_of_listing<S: Serializer>(
 /// Writes the name of a scene.
 pub(super) fn name<S: Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&scene.name)
-}
-
-/// Returns the audit of a scene as JSON.
-pub fn json(audit: &Audit) -> String {
-    json::line(Some(&audit.scene), audit)
 }
 
 /// Explains a finding: its lines, the values on `scene`, why it matters, what a repair would be.

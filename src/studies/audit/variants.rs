@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::case::Case;
-use super::evidence::{Outcome, beyond_noise, flat, repeated};
+use super::evidence::{Outcome, beyond_noise, confirmed, flat};
 use engine::contact::pulling;
 use engine::estimates::discretisation::Discretisation;
 use engine::{
@@ -164,7 +164,8 @@ fn asymmetry(solution: &Solution) -> Option<f64> {
 /// Every variant on a scene, in the order of `Variant::ALL`.
 pub fn side_by_side(case: &Case) -> Vec<VariantRow> {
     let row = |variant: &Variant| {
-        let outcome = repeated(case, |case| end(case, *variant), VariantRun::figures);
+        let others = case.equivalents().iter().map(|case| end(case, *variant));
+        let outcome = confirmed(end(case, *variant), others, VariantRun::figures);
         VariantRow { variant: *variant, outcome }
     };
     Variant::ALL.par_iter().map(row).collect()

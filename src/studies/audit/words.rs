@@ -4,7 +4,7 @@
 
 use crate::audit::claims::claim_tables as claims;
 use crate::audit::claims::{JudgedClaim, NOTICEABLE, Scope, Verdict};
-use crate::audit::conclusion::{Coupled, Fields, Nearest, Spread, of_the_paper};
+use crate::audit::conclusion::{Coupled, Fields, Nearest, of_the_paper};
 use crate::audit::evidence::{BY_ROUNDING, NoFigures};
 use crate::audit::prices::Price;
 use crate::audit::prices::price_tables as prices;
@@ -15,7 +15,7 @@ use crate::calculix::RECORDED;
 use engine::BodySummary;
 use output::layout::{counted, listed};
 use output::model::{Cell, Report, Table};
-use output::numbers::{coordinates, figure, percent, with_unit};
+use output::numbers::{figure, percent, with_unit};
 use output::tables::PROBABLY_MORE;
 use paper::mirror::Reading;
 use problem::modelling::Variant;
@@ -133,7 +133,7 @@ pub fn sections(audit: &Audit, depth: Depth) -> Vec<Section> {
 }
 
 /// Reports what the first screen rests on: what the verdict leaves out, the claims, what the printed faults
-/// cost and the way of `repairs` where that was asked for, readings, findings, variants, friction.
+/// cost and the way of `repairs` where that was asked for, readings, findings, variants.
 pub fn evidence(audit: &Audit, repairs: &[Price]) -> Report {
     let Audit { scene, conclusion, claims, by_reading, prices, .. } = audit;
     let beside = beside(audit);
@@ -240,7 +240,7 @@ fn beside(audit: &Audit) -> Vec<String> {
             format!("Of another plane problem, {run}, is {far} from that problem's equilibrium.")
         }));
     }
-    said.extend(conclusion.fields.iter().flat_map(|found| fields(audit, found)));
+    said.extend(conclusion.fields.iter().flat_map(|found| fields(scene, found)));
     let unpriced = listed(&conclusion.unpriced);
     said.extend(
         (!unpriced.is_empty()).then(|| format!("Present, but not reintroduced: {unpriced}.")),
@@ -251,28 +251,11 @@ fn beside(audit: &Audit) -> Vec<String> {
             said.extend([range::RECORDED.to_string(), WIDER.into()]);
         }
     }
-    if let Some(Spread { places, error: [least, most], changes, true_from }) = &conclusion.range {
-        let verdicts = match changes.len() {
-            0 => "no verdict changes".to_string(),
-            _ => format!("the verdicts that change are those on {}", listed(changes)),
-        };
-        said.push(format!(
-            "At {places} places of the range the nearest variant, under the readings of this audit, is {} to {} from \
-             the equilibrium; {verdicts}.",
-            percent(*least),
-            percent(*most)
-        ));
-        said.extend(true_from.iter().map(|(id, value)| {
-            format!("{id} is true at each clearance tried from {value} mm on.")
-        }));
-    }
     said
 }
 
-/// Says how far the largest stress and strain of the nearest run are off, and where they stand in the
-/// equilibrium.
-fn fields(audit: &Audit, Fields { variants, difference, errors }: &Fields) -> Vec<String> {
-    let scene = &audit.scene;
+/// Says how far the largest stress and strain of the nearest run are off.
+fn fields(scene: &Scene, Fields { variants, difference, .. }: &Fields) -> Vec<String> {
     let off = difference.map(|difference| {
         format!(
             "The largest von Mises stress and strain of a body under {} differ by up to {} from the equilibrium's.",
@@ -280,34 +263,10 @@ fn fields(audit: &Audit, Fields { variants, difference, errors }: &Fields) -> Ve
             percent(difference)
         )
     });
-    // Three digits of the size of the bodies.
-    let decimals = (3.0 - scene.model.bounds().larger_side().log10()).ceil().max(0.0) as usize;
-    let own = audit.equilibrium.iter().flat_map(|found| &found.bodies);
-    let places = own.zip(&errors.bodies).map(|(body, error)| {
-        let written = |x| figure(x, errors.mesh_energy_relative);
-        let stress = with_unit(&written(body.max_von_mises_stress), &scene.units.stress);
-        // 0 added to −0 is 0.
-        let scale = 10f64.powi(decimals as i32);
-        let centre = body.centre.map(|x| (x * scale).round() / scale + 0.0);
-        let at = with_unit(&coordinates(centre, decimals), &scene.units.length);
-        let diverges = match error.no_limit.as_ref().filter(|point| point.is_largest) {
-            Some(point) => format!(" (it diverges under refinement, at node {})", point.node),
-            None => String::new(),
-        };
-        let strain = written(body.max_von_mises_strain);
-        format!("body {}: {stress} at {at}{diverges}, strain {strain}", body.name)
+    let limit = is_example(scene).then(|| {
+        "`plane-contact guide limit` says what stress finer meshes with true arcs lead to.".into()
     });
-    let limit = match is_example(scene) {
-        true => " `plane-contact guide limit` says what finer meshes with true arcs lead to.",
-        false => "",
-    };
-    let own = format!(
-        "The largest von Mises stress and strain in the equilibrium (solve {} --variant unilateral --coupling mortar): \
-         {}.{limit}",
-        scene.word,
-        places.collect::<Vec<_>>().join("; ")
-    );
-    off.into_iter().chain([own]).collect()
+    off.into_iter().chain(limit).collect()
 }
 
 /// Says what is wrong with a run that transmits a load: which node presses although its gap is open, which

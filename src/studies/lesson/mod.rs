@@ -1,23 +1,25 @@
 //! A lesson: a page that executes both listings on a scene, step by step, under each reading that it offers.
 
 pub(crate) mod command;
-mod iterations;
 pub mod language;
 pub mod page;
 mod repairs;
 mod switches;
 
+use std::sync::Arc;
+
+use crate::audit::prices;
 use base::error::InputError;
-use engine::Request;
 use engine::error::Result;
+use engine::{Request, solve};
 use mathcad::{Listing, Recorder, Settings};
+use nalgebra::DVector;
 use paper::door::Call;
 use paper::listings::{self, Which, settings};
 use paper::mirror::Reading;
 use problem::model::Model;
 use problem::scene::Scene;
 
-pub use iterations::{MOST_SOLVED, reference};
 pub use repairs::Repairs;
 pub use switches::{Switch, chapter, switches};
 
@@ -59,4 +61,21 @@ fn steps(switch: &Switch, model: &Model) -> usize {
     });
     drop(recorder);
     steps
+}
+
+/// The most nodes of a scene whose iterations the page makes, in some tenths of a second.
+pub const MOST_SOLVED: usize = 100;
+
+/// Returns the displacements of the reference solution of a scene whose model a run may have changed, without
+/// friction, node to segment, in the initial geometry, by degree of freedom, length; nothing where there is
+/// none, or no page iterates the scene.
+pub fn reference(scene: &Scene, model: &Arc<Model>) -> Option<DVector<f64>> {
+    let mut scene = scene.clone();
+    scene.model = Arc::clone(model);
+    if !model.has_contact() || model.nodes.len() > MOST_SOLVED {
+        return None;
+    }
+    // Where there is none the page says what it takes: contact that holds the scene, and a load.
+    let request = prices::reference(&Request::new(&scene));
+    Some(solve(&request, &mut |_| ()).ok()?.u)
 }

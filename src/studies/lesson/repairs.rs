@@ -1,6 +1,6 @@
 //! The way from the print to the right answer: the corrected programs with the faults that are left.
 
-use super::iterations::MOST_SOLVED;
+use super::MOST_SOLVED;
 use crate::audit::Case;
 use crate::audit::prices::{self, Price, needed};
 use nalgebra::DVector;

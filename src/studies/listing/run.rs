@@ -19,7 +19,7 @@ use problem::model::Model;
 use problem::modelling::Variant;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, print, read_listing, write_or_print};
+use commands::{ReadingArg, TablesArgs, read_listing, write_or_print};
 
 /// Run a listing once, at the initial shape of a scene.
 #[derive(clap::Subcommand)]
@@ -115,10 +115,8 @@ fn c_cnt(args: &CCntArgs) -> Result<()> {
             Call::of_pairs(&model, found.expect("c_cnt is edited")?)
         }
     };
-    if args.tables.json {
-        return print(&json::line(Some(&scene), &json::found(&call)));
-    }
-    args.tables.print(tables::pairs(&scene, &model, &reading, &call))
+    let report = || tables::pairs(&scene, &model, &reading, &call);
+    args.tables.print_either(Some(&scene), &json::found(&call), report)
 }
 
 fn km(args: &KmArgs) -> Result<()> {

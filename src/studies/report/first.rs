@@ -3,13 +3,13 @@
 
 use std::collections::BTreeSet;
 
-use super::{Contents, Picture, pictures};
+use super::{Contents, pictures};
 use crate::audit::Audit;
 use crate::audit::claims::{CLAIMS, Claim, claim_tables as claims};
 use crate::audit::findings::{FINDINGS, Finding};
 use crate::audit::words::{Depth, JUDGED, Section, sections};
 use base::xml::escape;
-use output::html::{anchor, prose};
+use output::html::{anchor, figure, prose};
 use output::layout::counted;
 use output::model::Report;
 use paper::mirror::READINGS;
@@ -21,7 +21,8 @@ pub fn html(contents: &Contents, menu: &str) -> String {
     let on = format!(" On scene {} ({}){under}.", scene.name, scene.title);
     let judged = format!("<p>{}</p>", escape(&(JUDGED.to_string() + &on)));
     let parts = audited(contents.audit);
-    let pictures: String = pictures(contents).iter().map(Picture::html).collect();
+    let pictures: String =
+        pictures(contents).iter().map(|(title, svg)| figure(title, svg)).collect();
     let again =
         format!("<p class=\"again\">Make it again: <code>{}</code></p>", escape(&contents.command));
     format!(

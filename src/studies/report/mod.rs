@@ -5,10 +5,7 @@ mod first;
 mod glossary;
 pub mod page;
 
-use crate::audit::claims::Verdict;
 use crate::audit::claims::claim_tables::in_full;
-use crate::audit::evidence::NoFigures;
-use crate::audit::findings::{FindingId, Presence};
 use crate::audit::prices::Price;
 use crate::audit::range::is_example;
 use crate::audit::tables::explanation;
@@ -16,9 +13,6 @@ use crate::audit::words::evidence;
 use crate::audit::{Audit, relative_radius};
 use crate::compare::{Compared, comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
-use output::folder;
-use output::html::figure;
-use output::layout::listed;
 use output::model::{Report, Table};
 use output::picture::{self, Drawing};
 use output::quantities::triangle_array;
@@ -53,17 +47,8 @@ pub struct Run<'a> {
     pub assessment: Assessment<'a>,
 }
 
-/// A picture of the first screen.
-struct Picture {
-    title: String,
-    svg: String,
-}
-
-impl Picture {
-    fn html(&self) -> String {
-        figure(&self.title, &self.svg)
-    }
-}
+/// A picture with its title.
+type Picture = (String, String);
 
 /// Returns what the first screen rests on, and what makes it again.
 fn parts(contents: &Contents) -> Report {
@@ -71,7 +56,6 @@ fn parts(contents: &Contents) -> Report {
         .then(audited(contents.audit, &contents.repairs))
         .then(figures(contents))
         .then(other_codes(contents))
-        .then(unchecked(contents.audit))
         .then(glossary::report())
         .then(origin(contents))
 }
@@ -80,10 +64,11 @@ fn audited(found: &Audit, repairs: &[Price]) -> Report {
     let findings =
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = found.findings.iter().fold(findings, |report, (finding, measured)| {
-        let picture = folder::finding_picture(finding.id.name(), &finding.scene());
+        let (id, scene) = (finding.id, finding.scene());
+        let picture = picture::mesh(&Drawing::new(&scene, &format!("{id}: {}", scene.title)));
         report
             .then(explanation(finding, measured, &found.scene, &found.conclusion.reading).deeper(2))
-            .figure(format!("The smallest scene that shows {}", finding.id), picture)
+            .figure(format!("The smallest scene that shows {id}"), picture)
     });
     evidence(found, repairs).then(in_full(&found.claims)).then(findings)
 }
@@ -147,9 +132,9 @@ fn pictures(contents: &Contents) -> Vec<Picture> {
     // The pressures of `printed` stay in the contact body: none of the load passes.
     let passing: Vec<_> =
         runs.into_iter().filter(|(_, run)| run.request.variant != Variant::Printed).collect();
-    let pressure = passing.iter().any(|(_, run)| !run.contact.is_empty()).then(|| Picture {
-        title: "Contact pressure along the contact surface".into(),
-        svg: pressure::small_picture(scene, &passing, hertz.as_ref()),
+    let pressure = passing.iter().any(|(_, run)| !run.contact.is_empty()).then(|| {
+        let svg = pressure::small_picture(scene, &passing, hertz.as_ref());
+        ("Contact pressure along the contact surface".into(), svg)
     });
     pressure.into_iter().chain(beside(contents, "von_mises_stress")).collect()
 }
@@ -169,7 +154,7 @@ fn beside(contents: &Contents, field: &str) -> Option<Picture> {
     let fields: Vec<_> =
         arrays.iter().map(|(name, array)| (name.clone(), array.values.clone())).collect();
     let svg = picture::beside(&Drawing::new(scene, ""), quantity.title, &unit, &fields);
-    Some(Picture { title, svg })
+    Some((title, svg))
 }
 
 /// Shows the mesh, the strain, then pressure, shear and gap of all runs.
@@ -184,7 +169,7 @@ fn figures(contents: &Contents) -> Report {
         .heading(heading)
         .figure(mesh, picture::mesh(&Drawing::new(scene, &scene.title)));
     let report = match beside(contents, "von_mises_strain") {
-        Some(Picture { title, svg }) => report.figure(format!("{strain}{title}"), svg),
+        Some((title, svg)) => report.figure(format!("{strain}{title}"), svg),
         None => report,
     };
     let surface = if solution.contact.is_empty() { Report::default() } else { surface(contents) };
@@ -221,43 +206,6 @@ fn other_codes(contents: &Contents) -> Report {
             recorded.into_iter().chain([again]).fold(report, Report::line)
         }
     }
-}
-
-/// Reports the claims that cannot be checked, the runs that stop, and the findings that are not
-/// triggered.
-fn unchecked(audit: &Audit) -> Report {
-    let claims = audit.claims.iter().filter(|j| j.measured.verdict == Verdict::NotCheckable);
-    let claims = claims.map(|judged| {
-        let claim = &judged.claim;
-        format!("claim {}, {}: {}", claim.id, claim.judged, judged.measured.detail)
-    });
-    let why = |none: &NoFigures| match none {
-        NoFigures::Fails(_) => format!("which stops: {}", none.in_short()),
-        NoFigures::Refused(_) => {
-            format!("which cannot be asked for this scene: {}", none.in_short())
-        }
-        NoFigures::Rounding => "on which rounding decides".into(),
-    };
-    let variants = audit.variants.iter().filter_map(|row| {
-        Some(format!("variant {}, {}", row.variant, why(row.outcome.as_ref().err()?)))
-    });
-    let readings = audit.readings.iter().filter_map(|effect| {
-        Some(format!("reading {}, {}", effect.reading, why(effect.failure.as_ref()?)))
-    });
-    let untriggered = audit.findings.iter().filter(|(_, m)| m.verdict == Presence::NotTriggered);
-    let untriggered: Vec<FindingId> = untriggered.map(|(finding, _)| finding.id).collect();
-    let findings = (!untriggered.is_empty()).then(|| {
-        let ids = listed(&untriggered);
-        format!(
-            "findings that this scene does not trigger, each shown on its own smallest scene: {ids}"
-        )
-    });
-    Report::default()
-        .heading("What could not be checked on this scene")
-        .notes(claims)
-        .notes(variants)
-        .notes(readings)
-        .notes(findings)
 }
 
 /// Reports what makes the report again: the command, and what it starts from.

@@ -4,7 +4,7 @@ use crate::audit::findings::FINDINGS;
 use crate::benchmark::Kind;
 use clap::Subcommand;
 use engine::error::Result;
-use output::scenes as report;
+use output::model::{Report, Table};
 use problem::scene::{SCENES, Scene};
 
 use commands::print_report;
@@ -19,14 +19,24 @@ Examples:
 pub struct Args {}
 
 pub fn run(_: &Args) -> Result<()> {
-    let scenes = SCENES.iter().map(|scene| Ok((scene.name, Scene::open(scene.name)?)));
-    let scenes = scenes.collect::<Result<Vec<_>>>()?;
-    let findings: Vec<_> =
-        FINDINGS.iter().map(|finding| (finding.id.name(), finding.title)).collect();
+    let scenes = SCENES.iter().map(|scene| Scene::open(scene.name));
+    let scenes = Table::from_rows(scenes.collect::<Result<Vec<_>, _>>()?)
+        .column("scene", |scene| scene.name.clone())
+        .column("nodes", |scene| scene.model.nodes.len())
+        .column("triangles", |scene| scene.model.triangles.len())
+        .column("title", |scene| scene.title.clone());
+    let findings = Table::from_rows(FINDINGS)
+        .column("finding", |finding| finding.id.name())
+        .column("what its scene shows", |finding| finding.title);
     let generators = Kind::augment_subcommands(clap::Command::new("mesh"));
-    let about = |command: &clap::Command| command.get_about().map(ToString::to_string);
-    let generators = generators.get_subcommands();
-    let generators: Vec<_> =
-        generators.map(|c| (c.get_name().to_string(), about(c).unwrap_or_default())).collect();
-    print_report(report::report(&scenes, &findings, &generators))
+    let about = |kind: &clap::Command| kind.get_about().map(ToString::to_string);
+    let generators = Table::from_rows(generators.get_subcommands())
+        .column("generator", |kind| kind.get_name())
+        .column("what it makes", |kind| about(kind).unwrap_or_default());
+    print_report(
+        Report::default()
+            .table("Scenes: plane-contact solve NAME", scenes)
+            .table("Findings: plane-contact audit --finding ID; the scene is findings/ID", findings)
+            .table("Generators: plane-contact scene mesh KIND", generators),
+    )
 }

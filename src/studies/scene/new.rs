@@ -54,20 +54,12 @@ pub fn run(args: &Args) -> Result<()> {
 
 /// Returns the path of the mesh as the scene file names it: from its own folder downwards.
 fn name_beside(mesh: &Path, out: &Path) -> Result<String, InputError> {
-    let outside = || {
+    let below = files::from_folder_of(out, mesh).filter(|name| !name.starts_with("../"));
+    below.ok_or_else(|| {
         let what = format!(
             "a scene reads a mesh in its own folder or below, and {} is not there",
             shown(mesh)
         );
         InputError::new("--out", what, "name a file in the mesh's folder")
-    };
-    let folder = match out.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        Some(_) | None => Path::new("."),
-    };
-    let [folder, mesh_at] = [folder, mesh].map(Path::canonicalize);
-    let mesh_at = mesh_at.map_err(|_| outside())?;
-    let below =
-        folder.ok().and_then(|folder| mesh_at.strip_prefix(folder).map(Path::to_path_buf).ok());
-    Ok(shown(&below.ok_or_else(outside)?).replace('\\', "/"))
+    })
 }

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use engine::error::Result;
 use engine::plan::Plan;
-use output::plan as report;
+use output::plan::report;
 use problem::scene::Scene;
 
-use commands::{RunArgs, TablesArgs, print};
+use commands::{RunArgs, TablesArgs};
 
 /// What solve will build and what not, and why; nothing is solved.
 #[derive(clap::Args)]
@@ -34,8 +34,5 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     let plan = Plan::new(&args.run.request(&scene)?)?;
-    if args.tables.json {
-        return print(&report::json(&scene, &plan));
-    }
-    args.tables.print(report::report(&plan, &scene))
+    args.tables.print_either(Some(&scene), &plan, || report(&plan, &scene))
 }

@@ -12,6 +12,6 @@ Examples:
   plane-contact scene schema > scene.schema.json")]
 pub struct Args {}
 
-pub fn run() -> Result<()> {
+pub fn run(_: &Args) -> Result<()> {
     print(&schema())
 }

@@ -169,39 +169,13 @@ pub fn counts() -> String {
     format!("{} claims in {} sentences", CLAIMS.len(), sentences.len())
 }
 
-/// Returns the verdicts with their values.
-pub fn verdicts(claims: &[JudgedClaim]) -> Table<Vec<&JudgedClaim>> {
-    Table::from_rows(claims)
-        .column("claim", |judged| judged.claim.id.name())
-        .column("where in the paper", |judged| judged.claim.place)
-        .column("the paper's words", |judged| judged.claim.translation)
-        .column("what is judged", |judged| judged.claim.judged)
-        .column("verdict", |judged| judged.measured.words())
-        .column("scope", |judged| judged.scope.to_string())
-        .column("value", |judged| judged.measured.figure(short))
-        .column("what the value is", |judged| judged.claim.number)
-}
-
-/// Returns the verdicts that are not the same over the whole range.
-pub fn range(claims: &[JudgedClaim]) -> Table<Vec<(&JudgedClaim, Parameter)>> {
-    let changes = claims.iter().filter(|judged| {
-        judged.elsewhere.windows(2).any(|w| w[0].measured.verdict != w[1].measured.verdict)
-    });
-    Table::from_rows(changes.flat_map(|judged| Parameter::ALL.iter().map(move |p| (judged, *p))))
-        .column("claim", |(judged, _)| judged.claim.id.name())
-        .column("what is varied", |(_, parameter)| parameter.meaning())
-        .column("verdict at its values, with the value of the claim", |(judged, parameter)| {
-            over(judged, *parameter)
-        })
-}
-
 /// Reports a line for each claim that was judged over the range, and one for each parameter.
 pub fn over_the_range(claims: &[JudgedClaim]) -> Report {
     let judged = claims.iter().filter(|judged| !judged.elsewhere.is_empty());
     judged.fold(Report::default(), |report, judged| {
         let report = report.note(format!("{}: {}", judged.claim.id, judged.claim.judged));
         Parameter::ALL.iter().fold(report, |report, parameter| {
-            report.detail(format!("{}: {}", parameter.meaning(), over(judged, *parameter)))
+            report.detail(format!("{}: {}", parameter.explained(), over(judged, *parameter)))
         })
     })
 }

@@ -5,7 +5,6 @@ use serde::Serialize;
 use crate::audit::claims::claim_tables::under;
 use crate::audit::evidence::{NoFigures, Outcome};
 use crate::audit::prices::{CorrectedRun, NOTHING, Price, Weight, needed};
-use output::json;
 use output::layout::{counted, first_line, listed};
 use output::model::{Cell, Report, Table};
 use output::numbers::percent;
@@ -33,11 +32,6 @@ pub struct PricesOnScene<'a> {
     /// The corrected algorithm with all faults reintroduced, then a repair a row, with those above it; empty
     /// where that was not asked for.
     pub repairs: &'a [Price],
-}
-
-/// Returns the prices as JSON.
-pub fn json(document: &PricesOnScene, scene: &Scene) -> String {
-    json::line(Some(scene), document)
 }
 
 /// Reports the prices within an audit, and the way of repairs with its picture where that was asked for.

@@ -37,22 +37,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Returns the names of the kinds.
-    pub fn names() -> Vec<String> {
-        let command = <Self as clap::Subcommand>::augment_subcommands(clap::Command::new("mesh"));
-        command.get_subcommands().map(|kind| kind.get_name().to_string()).collect()
-    }
-
-    /// Returns each kind with its default parameters.
-    pub fn all() -> Vec<Self> {
-        let command = <Self as clap::Subcommand>::augment_subcommands(clap::Command::new("mesh"));
-        let kind = |name| {
-            let matches = command.clone().get_matches_from(["mesh".to_string(), name]);
-            <Self as clap::FromArgMatches>::from_arg_matches(&matches).expect("a name of a kind")
-        };
-        Kind::names().into_iter().map(kind).collect()
-    }
-
     /// Generates the scene; it has the kind's name.
     ///
     /// # Errors

@@ -1,9 +1,8 @@
 //! `plane-contact snapshot accept`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::given_files::{GivenFile, read_all, scene_of};
-use super::record::from_folder_of;
 use crate::snapshot::verified_file::{self as report, VerifiedFile};
 use crate::snapshot::{Snapshot, accept, difference};
 use base::exit::ExitStatus;
@@ -55,7 +54,8 @@ fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) 
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
-        new.scene_file = scene.path().and_then(|scene| from_folder_of(path, scene));
+        new.scene_file =
+            scene.path().and_then(|scene| files::from_folder_of(path, Path::new(scene)));
     }
     let was = text.as_deref().unwrap_or_default();
     let text = new.readable_text()?;

@@ -79,7 +79,8 @@ pub fn run(args: &Args) -> Result<()> {
             .out
             .clone()
             .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
-        snapshot.scene_file = scene_file.path().and_then(|scene| from_folder_of(&file, scene));
+        snapshot.scene_file =
+            scene_file.path().and_then(|scene| files::from_folder_of(&file, Path::new(scene)));
         write_new(&file, &snapshot.readable_text()?)?;
         print_report(recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
@@ -117,22 +118,6 @@ fn recorded(snapshot: &Snapshot) -> Report {
         );
         report.line(line).notes(run.numbers.iter().filter_map(said))
     })
-}
-
-/// Returns the path of a scene file from the folder of a snapshot, with `/`; None where there is none, as of
-/// standard input.
-pub fn from_folder_of(snapshot: &Path, scene: &str) -> Option<String> {
-    let folder = snapshot.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
-    // A folder that is not there yet is below one that is.
-    let there = folder.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
-    let folder = there.canonicalize().ok()?.join(folder.strip_prefix(there).unwrap_or(folder));
-    let scene = Path::new(scene).canonicalize().ok().filter(|path| path.is_file())?;
-    let pairs = scene.components().zip(folder.components());
-    let common = pairs.take_while(|(one, other)| one == other).count();
-    let up = folder.components().skip(common).map(|_| Some(".."));
-    let down = scene.components().skip(common).map(|part| part.as_os_str().to_str());
-    Some(up.chain(down).collect::<Option<Vec<_>>>()?.join("/"))
 }
 
 /// Writes a snapshot; an existing file with another content is kept.
