@@ -80,7 +80,7 @@ fn lesson(args: &Args) -> Result<String> {
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
         let fig1 = Scene::open("fig1")?;
-        let others = [lowered(fig1.clone()), fig1].map(Case::new);
+        let others = [fig1.clone(), lowered(fig1)].map(Case::new);
         let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;

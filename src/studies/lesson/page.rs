@@ -67,7 +67,7 @@ pub const ITERATE: [&str; 2] =
     [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
 
 /// What the page calls the scene fig1 with its contact nodes lowered.
-pub const LOWERED: &str = "fig1 with its contact nodes 10 c_tll lower";
+pub const LOWERED: &str = "fig1 with contact nodes lower by 10 c_tll";
 
 /// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those
 /// that border MJS), the name, and what it is; a later row comes before an earlier one.
