@@ -109,7 +109,6 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("page/teaching/questions.js"),
         include_str!("page/teaching/chapters.js"),
         include_str!("page/teaching/repairs.js"),
-        include_str!("page/teaching/beside.js"),
         include_str!("page/pictures/drag.js"),
         include_str!("page/frame/language.js"),
         include_str!("page/frame/address.js"),

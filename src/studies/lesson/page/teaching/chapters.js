@@ -142,11 +142,11 @@ function costInWords({ scene, price }) {
   const [name, error, stress, share] = [t(price.name), ...[energy_relative, Math.abs(von_mises_relative), transmitted].map(percent)];
   const values = { scene: t(scene.replace("findings/", "")), name, error, stress, share, way: von_mises_relative > 0 ? t("too high") : t("too low") };
   const sentences = {
-    fatal: () => t("On scene {scene}, {name} stops the run, or contact presses no node any more.", values),
-    shifts: () => t("On scene {scene}, {name} makes the largest von Mises stress {way} by {stress}: an error of {error} in energy, with {share} of the load on the target.", values),
-    free: () => t("On scene {scene}, {name} changes nothing.", values),
-    "decided by rounding": () => t("On scene {scene}, rounding decides what comes of {name}.", values),
-    "no fault under the scene's own friction": () => t("On scene {scene}, {name} changes nothing, as no node slides under its friction.", values),
+    fatal: () => t("On scene {scene}, the fault {name} stops the run, or contact presses no node any more.", values),
+    shifts: () => t("On scene {scene}, the fault {name} makes the largest von Mises stress {way} by {stress}: an error of {error} in energy, with {share} of the load on the target.", values),
+    free: () => t("On scene {scene}, the fault {name} changes nothing.", values),
+    "decided by rounding": () => t("On scene {scene}, rounding decides what comes of the fault {name}.", values),
+    "no fault under the scene's own friction": () => t("On scene {scene}, the fault {name} changes nothing, as no node slides under its friction.", values),
   };
   return sentences[weight]();
 }
@@ -161,7 +161,7 @@ function costsInWords({ prices }) {
   const near = loaded.filter(({ scene }) => [chapter().name, "fig1"].includes(scene));
   const costly = (list) => list.filter(({ price }) => !["free", "no fault under the scene's own friction"].includes(price.weight));
   const shown = [costly(near), [...near, ...costly(loaded)]].find((list) => list.length) ?? [];
-  return shown.length ? [t("Put back alone into the corrected algorithm:"), ...shown.map(costInWords)] : [];
+  return shown.length ? [t("The fault was put back alone into the corrected algorithm."), ...shown.map(costInWords)] : [];
 }
 
 function ofFinding(row) {
