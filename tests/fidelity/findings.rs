@@ -172,7 +172,7 @@ fn each_finding_is_present_on_its_scene() {
             &["restrained equations have 1 on the diagonal, the others 10000 to 20000"],
         ),
         ("K4", 2.0, &["0 rows of zeros without such a node, 2 with it, 2 if S holds it"]),
-        ("K5", 2.0, &["the contact state repeats, with 1, 0 nodes in contact in turn"]),
+        ("K5", 2.0, &["the contact state alternates with 1, 0 nodes in contact"]),
         ("K6", 1.0, &["the released stamp with one linked node is singular, with two solvable"]),
         ("K7", 1.0, &["pair 1 of triangle 2 has the weights 0.75, 0, and fl keeps the last"]),
         ("K8", -7.0, &["the least diagonal entry of MJS is -7, at y of node 1"]),

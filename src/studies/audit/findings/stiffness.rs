@@ -138,8 +138,8 @@ pub(super) fn cycle(case: &Case) -> Outcome<Evidence> {
     let cycle = steps.last().and_then(|step| step.cycle.as_ref());
     let cycle = cycle.ok_or_else(|| format!("no state came back in {} iterations", steps.len()))?;
     let counts = cycle.members.iter().map(|k| steps[k - 1].in_contact);
-    let detail =
-        format!("the contact state repeats, with {} nodes in contact in turn", listed(counts));
+    let how = if cycle.length == 1 { "settles" } else { "alternates" };
+    let detail = format!("the contact state {how} with {} nodes in contact", listed(counts));
     let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
     let verdict = match cycle.length {
         1 if entered => Presence::Contradicted,

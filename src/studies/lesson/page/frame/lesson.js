@@ -209,32 +209,22 @@ function watch() {
   watchMatrix(() => page.map);
 }
 
+/** The title of a chapter that has a topic; of another one, `otherwise`. */
+const titleOf = ({ finding, repairs, title }, otherwise) => (finding ? `${finding.id}: ${t(finding.title)}` : repairs ? tell(title) : otherwise);
+
 /** Lists the chapters. */
 function fillChapters() {
-  const name = ({ name, title, finding, repairs }) => {
-    if (finding) return titleOf(finding);
-    return repairs ? tell(title) : t("scene {name}", { name });
-  };
-  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, name(scene))));
+  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, titleOf(scene, t("scene {name}", scene)))));
 }
 
 /** Says what a chapter has: its title, its readings, and what it is there to show. */
 function fillChapter() {
   byId("run").replaceChildren(...chapter().runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
-  showTitle();
+  document.title = byId("title").textContent = titleOf(chapter(), t("Lesson: {title}", { title: tell(chapter().title) }));
   showFinding(chapter());
   const { name, sha256 } = chapter();
   const [scene, mesh] = sha256 ?? ["–", "–"];
   say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
-}
-
-const titleOf = ({ id, title }) => `${id}: ${t(title)}`;
-
-/** Shows the chapter's title. */
-function showTitle() {
-  const { finding, repairs, title } = chapter();
-  const words = finding ? titleOf(finding) : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
-  document.title = byId("title").textContent = words;
 }
 
 /** The variant that shows what a chapter is about: of a finding in Km its own matrix. */
