@@ -182,11 +182,3 @@ fn pressures(solution: &Solution, assessment: &Assessment) -> String {
     let hertz = measured.map_or(assessment.hertz.as_ref(), |measured| measured.hertz.as_ref());
     pressure::picture(&solution.request.scene, &runs, hertz)
 }
-<<<<<<< HEAD
-
-/// Draws the mesh of a finding's scene, under the finding's id.
-pub fn finding_picture(id: &str, scene: &Scene) -> String {
-    picture::small_mesh(&Drawing::new(scene, &format!("{id}: {}", scene.title)))
-}
-=======
->>>>>>> h3

@@ -1,12 +1,8 @@
 //! The quantities of a result as columns of a table and as arrays of numbers.
 
-use serde_json::{Value as Json, json};
-
 use super::model::{Cell, Table};
 use super::numbers::{Digits, decimals_of_places, quantity as with_its_unit};
-use engine::quantities::{
-    BodySummary, ContactNode, IterationRow, NodeFields, Quantity, TriangleValues, Unit, Value,
-};
+use engine::quantities::{ContactNode, NodeFields, Quantity, TriangleValues, Unit, Value};
 use problem::scene::Units;
 
 /// The values of a quantity at all places: its name and unit, the number of components, and all
@@ -137,27 +133,4 @@ pub fn array<T>(quantity: &Quantity<T>, values: Vec<f64>, units: &Units) -> Arra
         symbols => (symbols.len().max(1), values),
     };
     Array::new(&quantity.array(), unit, components, values)
-}
-
-/// Returns what a page needs to know of the quantities, by the place where they live.
-pub fn on_pages() -> Json {
-    json!({
-        "iteration": of_place(IterationRow::QUANTITIES),
-        "body": of_place(BodySummary::QUANTITIES),
-        "node": of_place(NodeFields::QUANTITIES),
-        "triangle": of_place(TriangleValues::QUANTITIES),
-        "contact": of_place(ContactNode::QUANTITIES),
-    })
-}
-
-fn of_place<T>(quantities: &[Quantity<T>]) -> Vec<Json> {
-    let quantity = |quantity: &Quantity<T>| {
-        json!({
-            "name": quantity.name,
-            "title": quantity.title,
-            "symbols": quantity.symbols.iter().map(|s| s.replace('_', "")).collect::<Vec<_>>(),
-            "unit": quantity.unit,
-        })
-    };
-    quantities.iter().filter(|quantity| !quantity.title.is_empty()).map(quantity).collect()
 }

@@ -12,10 +12,10 @@ use plane_contact::paper::mirror::Reading;
 use plane_contact::problem::element::Plane;
 use plane_contact::problem::scene::{SCENES, Scene};
 use plane_contact::studies::audit::Case;
-use plane_contact::studies::audit::findings::{FINDINGS, Finding, Presence, Repair};
+use plane_contact::studies::audit::findings::{FINDINGS, Finding, Repair};
 use plane_contact::studies::audit::prices::price_tables::ORDER;
 use plane_contact::studies::lesson::language::{messages, of_interpreter};
-use plane_contact::studies::lesson::page::{ITERATE, meanings};
+use plane_contact::studies::lesson::page::{ITERATE, LOWERED, meanings};
 use plane_contact::studies::lesson::{Switch, chapter, switches};
 
 /// The files of the lesson whose names end so.
@@ -75,17 +75,17 @@ fn in_registers() -> BTreeSet<String> {
     let switches = switches.chain([edited]).flat_map(of_switch);
     let names = FAULTS.iter().map(|fault| fault.name()).filter(|name| name.contains(' '));
     let faults = FAULTS.iter().map(|fault| fault.words()).chain(names);
-    let verdicts = Presence::ALL.iter().map(|verdict| verdict.name().to_string());
-    let titles = scenes.iter().map(|scene| scene.title.clone()).chain([ORDER.into()]);
+    let titles =
+        scenes.iter().map(|scene| scene.title.clone()).chain([ORDER.into(), LOWERED.into()]);
     let findings = FINDINGS.iter().flat_map(of_finding);
     let meanings = meanings().map(|[.., meaning]| meaning.to_string());
     let named = titles.chain(meanings);
-    switches.chain(faults).chain(verdicts).chain(named).chain(findings).collect()
+    switches.chain(faults).chain(named).chain(findings).collect()
 }
 
 /// What a switch says but names, such as `R1 = inside` and `c_cnt 14`.
 fn of_switch(switch: Switch) -> Vec<String> {
-    let is_name = switch.name.contains(" = ") || switch.name.starts_with("c_tll");
+    let is_name = switch.name.contains(" = ");
     let about = switch.about.into_iter().map(str::to_string);
     let place = (switch.lines == "both").then(|| "both".to_string());
     about.chain(place).chain((!is_name).then_some(switch.name)).collect()
@@ -93,7 +93,7 @@ fn of_switch(switch: Switch) -> Vec<String> {
 
 /// What a finding says, but for the interpreter's words.
 fn of_finding(finding: &Finding) -> Vec<String> {
-    let Finding { title, number, why, repair, .. } = *finding;
+    let Finding { title, why, repair, .. } = *finding;
     let case = Case::new(finding.scene());
     let detail = finding.measure(&case).detail;
     let detail = (!detail.starts_with("c_cnt, line")).then_some(detail);
@@ -101,7 +101,7 @@ fn of_finding(finding: &Finding) -> Vec<String> {
         Repair::None { reason } => Some(reason),
         Repair::Edit { .. } => None,
     };
-    let texts = [title, number, why, repair, &case.scene.title].into_iter().chain(reason);
+    let texts = [title, why, repair, &case.scene.title].into_iter().chain(reason);
     texts.map(str::to_string).chain(detail).collect()
 }
 

@@ -179,24 +179,22 @@ fn the_lesson_is_in_russian() {
 }
 
 #[test]
-fn the_report_shows_what_solve_and_audit_have() {
+fn the_report_shows_what_the_audit_has() {
     let folder = TempDir::new().expect("a folder");
     let Some(modules) = browser() else { return };
     let page = made(folder.path(), "report.html", &["report", "fig1"]);
-    let result = made(folder.path(), "result.json", &["solve", "fig1", "--fields", "--json"]);
     let audit = made(folder.path(), "audit.json", &["audit", "fig1", "--json"]);
-    in_browser(&modules, "report.cjs", &[&page, &result, &audit]);
+    in_browser(&modules, "report.cjs", &[&page, &audit]);
 }
 
-/// The page of the paper's example: its first screen, and its fields, which are drawn as fast as those of a large mesh.
+/// The page of the paper's example, and its first screen.
 #[test]
-fn the_report_of_strand_is_small_and_fast() {
+fn the_report_of_strand_is_small() {
     let folder = TempDir::new().expect("a folder");
     let page = made(folder.path(), "report.html", &["report", "strand"]);
     let size = std::fs::metadata(&page).expect("a file").len();
     assert!(size < 1_500_000, "{size} bytes");
     let Some(modules) = browser() else { return };
-    in_browser(&modules, "large.cjs", &[&page, "2014"]);
     let pictures = folder.path().to_string_lossy().into_owned();
     in_browser(&modules, "first.cjs", &[&page, &pictures]);
     keep_picture(folder.path(), "report-1440-light.png");

@@ -16,7 +16,7 @@ use base::xml::escape;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
-/// The script of tables that are sorted by their columns.
+/// The script of tables that copy as CSV.
 pub const TABLE: &str = include_str!("table.js");
 
 /// The interpreter of the listings' notation that a page executes, which has the bits of `mathcad`: its

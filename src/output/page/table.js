@@ -30,17 +30,3 @@ function addCopying(table) {
   };
   table.caption.append(" ", button(t("copy as CSV"), copying, { "aria-label": t("copy as CSV: {title}", { title: table.caption.textContent }) }));
 }
-
-/** A table of rows: each column has a heading, the value of a row, and a class where it is text. */
-function tableOf(title, columns, rows) {
-  const head = columns.map(([text, , kind]) => make("th", { scope: "col", class: kind ?? "number" }, text));
-  const cell = (row) => ([, of, kind]) => {
-    const value = of(row);
-    const shown = value === null || value === undefined ? "-" : brief(value);
-    const full = typeof value === "number" && shown !== String(value) ? exact(value) : undefined;
-    return make("td", { class: kind ?? "number", "data-exact": full }, shown);
-  };
-  const table = tableFrom(title, head, rows.map((row) => columns.map(cell(row))));
-  addCopying(table);
-  return make("div", { class: "table", tabindex: 0, role: "region", "aria-label": title }, table);
-}

@@ -25,7 +25,7 @@ pub mod svg;
 pub mod view;
 
 pub use self::chart::{Axis, Series, Style, chart, small_chart};
-pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, boundary_edges, points};
+pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, boundary_edges};
 pub use self::fields::field;
 
 use self::bodies::{draw_bodies, legend};
@@ -113,7 +113,7 @@ pub fn beside(
     unit: &str,
     fields: &[(String, Vec<f64>)],
 ) -> String {
-    let mut page = Page::small(quantity);
+    let mut page = if fields.len() > 2 { Page::new(quantity) } else { Page::small(quantity) };
     let all: Vec<f64> = fields.iter().flat_map(|(_, values)| values.iter().copied()).collect();
     let scale = ColourScale::from_values(&all);
     let outline = boundary_edges(&drawing.triangles);

@@ -1,5 +1,6 @@
 //! `plane-contact lesson`.
 
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -78,8 +79,9 @@ fn lesson(args: &Args) -> Result<String> {
         let runs = switches.filter_map(|switch| Some((switch.clone(), switch.model(&scene).ok()?)));
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
-        let fig1 = Case::new(Scene::open("fig1")?);
-        let findings = FINDINGS.iter().map(|finding| chapter(finding, &fig1));
+        let fig1 = Scene::open("fig1")?;
+        let others = [fig1.clone(), lowered(fig1)].map(Case::new);
+        let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;
     Ok(page::html(&chapters, args.lang))
@@ -104,14 +106,24 @@ fn repairs(scene: &Scene, nodes: Vec<usize>) -> Result<Chapter> {
     Ok(Chapter { scene, runs, nodes, finding: None, repairs, reference: Some(u) })
 }
 
+/// Returns a scene whose contact nodes stand deeper by ten tolerances: the search of the print loses them.
+fn lowered(mut scene: Scene) -> Scene {
+    let model = Arc::make_mut(&mut scene.model);
+    for node in &model.contact.nodes {
+        model.nodes[node.index()][1] -= 10.0 * model.contact.tolerance;
+    }
+    scene.name = page::LOWERED.into();
+    scene
+}
+
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
-/// fig1.
-fn chapter(finding: &'static Finding, fig1: &Case) -> Result<Chapter> {
+/// others.
+fn chapter(finding: &'static Finding, others: &[Case]) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
     let evidence = finding.measure(&case);
-    let priced = [&case, fig1].into_iter().flat_map(|case| {
+    let priced = iter::once(&case).chain(others).flat_map(|case| {
         let prices = prices(case, finding).into_iter();
         prices.map(|price| (case.scene.name.clone(), price))
     });

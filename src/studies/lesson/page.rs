@@ -55,10 +55,7 @@ pub struct Measured {
 
 impl Measured {
     fn json(&self) -> Value {
-        let price = |(scene, price): &(String, Price)| {
-            let error = Some(price.error()).filter(|error| error.is_finite());
-            json!({ "scene": scene, "name": price.name, "weight": price.weight, "error": error })
-        };
+        let price = |(scene, price): &(String, Price)| json!({ "scene": scene, "price": price });
         let mut row = json!(FindingRow { finding: self.finding, measured: &self.evidence });
         row["prices"] = self.prices.iter().map(price).collect();
         row
@@ -68,6 +65,9 @@ impl Measured {
 /// The worksheet of a scene, and the iterations around the listings, which need the interpreter alone.
 pub const ITERATE: [&str; 2] =
     [include_str!("page/iterations/worksheet.js"), include_str!("page/iterations/iterate.js")];
+
+/// What the page calls the scene fig1 with its contact nodes lowered.
+pub const LOWERED: &str = "fig1 with contact nodes lower by 10 c_tll";
 
 /// What the names of the listings are: of which listings it is said (the print's, the corrected ones, those
 /// that border MJS), the name, and what it is; a later row comes before an earlier one.
@@ -109,7 +109,6 @@ pub fn html(chapters: &[Chapter], language: Language) -> String {
         include_str!("page/teaching/questions.js"),
         include_str!("page/teaching/chapters.js"),
         include_str!("page/teaching/repairs.js"),
-        include_str!("page/teaching/beside.js"),
         include_str!("page/pictures/drag.js"),
         include_str!("page/frame/language.js"),
         include_str!("page/frame/address.js"),

@@ -1,4 +1,4 @@
-//! What a lesson can switch: readings, the tolerance, an edited listing, a finding's repair.
+//! What a lesson can switch: readings, an edited listing, a finding's repair.
 
 use std::sync::Arc;
 
@@ -21,17 +21,11 @@ pub struct Switch {
     reading: Reading,
     /// What is changed of the worksheet beside the reading.
     worksheet: Change,
-    /// The tolerance over the scene's.
-    factor: f64,
     /// What is changed of the scene's model.
     model: fn(&mut Model),
     /// The listing in place of one of the paper's.
     edited: Option<(Which, Listing)>,
 }
-
-/// Tolerances over the scene's own.
-const TOLERANCES: [(f64, &str); 3] =
-    [(0.1, "c_tll / 10"), (2.0, "c_tll · 2"), (10.0, "c_tll · 10")];
 
 /// Returns the switches that a lesson offers on a scene, first the one that changes nothing: of the
 /// readings those that concern a printed line, which a call of the listings can show.
@@ -47,14 +41,7 @@ pub fn switches(scene: &Scene) -> Vec<Switch> {
             ..Switch::as_printed()
         })
     });
-    let tolerances = TOLERANCES.map(|(factor, name)| Switch {
-        name: name.into(),
-        lines: "c_cnt 5-7, 16",
-        about: vec!["tolerance"],
-        factor,
-        ..Switch::as_printed()
-    });
-    std::iter::once(Switch::as_printed()).chain(readings).chain(tolerances).collect()
+    std::iter::once(Switch::as_printed()).chain(readings).collect()
 }
 
 /// Returns what a finding's chapter runs: the listings as printed, where the finding shows, and
@@ -97,7 +84,6 @@ impl Switch {
             about: vec!["the listings as printed, under the default of every reading"],
             reading: Reading::default(),
             worksheet: Change::None,
-            factor: 1.0,
             model: |_| (),
             edited: None,
         }
@@ -119,8 +105,7 @@ impl Switch {
     /// # Errors
     /// The plane problem of R6 does not allow a Poisson's ratio.
     pub fn model(&self, scene: &Scene) -> Result<Arc<Model>> {
-        let mut request = Request::new(scene).variant(Variant::Printed).reading(self.reading);
-        request.tolerance = Some(self.factor * scene.model.contact.tolerance);
+        let request = Request::new(scene).variant(Variant::Printed).reading(self.reading);
         let mut model = Arc::unwrap_or_clone(request.model()?);
         (self.model)(&mut model);
         Ok(Arc::new(model))

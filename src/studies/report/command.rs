@@ -31,9 +31,9 @@ const MOST_NODES: usize = 500;
 The first screen, and page 1 in print: a verdict, the runs beside the equilibrium, pressure \
 and von Mises stress, the claims by how far they reach, the faults by what they cost. Below, parts \
 unfold: what the verdict leaves out, each claim and finding in full, readings and variants, figures, \
-differences from CalculiX, a glossary, and the command that makes it again, versions and hashes. The page is one file that opens offline. It has the fields of every run \
-at their end, under the pointer and at probes, and tables that copy as CSV; it prints on A4. It \
-takes a minute on strand, more with --repairs.
+differences from CalculiX, a glossary, and the command that makes it again, versions and hashes. \
+The page is one file that opens offline, with tables that copy as CSV; it prints on A4. It takes a \
+minute on strand, more with --repairs.
 
 Examples:
   plane-contact report

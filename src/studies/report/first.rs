@@ -99,7 +99,7 @@ fn key(html: &str) -> String {
     format!("<ul class=\"key\">{items}</ul>\n")
 }
 
-/// Returns the menu of a report's sections, and of the fields, which a script shows.
+/// Returns the menu of a report's sections.
 pub fn menu(parts: &Report) -> String {
     let link = |(place, words): (String, &str)| {
         format!("<li><a href=\"#{place}\">{}</a></li>", prose(words))
@@ -107,8 +107,7 @@ pub fn menu(parts: &Report) -> String {
     let sections: Vec<String> = parts.sections().map(link).collect();
     let count = counted(sections.len(), "part", "parts");
     format!(
-        "<nav aria-label=\"Contents\"><details id=\"menu\"><summary>Contents <span class=\"muted\">{count}</span></summary><ul>{}\
-         <li id=\"to-fields\" hidden><a href=\"#fields\">Fields of every run</a></li></ul></details></nav>",
+        "<nav aria-label=\"Contents\"><details id=\"menu\"><summary>Contents <span class=\"muted\">{count}</span></summary><ul>{}</ul></details></nav>",
         sections.concat()
     )
 }

@@ -65,7 +65,7 @@ fn audited(found: &Audit, repairs: &[Price]) -> Report {
         Report::default().heading("Each finding in full (`audit --finding C4` explains one)");
     let findings = found.findings.iter().fold(findings, |report, (finding, measured)| {
         let (id, scene) = (finding.id, finding.scene());
-        let picture = picture::mesh(&Drawing::new(&scene, &format!("{id}: {}", scene.title)));
+        let picture = picture::small_mesh(&Drawing::new(&scene, &format!("{id}: {}", scene.title)));
         report
             .then(explanation(finding, measured, &found.scene, &found.conclusion.reading).deeper(2))
             .figure(format!("The smallest scene that shows {id}"), picture)
@@ -136,15 +136,13 @@ fn pictures(contents: &Contents) -> Vec<Picture> {
         let svg = pressure::small_picture(scene, &passing, hertz.as_ref());
         ("Contact pressure along the contact surface".into(), svg)
     });
-    pressure.into_iter().chain(beside(contents, "von_mises_stress")).collect()
+    pressure.into_iter().chain(beside(scene, &two(contents), "von_mises_stress")).collect()
 }
 
-/// Draws a field of the triangles in two runs side by side; nothing without a run.
-fn beside(contents: &Contents, field: &str) -> Option<Picture> {
-    let scene = contents.scene;
+/// Draws a field of the triangles in some runs side by side; nothing without a run.
+fn beside(scene: &Scene, runs: &[(String, &Solution)], field: &str) -> Option<Picture> {
     let quantity = TriangleValues::QUANTITIES.iter().find(|quantity| quantity.name == field);
     let quantity: &Quantity<TriangleValues> = quantity.expect("it is declared");
-    let runs = two(contents);
     let array = |run| triangle_array(quantity, &TriangleValues::all(run, None), &scene.units);
     let arrays: Vec<_> =
         runs.iter().filter_map(|(name, run)| Some((name.clone(), array(run)?))).collect();
@@ -157,7 +155,7 @@ fn beside(contents: &Contents, field: &str) -> Option<Picture> {
     Some((title, svg))
 }
 
-/// Shows the mesh, the strain, then pressure, shear and gap of all runs.
+/// Shows the mesh, the strain, then stress, pressure, shear and gap of all runs.
 fn figures(contents: &Contents) -> Report {
     let Some(Run { solution, assessment }) = contents.runs.last() else { return Report::default() };
     let scene = contents.scene;
@@ -168,10 +166,15 @@ fn figures(contents: &Contents) -> Report {
     let report = Report::default()
         .heading(heading)
         .figure(mesh, picture::mesh(&Drawing::new(scene, &scene.title)));
-    let report = match beside(contents, "von_mises_strain") {
-        Some((title, svg)) => report.figure(format!("{strain}{title}"), svg),
-        None => report,
-    };
+    let calculix = contents.calculix.as_ref().map(|own| ("CalculiX".into(), &own.beside.field));
+    let every: Vec<_> = named(contents).into_iter().chain(calculix).collect();
+    let fields = [
+        (strain, beside(scene, &two(contents), "von_mises_strain")),
+        ("", beside(scene, &every, "von_mises_stress")),
+    ];
+    let fields = fields.into_iter().filter_map(|(name, picture)| Some((name, picture?)));
+    let report = fields
+        .fold(report, |report, (name, (title, svg))| report.figure(format!("{name}{title}"), svg));
     let surface = if solution.contact.is_empty() { Report::default() } else { surface(contents) };
     report.then(tables::error_estimates(solution, assessment)).then(surface)
 }

@@ -5,13 +5,9 @@ const { open, run } = require("./browser.cjs");
 
 const [file, kind] = process.argv.slice(2);
 
-/** CalculiX is a run as any other: all that its displacements imply is known. */
+/** CalculiX is a run as any other in the picture of all runs. */
 async function calculix(page) {
-  await page.selectOption("#run-1", { label: "CalculiX" });
-  for (const field of ["strain εx", "von Mises strain", "gap", "contact pressure", "von Mises stress"]) {
-    await page.selectOption("#field", { label: field });
-    assert.match(await page.textContent("#said-1"), new RegExp(`^CalculiX: ${field} from `));
-  }
+  assert.equal(await page.locator('article img[alt^="von Mises stress"][alt*="CalculiX"]').count(), 1);
   assert.equal(await page.locator('article div[aria-label^="Largest differences"]').count(), 1);
 }
 

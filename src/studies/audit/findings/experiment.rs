@@ -4,8 +4,10 @@
 use super::Evidence;
 use crate::audit::Case;
 use crate::audit::evidence::Outcome;
+use base::plain::six_digits;
 use numbers::square::SparseSquare;
-use paper::door::{self, Call};
+use output::numbers::with_unit;
+use paper::door::{self, Call, ContactStatus};
 use paper::mirror::Failure;
 use problem::element::area;
 use problem::model::{EdgeId, Model, TriangleId};
@@ -27,14 +29,14 @@ pub(super) fn count(found: impl IntoIterator<Item = String>) -> Evidence {
     if found.len() > SHOWN {
         detail += &format!("; and {} more", found.len() - SHOWN);
     }
-    let detail = if found.is_empty() { "none".into() } else { detail };
+    let detail = if found.is_empty() { "there is none".into() } else { detail };
     Evidence::present_if(!found.is_empty(), found.len() as f64, detail)
 }
 
 /// Counts the entries of the contact surface of which `words` has something to say.
 pub(super) fn count_nodes(model: &Model, words: impl Fn(usize) -> Option<String>) -> Evidence {
     let nodes = model.contact.nodes.iter().enumerate();
-    count(nodes.filter_map(|(i, node)| Some(format!("node {node}: {}", words(i)?))))
+    count(nodes.filter_map(|(i, node)| Some(format!("node {node} {}", words(i)?))))
 }
 
 /// An experiment at the initial shape and at the last shape of each variant that runs: the heaviest
@@ -47,7 +49,7 @@ pub(super) fn at_shapes(
     for (name, shape) in shapes(case) {
         let nothing = |failure: Failure| Evidence::present_if(false, 0.0, failure.to_string());
         let mut here = experiment(&shape).unwrap_or_else(nothing);
-        here.detail = format!("{name}: {}", here.detail);
+        here.detail = format!("{name} {}", here.detail);
         let weight = |m: &Evidence| (m.verdict, m.number.map(f64::abs));
         if heaviest.as_ref().is_none_or(|most| weight(&here) > weight(most)) {
             heaviest = Some(here);
@@ -65,11 +67,11 @@ pub(super) fn at_calls(
 }
 
 fn shapes(case: &Case) -> Vec<(String, Vec<[f64; 2]>)> {
-    let mut shapes = vec![("initial shape".to_string(), case.model().nodes.clone())];
+    let mut shapes = vec![("in the initial shape".to_string(), case.model().nodes.clone())];
     for variant in Variant::OF_THE_PAPER {
         if let Ok(solution) = case.run(*variant) {
             let shape = solution.model.shape(&solution.u);
-            shapes.push((format!("last shape of {variant}"), shape));
+            shapes.push((format!("in the last shape of {variant}"), shape));
         }
     }
     shapes
@@ -93,9 +95,22 @@ pub(super) fn mjs(case: &Case, model: &Model, shape: &Shape) -> Result<SparseSqu
     Ok(door::holding_dropped(model, c_cnt(case, model, shape)?.km(case.reading())?))
 }
 
-/// 1 where an entry is in contact, else 0: the listing's `dy`.
-pub(super) fn dy(call: &Call, i: usize) -> usize {
-    usize::from(call.statuses[i].in_contact)
+/// Says where a node lies that is so far below an edge: `lies 0.3 mm above edge 1`.
+pub(super) fn place(case: &Case, edge: EdgeId, below: f64) -> String {
+    let (edge, side) =
+        (case.model().edge(edge).number, if below < 0.0 { "above" } else { "below" });
+    let length = with_unit(&six_digits(below.abs()), &case.scene.units.length);
+    if below == 0.0 {
+        format!("lies on edge {edge}")
+    } else {
+        format!("lies {length} {side} edge {edge}")
+    }
+}
+
+/// Says what `c_cnt` has of a node: `lies 0.3 mm above edge 1 and is in contact`.
+pub(super) fn said(case: &Case, own: &ContactStatus) -> String {
+    let place = own.edge.map_or("has no edge".into(), |edge| place(case, edge, own.distance));
+    format!("{place} and is {}in contact", if own.in_contact { "" } else { "not " })
 }
 
 /// The coordinates of the ends of an edge in a shape, length.

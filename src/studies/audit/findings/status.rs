@@ -1,6 +1,6 @@
 //! Findings of the contact status: c_cnt 15-18.
 
-use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, dy, inner_sign};
+use super::experiment::{Shape, at_calls, at_shapes, c_cnt, count_nodes, inner_sign, said};
 use super::{Evidence, Presence};
 use crate::audit::Case;
 use crate::audit::evidence::Outcome;
@@ -21,8 +21,8 @@ pub(super) fn upside_down(case: &Case) -> Outcome<Evidence> {
         let mirrored = c_cnt(case, case.model(), &with_y(shape, |_, y| -y))?;
         Ok(count_nodes(case.model(), |i| {
             let (own, other) = (as_is.statuses[i], mirrored.statuses[i]);
-            let [dy, down] = [own, other].map(|status| usize::from(status.in_contact));
-            let words = || format!("yt {:.3e} dy {dy}, upside down dy {down}", own.distance);
+            let words =
+                || format!("{}, but upside down it {}", said(case, &own), said(case, &other));
             (own.edge == other.edge && own.in_contact != other.in_contact).then(words)
         }))
     })
@@ -42,7 +42,7 @@ pub(super) fn deep_runs(case: &Case) -> Outcome<Evidence> {
         count_nodes(model, |i| {
             let status = call.statuses[i];
             let missed = !status.in_contact && deep(i) && beside(i);
-            missed.then(|| format!("yt {:.3e} dy 0", status.distance))
+            missed.then(|| said(case, &status))
         })
     })
 }
@@ -56,13 +56,13 @@ pub(super) fn strictly_less(case: &Case) -> Outcome<Evidence> {
         let touches =
             |i: usize| call.statuses[i].edge.is_some() && call.statuses[i].distance == 0.0;
         let flagged = |i: usize| call.statuses[i].in_contact;
-        let words = |i: usize| format!("yt {:.3e} dy {}", call.statuses[i].distance, dy(&call, i));
+        let words = |i: usize| said(case, &call.statuses[i]);
         let on_edge = count_nodes(&model, |i| touches(i).then(|| words(i)));
         if (0..call.statuses.len()).any(|i| touches(i) && flagged(i)) {
             return Ok(Evidence { verdict: Presence::Contradicted, ..on_edge });
         }
         let by_sign = count_nodes(&model, |i| flagged(i).then(|| words(i))).detail;
-        let detail = format!("{}; flagged by lines 17-18: {by_sign}", on_edge.detail);
+        let detail = format!("{}; by lines 17 and 18, {by_sign}", on_edge.detail);
         Ok(Evidence { detail, ..on_edge })
     })
 }
@@ -105,10 +105,15 @@ pub(super) fn rounding_noise(case: &Case) -> Outcome<Evidence> {
         let up = c_cnt(case, model, &moved(2.0 * noise))?;
         let down = c_cnt(case, model, &moved(-2.0 * noise))?;
         Ok(count_nodes(model, |i| {
-            let (yt, up, down) = (call.statuses[i].distance, dy(&up, i), dy(&down, i));
-            let words =
-                || format!("yt {yt:.3e}, dy {up} or {down} as its neighbour moves by ±{noise:.0e}");
-            (!on_edge(i) && up != down).then(words)
+            let [own, up, down] = [&call, &up, &down].map(|call| call.statuses[i]);
+            let way = if up.in_contact { "up" } else { "down" };
+            let words = || {
+                format!(
+                    "{} once its neighbour moves {way} by {noise:.0e}, else not",
+                    said(case, &own)
+                )
+            };
+            (!on_edge(i) && up.in_contact != down.in_contact).then(words)
         }))
     })
 }
@@ -123,7 +128,8 @@ pub(super) fn touching_neighbour(case: &Case) -> Outcome<Evidence> {
             let distances = beside.filter_map(|i| Some(call.statuses.get(i)?.distance));
             let only_touch = distances.filter(|yt| *yt > 0.0).all(|yt| yt < tolerance);
             let apart = status.in_contact && status.distance <= -tolerance;
-            (apart && only_touch).then(|| format!("yt {:.3e} dy 1", status.distance))
+            let words = || format!("{}, as a node beside it touches", said(case, &status));
+            (apart && only_touch).then(words)
         })
     })
 }

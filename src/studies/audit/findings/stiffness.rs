@@ -8,8 +8,11 @@ use super::experiment::{
 use super::{Evidence, Presence};
 use crate::audit::Case;
 use crate::audit::evidence::Outcome;
+use base::plain::six_digits;
 use engine::linear::SparseCholesky;
 use engine::{Constraint, Detail, Elimination, Stiffness, max_displacement};
+use output::layout::listed;
+use output::numbers::with_unit;
 use paper::door::{self, Call};
 use paper::mirror::Failure;
 use problem::model::{Dof, Model, NodeId, TriangleId};
@@ -29,7 +32,9 @@ pub(super) fn nothing_joins(case: &Case) -> Outcome<Evidence> {
             let norm = |n: &NodeId| solution.u.rows(n.x().index(), 2).norm();
             let largest = target.nodes.iter().map(norm).fold(0.0, f64::max);
             let most = max_displacement(&solution.u);
-            format!("printed: the target moves by {largest:e}, the stamp by {most:.3e}")
+            let [target, stamp] =
+                [largest, most].map(|x| with_unit(&six_digits(x), &case.scene.units.length));
+            format!("under printed the stamp moves by {stamp}, the target by {target}")
         }
         _ => "printed does not run".into(),
     };
@@ -45,7 +50,13 @@ fn additions(model: &Model, call: &Call, is: impl Fn(&[f64]) -> bool) -> Vec<(Tr
         let linked = rows.filter(|row| row[2 * pair - 2] > 0.0);
         let weights: Vec<f64> = linked.map(|row| row[2 * pair - 1]).collect();
         if is(&weights) {
-            found.push((id, format!("triangle {id}, pair {pair}: weights {weights:?}")));
+            let weights = listed(weights.into_iter().map(six_digits));
+            found.push((
+                id,
+                format!(
+                    "pair {pair} of triangle {id} has the weights {weights}, and fl keeps the last"
+                ),
+            ));
         }
     }
     found
@@ -79,7 +90,10 @@ pub(super) fn ones_on_the_diagonal(case: &Case) -> Outcome<Evidence> {
             of.fold((f64::INFINITY, 0.0_f64), |(low, high), (x, _)| (low.min(*x), high.max(*x)))
         };
         let ((low, high), (one, _)) = (range(true), range(false));
-        let detail = format!("restrained: {one}, others {low:.4e} to {high:.4e}");
+        let [own, least, most] = [one, low, high].map(six_digits);
+        let detail = format!(
+            "restrained equations have {own} on the diagonal, the others {least} to {most}"
+        );
         let outside = one < low || (one > high && one.is_finite());
         Ok(Evidence::present_if(outside, high.max(one) / low.min(one), detail))
     })
@@ -90,7 +104,9 @@ pub(super) fn stiffness_taken_away(case: &Case) -> Outcome<Evidence> {
     at_shapes(case, |shape| {
         let diagonal = mjs(case, case.model(), shape)?.diagonal();
         let (at, smallest) = diagonal.argmin();
-        let detail = format!("node {}, direction {}", at / 2 + 1, ["x", "y"][at % 2]);
+        let (node, axis, least) = (at / 2 + 1, ["x", "y"][at % 2], six_digits(smallest));
+        let detail =
+            format!("the least diagonal entry of MJS is {least}, at {axis} of node {node}");
         Ok(Evidence::present_if(smallest < 0.0, smallest, detail))
     })
 }
@@ -111,7 +127,7 @@ pub(super) fn orphan(case: &Case) -> Outcome<Evidence> {
     let [own, free, restrained] = [None, Some(&[][..]), Some(&dofs)].map(zero_rows);
     let (own, free, restrained) = (own?, free?, restrained?);
     let detail = format!(
-        "rows of zeros: {own} without the node, {free} with it, {restrained} where S restrains it"
+        "MJS has {own} rows of zeros without such a node, {free} with it, {restrained} if S holds it"
     );
     Ok(Evidence::must_be_present(free == own + 2, (free - own) as f64, detail))
 }
@@ -122,7 +138,8 @@ pub(super) fn cycle(case: &Case) -> Outcome<Evidence> {
     let cycle = steps.last().and_then(|step| step.cycle.as_ref());
     let cycle = cycle.ok_or_else(|| format!("no state came back in {} iterations", steps.len()))?;
     let counts = cycle.members.iter().map(|k| steps[k - 1].in_contact);
-    let detail = format!("nodes in contact: {:?}", counts.collect::<Vec<_>>());
+    let how = if cycle.length == 1 { "settles" } else { "alternates" };
+    let detail = format!("the contact state {how} with {} nodes in contact", listed(counts));
     let entered = steps.iter().any(|step| step.statuses() != steps[0].statuses());
     let verdict = match cycle.length {
         1 if entered => Presence::Contradicted,
@@ -149,9 +166,10 @@ pub(super) fn pulls(case: &Case) -> Outcome<Evidence> {
         let free = statuses[i].node.dofs().into_iter().filter(|dof| !model.is_restrained(*dof));
         free.map(|dof| force[dof.index()] * away[dof.direction()]).sum::<f64>()
     };
+    let force_of = |x: f64| with_unit(&six_digits(x), &case.scene.units.force);
     Ok(count_nodes(model, |i| {
         let pulls = statuses[i].in_contact && push(i) < -rounding;
-        pulls.then(|| format!("bound with a pull of {:.3e}", -push(i)))
+        pulls.then(|| format!("stays in contact although it pulls with {}", force_of(-push(i))))
     }))
 }
 
@@ -176,6 +194,6 @@ pub(super) fn hinge(case: &Case) -> Outcome<Evidence> {
         Some(false) => "solvable",
         None => "not in this scene",
     });
-    let detail = format!("one linked node: {one}; two: {two}");
+    let detail = format!("the released stamp with one linked node is {one}, with two {two}");
     Ok(Evidence::must_be_present(singular[0] == Some(true), most as f64, detail))
 }

@@ -4,7 +4,9 @@ use super::Evidence;
 use super::experiment::{ROUNDING, at_calls, at_shapes, count, count_nodes, mjs};
 use crate::audit::Case;
 use crate::audit::evidence::Outcome;
+use base::plain::six_digits;
 use engine::Detail;
+use output::layout::listed;
 use paper::door::{NodeToSegment, linked, worksheet};
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -22,7 +24,10 @@ pub(super) fn outside_the_edge(case: &Case) -> Outcome<Evidence> {
                 let outside = [k1, k2].map(|k| (k - 1.0).max(-k)).into_iter().fold(0.0, f64::max);
                 if outside > furthest.number.unwrap_or(0.0).max(ROUNDING) {
                     let k = step.k;
-                    let detail = format!("{variant}, iteration {k}: node {node}: {k1:.4}, {k2:.4}");
+                    let [k1, k2] = [k1, k2].map(six_digits);
+                    let detail = format!(
+                        "iteration {k} of {variant} gives node {node} the weights {k1} and {k2}"
+                    );
                     furthest = Evidence::present_if(true, outside, detail);
                 }
             }
@@ -43,8 +48,8 @@ pub(super) fn shared_nodes(case: &Case) -> Outcome<Evidence> {
             }
         }
         count(model.node_ids().zip(&constrained).filter(|(_, by)| by.len() > 1).map(|(n, by)| {
-            let row = call.row(n).map(|x| x.to_string()).join(" ");
-            format!("node {n}: mates {by:?}, k_cnt {row}")
+            let ([kept, sum, ..], by) = (call.row(n).map(six_digits), listed(by));
+            format!("node {n} is a mate of nodes {by}, but keeps node {kept} alone, with the weight {sum}")
         }))
     })
 }
@@ -60,7 +65,8 @@ pub(super) fn listed_twice(case: &Case) -> Outcome<Evidence> {
         let twice = count_nodes(model, |i| {
             let node = model.contact.nodes[i];
             let times = model.contact.nodes.iter().filter(|other| **other == node).count();
-            let words = || format!("listed {times} times, weights sum to {}", sum(node));
+            let words =
+                || format!("is listed {times} times, and its weights add up to {}", sum(node));
             (times > 1 && call.statuses[i].in_contact).then(words)
         });
         let linked = linked(&call.sheet, &call.pairs);
@@ -80,7 +86,10 @@ pub(super) fn reversed_contact(case: &Case) -> Outcome<Evidence> {
         let changes: Vec<f64> = other.differences(&as_is).map(f64::abs).collect();
         let changed = changes.iter().filter(|x| **x > ROUNDING * largest).count();
         let change = changes.into_iter().fold(0.0, f64::max);
-        let detail = format!("the largest change is {change:.3e} of {largest:.3e}");
+        let [change, largest] = [change, largest].map(six_digits);
+        let detail = format!(
+            "an entry of MJS changes by {change} once cnt is reversed; the largest entry is {largest}"
+        );
         Ok(Evidence::present_if(changed > 0, changed as f64, detail))
     })
 }

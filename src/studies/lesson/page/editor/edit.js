@@ -51,7 +51,6 @@ function showButtons() {
   byId("printed").disabled = page.run === 0 && !page.isMine;
   byId("mine").hidden = page.isMine || page.typed.size === 0;
   byId("ask").disabled = isIterating();
-  byId("beside-too").disabled = !canBeBeside();
 }
 
 /** Shows what is wrong, and how sure it is: an error does not run. */

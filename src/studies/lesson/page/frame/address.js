@@ -38,7 +38,6 @@ function address() {
   if (page.moved.size) fields.moved = [...page.moved].map(([n, [x, y]]) => `${n}:${x},${y}`).join(";");
   if (page.turned.size) fields.turned = [...page.turned].join();
   if (isIterating()) fields.variant = page.variant;
-  if (page.isBeside) fields.beside = 1;
   if (speech.language !== data.language) fields.language = speech.language;
   for (const name of LISTINGS) if (page.edits.has(run()[name])) fields[name] = editOf(page.edits.get(run()[name]), textOf(run()[name]));
   // Brackets and commas need no escape behind #.
@@ -49,7 +48,7 @@ function address() {
 function keepAddress() {
   clearTimeout(page.timer);
   page.timer = setTimeout(() => {
-    const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !page.isBeside && !isMoved() && page.typed.size === 0 && speech.language === data.language;
+    const isDefault = page.chapter === 0 && page.run === 0 && page.machine.at === 0 && !isMoved() && page.typed.size === 0 && speech.language === data.language;
     history.replaceState(null, "", isDefault ? " " : address());
   }, 300);
 }
@@ -91,7 +90,6 @@ function openAddress() {
     factor: Math.min(100, Math.max(0.01, Number(fields.get("tolerance") ?? 1) || 1)),
     // A text that never ran is not in a link; what runs is the same with it.
     isMine: texts.length > 0 || (page.isMine && page.edits.size === 0),
-    isBeside: fields.has("beside"),
     turned: new Set((fields.get("turned") ?? "").split(",").map(Number).filter((edge) => page.mesh.edge.has(edge))),
     moved: new Map(nodes.filter(isNode).map(([n, ...at]) => [n, at])),
   });

@@ -1,6 +1,6 @@
 // The page: what is chosen, and what is shown after each step.
 
-const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, isBeside: false, edits: new Map(), atStake: new Set() };
+const page = { chapter: 0, run: 0, which: "c_cnt", factor: 1, moved: new Map(), turned: new Set(), typed: new Map(), isMine: false, isStale: false, edits: new Map(), atStake: new Set() };
 const chapter = () => data.scenes[page.chapter];
 const run = () => chapter().runs[page.run];
 
@@ -52,7 +52,6 @@ function choose(change) {
   byId("tolerance").value = Math.log10(page.factor);
   say("tolerance-label", `c_tll ${short(page.programs.c_tll)}`);
   byId("tolerance").setAttribute("aria-valuetext", byId("tolerance-label").textContent);
-  byId("beside-too").checked = page.isBeside;
   if (!isIterating() && ["run", "which", "edits", "isMine"].some((name) => name in change)) {
     showText();
     showLines(page.machine, linesAt(runBefore()[page.which]), (line) => go(page.machine.runTo(line)));
@@ -64,7 +63,6 @@ function choose(change) {
   if (!page.dragged) {
     fillTurns();
     showChanges(run(), page.programs);
-    openBeside();
     showConclusion();
   }
   show();
@@ -151,7 +149,6 @@ function showSteps() {
   ask(machine, mesh);
   // The box is as high as the question leaves it.
   lightLine(machine);
-  showBeside(turn);
   byId("turns").value = machine.turns.filter(({ from, turn }) => from < machine.at && turn !== null).at(-1)?.from + 1 || 0;
 }
 
@@ -201,7 +198,6 @@ function watch() {
   on("reset", "click", () => choose({ factor: 1, moved: new Map(), turned: new Set() }));
   on("language", "click", switchLanguage);
   on("link", "click", copyLink);
-  byId("beside-too").addEventListener("change", ({ target }) => choose({ isBeside: target.checked }));
   for (const id of ["finding", "conclusion"]) on(id, "toggle", show);
   window.addEventListener("hashchange", openAddress);
   watchDrag();
@@ -213,32 +209,22 @@ function watch() {
   watchMatrix(() => page.map);
 }
 
+/** The title of a chapter that has a topic; of another one, `otherwise`. */
+const titleOf = ({ finding, repairs, title }, otherwise) => (finding ? `${finding.id}: ${t(finding.title)}` : repairs ? tell(title) : otherwise);
+
 /** Lists the chapters. */
 function fillChapters() {
-  const name = ({ name, title, finding, repairs }) => {
-    if (finding) return titleOf(finding);
-    return repairs ? tell(title) : t("scene {name}", { name });
-  };
-  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, name(scene))));
+  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, titleOf(scene, t("scene {name}", scene)))));
 }
 
 /** Says what a chapter has: its title, its readings, and what it is there to show. */
 function fillChapter() {
   byId("run").replaceChildren(...chapter().runs.map(({ label }, k) => make("option", { value: k }, tell(label))));
-  showTitle();
+  document.title = byId("title").textContent = titleOf(chapter(), t("Lesson: {title}", { title: tell(chapter().title) }));
   showFinding(chapter());
   const { name, sha256 } = chapter();
   const [scene, mesh] = sha256 ?? ["–", "–"];
   say("colophon", t("plane-contact {version}; scene {name}, SHA-256 {scene}, mesh {mesh}.", { version: data.version, name, scene, mesh }));
-}
-
-const titleOf = ({ id, title }) => `${id}: ${t(title)}`;
-
-/** Shows the chapter's title. */
-function showTitle() {
-  const { finding, repairs, title } = chapter();
-  const words = finding ? titleOf(finding) : repairs ? tell(title) : t("Lesson: {title}", { title: t(title) });
-  document.title = byId("title").textContent = words;
 }
 
 /** The variant that shows what a chapter is about: of a finding in Km its own matrix. */

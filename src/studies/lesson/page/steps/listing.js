@@ -28,18 +28,15 @@ function showLegend(machine) {
   );
 }
 
-/** Lights the line of a list that was executed last, which is returned, and marks the next. */
-function litIn(list, { last, next }) {
-  [...list.children].forEach((item, k) => {
+/** Lights the line that was executed last and marks the next; keeps them in sight. */
+function lightLine(machine) {
+  const { last, next } = machine;
+  const items = byId("listing").children;
+  [...items].forEach((item, k) => {
     k === last?.line ? item.setAttribute("aria-current", "step") : item.removeAttribute("aria-current");
     item.classList.toggle("next", k === next?.line);
   });
-  return list.children[last?.line];
-}
-
-/** Lights the line that was executed last and marks the next; keeps them in sight. */
-function lightLine(machine) {
-  const lit = litIn(byId("listing"), machine);
+  const lit = items[last?.line];
   showLegend(machine);
   const box = byId("listing-box");
   const top = lit ? lit.offsetTop - box.offsetTop : 0;

@@ -136,41 +136,42 @@ function unfoldConclusion() {
   byId("conclusion").open = true;
 }
 
-/** What a fault costs, reintroduced alone into the corrected algorithm on a scene. */
-function priceInWords({ scene, name, weight, error }) {
-  const effect = {
-    fatal: () => t("the run stops, or contact presses no node"),
-    shifts: () => t("an error of {error} in energy", { error: percent(error) }),
-    free: () => t("nothing"),
-    "decided by rounding": () => t("a result that rounding decides"),
-    "no fault under the scene's own friction": () => t("nothing under the scene's own friction"),
-  }[weight]();
-  return t("{name} on {scene}: {effect}", { name: t(name), scene, effect });
-}
-
-/** A text of the audit with its numbers as one writes them: 0.05 for 5.000e-2, 9·10⁻¹⁵ for 9e-15. */
-function inPlainNumbers(text) {
-  const raised = (power) => [...power].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
-  return text.replace(/-?\d+(\.\d+)?e-?\d+/g, (x) => short(Number(x)).replace(/[.,]?0*e\+?(.*)$/, (_, power) => `·10${raised(power.replace("−", "-"))}`));
+/** What a fault costs, put back alone into the corrected algorithm on a scene: a sentence. */
+function costInWords({ scene, price }) {
+  const { weight, energy_relative, von_mises_relative, transmitted } = price;
+  const [name, error, stress, share] = [t(price.name), ...[energy_relative, Math.abs(von_mises_relative), transmitted].map(percent)];
+  const values = { scene: t(scene.replace("findings/", "")), name, error, stress, share, way: von_mises_relative > 0 ? t("too high") : t("too low") };
+  const sentences = {
+    fatal: () => t("On scene {scene}, the fault {name} stops the run, or contact presses no node any more.", values),
+    shifts: () => t("On scene {scene}, the fault {name} makes the largest von Mises stress {way} by {stress}: an error of {error} in energy, with {share} of the load on the target.", values),
+    free: () => t("On scene {scene}, the fault {name} changes nothing.", values),
+    "decided by rounding": () => t("On scene {scene}, rounding decides what comes of the fault {name}.", values),
+    "no fault under the scene's own friction": () => t("On scene {scene}, the fault {name} changes nothing, as no node slides under its friction.", values),
+  };
+  return sentences[weight]();
 }
 
 /** Words as a sentence of their own. */
 const sentence = (words) => words[0].toUpperCase() + words.slice(1).replace(/\.?$/, ".");
 
+/** What a finding's faults cost: on the chapter's scene and fig1, or on the first scene where they cost anything. */
+function costsInWords({ prices }) {
+  // Without a load there are no displacements that a fault could change.
+  const loaded = prices.filter(({ scene }) => scene !== chapter().name || isLoaded());
+  const near = loaded.filter(({ scene }) => [chapter().name, "fig1"].includes(scene));
+  const costly = (list) => list.filter(({ price }) => !["free", "no fault under the scene's own friction"].includes(price.weight));
+  const shown = [costly(near), [...near, ...costly(loaded)]].find((list) => list.length) ?? [];
+  return shown.length ? [t("The fault was put back alone into the corrected algorithm."), ...shown.map(costInWords)] : [];
+}
+
 function ofFinding(row) {
   const { runs } = chapter();
   const named = (text) => text.replace(/(node|уз\S*) (\d+)/g, (_, word, n) => `${word} ${page.mesh.name(Number(n))}`);
-  const figure = sentence(`${t(row.of)}: ${row.number === null ? t("decided by rounding") : inProse(row.number)}`);
-  // Without a load there are no displacements that a fault could change; where a scene shows a cost, others need not be named.
-  const loaded = row.prices.filter(({ scene }) => scene !== chapter().name || isLoaded());
-  const costly = loaded.filter(({ weight }) => weight !== "free");
-  const priced = costly.length ? costly : loaded;
-  const prices = priced.length ? ` ${t("Put back alone into the corrected algorithm it costs: {prices}.", { prices: priced.map(priceInWords).join("; ") })}` : "";
   const repaired = row.edit.none ? t(row.edit.none.reason) : [t("choose the reading “repaired” and see what it changes"), ...runs[0].about.slice(1).map((words) => t("what is shown: {about}", { about: t(words) }))].join("; ");
   return [
-    [t("What the listing did"), t("On {scene}: {what}", { scene: chapter().name, what: [...(row.verdict === "present" ? [] : [t(row.verdict)]), inPlainNumbers(named(interpreted(t(row.detail))))].join(": ") })],
-    [t("What is wrong"), sentence(`${t(row.title)}: ${t(row.why)}`)],
-    [t("What it costs"), figure + prices],
+    [t("What the listing did"), sentence(t("On scene {scene}, {what}", { scene: row.id, what: named(interpreted(t(row.detail))) }))],
+    [t("What is wrong"), sentence(t(row.title))],
+    [t("What it costs"), [sentence(t(row.why)), ...costsInWords(row)].join(" ")],
     [t("What repairs it"), sentence(`${t(row.repair)}; ${repaired}`)],
   ];
 }

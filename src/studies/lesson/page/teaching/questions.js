@@ -41,7 +41,7 @@ function reasonOf({ operands, reads, held }) {
 
 /** Which target edge the search of a turn ends with, and which boxes had the node. */
 function edgeQuestion(machine, mesh, turn) {
-  const end = endOfTurn(machine);
+  const end = machine.turns.find(({ from }) => from > machine.at)?.from ?? machine.steps.length;
   const name = `ct[${turn}]`;
   const writes = machine.steps.slice(machine.at, end).flatMap((step) => step.writes.filter((write) => write.name === name));
   const hits = writes.map(({ value }) => value).filter((edge) => edge !== 0);

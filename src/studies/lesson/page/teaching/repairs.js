@@ -25,12 +25,25 @@ function repairsOf({ rows, order }) {
   roving(table, "button");
   const words = t("A row opens the corrected algorithm with the faults that are left. Errors are against the solution without friction, node to segment, in the initial geometry, on the same mesh.");
   const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { class: "muted" }, t(order)));
-  return [make("summary", {}, make("h2", {}, t("Repair by repair"))), make("p", {}, words), make("div", { class: "way" }, make("div", { class: "scroll" }, table), figure)];
+  return [make("summary", {}, make("h2", {}, t("Repair by repair"))), make("p", {}, words), make("div", { class: "way" }, make("div", { class: "scroll" }, table), figure), make("p", { id: "mended" })];
+}
+
+/** The lines of the programs that the last repair of the run has changed, those of programs that the page does not step
+ * through too. */
+function mendedLines() {
+  const { programs: before } = runBefore();
+  return Object.entries((before && run().programs) ?? {}).flatMap(([name, place]) => {
+    const [own, other] = [place, before[name]].map((place) => linesAt(place));
+    const same = commonPlaces(...[own, other].map((lines) => lines.map(({ text }) => text)));
+    return own.filter((_, k) => !same.has(k)).map(({ number, text }) => make("code", {}, `${name} ${number}: ${text}`));
+  });
 }
 
 /** Lights the row of the run that is shown, and its point in the picture. */
 function showRepair({ rows }) {
   [...byId("repairs").tBodies[0].rows].forEach((row, k) => row.classList.toggle("current", k === page.run - 1));
+  const mended = mendedLines();
+  byId("mended").replaceChildren(...(mended.length ? [t("changed:"), ...mended] : []));
   const errors = rows.map(({ error }) => error);
   drawCurve(byId("way"), errors, page.run - 1, rows.map(({ finding, repairs }) => finding ?? String(repairs)));
   byId("way").setAttribute("aria-label", `${t("Error by the number of repairs")}: ${errors.map((error) => (error === undefined ? "–" : percent(error))).join("; ")}`);
