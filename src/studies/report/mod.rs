@@ -148,7 +148,7 @@ fn beside(scene: &Scene, runs: &[(String, &Solution)], field: &str) -> Option<Pi
         runs.iter().filter_map(|(name, run)| Some((name.clone(), array(run)?))).collect();
     let unit = arrays.first()?.1.unit.clone();
     let names: Vec<&str> = arrays.iter().map(|(name, _)| name.as_str()).collect();
-    let title = format!("{} in {}, undeformed", quantity.title, names.join(" and "));
+    let title = format!("{} in {}, undeformed", quantity.title, names.join(", "));
     let fields: Vec<_> =
         arrays.iter().map(|(name, array)| (name.clone(), array.values.clone())).collect();
     let svg = picture::beside(&Drawing::new(scene, ""), quantity.title, &unit, &fields);

@@ -65,9 +65,10 @@ pub(super) fn listed_twice(case: &Case) -> Outcome<Evidence> {
         let twice = count_nodes(model, |i| {
             let node = model.contact.nodes[i];
             let times = model.contact.nodes.iter().filter(|other| **other == node).count();
+            let is_first = !model.contact.nodes[..i].contains(&node);
             let words =
                 || format!("is listed {times} times, and its weights add up to {}", sum(node));
-            (times > 1 && call.statuses[i].in_contact).then(words)
+            (times > 1 && is_first && call.statuses[i].in_contact).then(words)
         });
         let linked = linked(&call.sheet, &call.pairs);
         let largest = linked.iter().map(|bound| sum(bound.node)).fold(0.0, f64::max);
