@@ -13,6 +13,7 @@ use crate::audit::words::evidence;
 use crate::audit::{Audit, relative_radius};
 use crate::compare::{Compared, comparison};
 use engine::{Assessment, Hertz, Quantity, Solution, TriangleValues};
+use output::layout::listed;
 use output::model::{Report, Table};
 use output::picture::{self, Drawing};
 use output::quantities::triangle_array;
@@ -147,8 +148,8 @@ fn beside(scene: &Scene, runs: &[(String, &Solution)], field: &str) -> Option<Pi
     let arrays: Vec<_> =
         runs.iter().filter_map(|(name, run)| Some((name.clone(), array(run)?))).collect();
     let unit = arrays.first()?.1.unit.clone();
-    let names: Vec<&str> = arrays.iter().map(|(name, _)| name.as_str()).collect();
-    let title = format!("{} in {}, undeformed", quantity.title, names.join(", "));
+    let names = listed(arrays.iter().map(|(name, _)| name));
+    let title = format!("{}, undeformed: {names}", quantity.title);
     let fields: Vec<_> =
         arrays.iter().map(|(name, array)| (name.clone(), array.values.clone())).collect();
     let svg = picture::beside(&Drawing::new(scene, ""), quantity.title, &unit, &fields);

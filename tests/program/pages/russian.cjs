@@ -6,7 +6,7 @@ const { open, inAllViews, run } = require("./browser.cjs");
 const [file] = process.argv.slice(2);
 
 /** What has words of its own: the listings and the names in them. */
-const OWN = "#listing, #step, #editor, #language, #question code, script, style, noscript";
+const OWN = "#listing, #mended code, #step, #editor, #language, #question code, script, style, noscript";
 
 /** Latin words that Russian has too: names of the program, the listings, the keys and the scenes, and what the
  * interpreter says. */

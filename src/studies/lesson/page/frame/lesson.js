@@ -210,11 +210,15 @@ function watch() {
 }
 
 /** The title of a chapter that has a topic; of another one, `otherwise`. */
-const titleOf = ({ finding, repairs, title }, otherwise) => (finding ? `${finding.id}: ${t(finding.title)}` : repairs ? tell(title) : otherwise);
+function titleOf({ finding, repairs, title }, otherwise) {
+  if (finding) return `${finding.id}: ${t(finding.title)}`;
+  return repairs ? tell(title) : otherwise;
+}
 
 /** Lists the chapters. */
 function fillChapters() {
-  byId("chapter").replaceChildren(...data.scenes.map((scene, k) => make("option", { value: k }, titleOf(scene, t("scene {name}", scene)))));
+  const option = (scene, k) => make("option", { value: k }, titleOf(scene, t("scene {name}", scene)));
+  byId("chapter").replaceChildren(...data.scenes.map(option));
 }
 
 /** Says what a chapter has: its title, its readings, and what it is there to show. */

@@ -140,7 +140,8 @@ function unfoldConclusion() {
 function costInWords({ scene, price }) {
   const { weight, energy_relative, von_mises_relative, transmitted } = price;
   const [name, error, stress, share] = [t(price.name), ...[energy_relative, Math.abs(von_mises_relative), transmitted].map(percent)];
-  const values = { scene: t(scene.replace("findings/", "")), name, error, stress, share, way: von_mises_relative > 0 ? t("too high") : t("too low") };
+  const way = von_mises_relative > 0 ? t("too high") : t("too low");
+  const values = { scene: t(scene.replace("findings/", "")), name, error, stress, share, way };
   const sentences = {
     fatal: () => t("On scene {scene}, the fault {name} stops the run, or contact presses no node any more.", values),
     shifts: () => t("On scene {scene}, the fault {name} makes the largest von Mises stress {way} by {stress}: an error of {error} in energy, with {share} of the load on the target.", values),

@@ -24,8 +24,8 @@ function repairsOf({ rows, order }) {
   table.tBodies[0].addEventListener("click", ({ target }) => target.closest("a") || openRepair(target.closest("tr").sectionRowIndex));
   roving(table, "button");
   const words = t("A row opens the corrected algorithm with the faults that are left. Errors are against the solution without friction, node to segment, in the initial geometry, on the same mesh.");
-  const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { class: "muted" }, t(order)));
-  return [make("summary", {}, make("h2", {}, t("Repair by repair"))), make("p", {}, words), make("div", { class: "way" }, make("div", { class: "scroll" }, table), figure), make("p", { id: "mended" })];
+  const figure = make("div", {}, make("h3", {}, t("Error by the number of repairs")), make("canvas", { id: "way", role: "img" }), make("p", { id: "mended" }), make("p", { class: "muted" }, t(order)));
+  return [make("summary", {}, make("h2", {}, t("Repair by repair"))), make("p", {}, words), make("div", { class: "way" }, make("div", { class: "scroll" }, table), figure)];
 }
 
 /** The lines of the programs that the last repair of the run has changed, those of programs that the page does not step
