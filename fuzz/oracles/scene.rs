@@ -37,6 +37,6 @@ fn reads_back(scene: &Scene) {
 fn is_planned(scene: &Scene, variant: Variant) {
     match Plan::new(&Request::new(scene).variant(variant)) {
         Err(error) => sound::input_error(&error),
-        Ok(plan) => drop(sound::document(&output::plan::json(scene, &plan))),
+        Ok(plan) => drop(sound::document(&output::json::line(Some(scene), &plan))),
     }
 }

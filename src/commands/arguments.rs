@@ -220,7 +220,7 @@ pub fn folder_name(start: String, request: &Request, more: &[String]) -> String 
     words.fold(start, |name, word| format!("{name}-{word}"))
 }
 
-/// The folder that is asked for, else `name` in the folder `out`.
+/// The folder or file that is asked for, else `name` in the folder `out`.
 pub fn folder(asked: &Option<PathBuf>, name: String) -> PathBuf {
     asked.clone().unwrap_or_else(|| Path::new("out").join(name))
 }

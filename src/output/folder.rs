@@ -110,7 +110,9 @@ fn contents(
     let triangles = TriangleValues::all(solution, assessment.mesh_error().as_deref());
     let content = |file| {
         Some(match file {
-            File::Result => result(solution, assessment, plan, wanted).into_bytes(),
+            File::Result => {
+                ResultFile::new(solution, assessment, plan, wanted.fields).to_json().into_bytes()
+            }
             File::Fields => vtu::vtu(drawing, solution, assessment),
             File::Mesh => picture::mesh(drawing).into_bytes(),
             File::Picture(quantity) => {
@@ -159,17 +161,6 @@ fn page(
         data: document(Some(scene), &json!({})),
     }
     .html()
-}
-
-/// Returns the content of `result.json`, and writes nothing.
-pub fn result(
-    solution: &Solution,
-    assessment: &Assessment,
-    plan: Option<&Plan>,
-    wanted: FolderOptions,
-) -> String {
-    let result = ResultFile::new(solution, assessment, plan, wanted.fields);
-    result.to_json()
 }
 
 /// Draws the contact pressure of a solution and of the equilibrium.

@@ -14,7 +14,7 @@ use engine::plan::Plan;
 use engine::{self, Assessment, Request, Solution, Step};
 use output::folder::FolderOptions;
 use output::model::Report;
-use output::{self, tables};
+use output::{self, ResultFile, tables};
 use paper::edited::Edited;
 use paper::listings::Which;
 use problem::modelling::Variant;
@@ -108,7 +108,7 @@ pub fn run(args: &Args) -> Result<ExitStatus> {
             let command = command_line();
             output::folder::write(&out, &solution, &assessment, Some(&plan), wanted, &command)
         }
-        false => Ok(output::folder::result(&solution, &assessment, Some(&plan), wanted)),
+        false => Ok(ResultFile::new(&solution, &assessment, Some(&plan), args.fields).to_json()),
     })?;
     if args.tables.json {
         print_stderr(&accuracy.text(usize::MAX));

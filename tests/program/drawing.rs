@@ -80,7 +80,7 @@ fn infinite_value_is_refused() {
 
 fn drawn(logarithmic: bool, points: Vec<[f64; 2]>) -> String {
     let axis = |label| Axis { label, logarithmic };
-    let series = [Series { name: "s".into(), points, style: Style::Dots }];
+    let series = [Series { name: "s".into(), points, style: Style::Line }];
     chart("t", [axis("x"), axis("y")], &series, &[])
 }
 

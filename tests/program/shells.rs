@@ -1,4 +1,4 @@
-//! Completions as shells read them, and the man pages.
+//! Completions as shells read them.
 
 use std::path::Path;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 use crate::common::tools::is_there;
-use crate::texts::{commands, printed};
+use crate::texts::printed;
 
 /// Completes as readline does: it calls the registered function with the command, the word and the word before.
 const BASH: &str = r#"

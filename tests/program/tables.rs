@@ -292,9 +292,9 @@ fn mesh_errors() {
 fn claims() {
     let count =
         |verdict: &Verdict| JUDGED.iter().filter(|j| j.measured.verdict == *verdict).count();
-    let counts = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
+    let each = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title =
-        format!("What the paper claims, {}: {}.", counts(), counts.collect::<Vec<_>>().join(", "));
+        format!("What the paper claims, {}: {}.", counts(), each.collect::<Vec<_>>().join(", "));
     assert_table("claims", &title, "audit --range", &verdicts().markdown());
     assert_table(
         "range",

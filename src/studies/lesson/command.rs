@@ -19,7 +19,7 @@ use paper::edited::Edited;
 use problem::model::Model;
 use problem::scene::Scene;
 
-use commands::{offered, read_listing, report_written, waiting};
+use commands::{folder, offered, read_listing, report_written, waiting};
 
 /// Write a lesson: both listings, stepped forwards and backwards on a scene.
 #[derive(clap::Args)]
@@ -54,7 +54,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("lesson.html"));
+    let out = folder(&args.out, "lesson.html".into());
     files::check_file(&out, HTML)?;
     files::write(&out, &lesson(args)?)?;
     report_written(&out);

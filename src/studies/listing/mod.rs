@@ -12,7 +12,7 @@ Examples:
   plane-contact listing evaluate sum.txt --call \"sum(10)\"")]
     Command {
         #[command(subcommand)]
-        Run(run::Which): run::run,
+        Run(run::Command): run::run,
         Evaluate(evaluate::Args): evaluate::run,
     }
 }

@@ -21,17 +21,18 @@ use problem::scene::Scene;
 
 use commands::{ReadingArg, TablesArgs, read_listing, write_or_print};
 
-/// Run a listing once, at the initial shape of a scene.
-#[derive(clap::Subcommand)]
-#[command(after_help = "\
+commands::group! {
+    /// Run a listing once, at the initial shape of a scene.
+    #[command(after_help = "\
 Examples:
   plane-contact listing run c_cnt fig1
   plane-contact listing run Km fig1")]
-pub enum Which {
-    #[command(name = "c_cnt")]
-    CCnt(CCntArgs),
-    #[command(name = "Km")]
-    Km(KmArgs),
+    Command {
+        #[command(name = "c_cnt")]
+        CCnt(CCntArgs): c_cnt,
+        #[command(name = "Km")]
+        Km(KmArgs): km,
+    }
 }
 
 /// Find the contact pairs.
@@ -90,13 +91,6 @@ pub struct KmArgs {
 enum CoupledBy {
     CCnt,
     None,
-}
-
-pub fn run(which: &Which) -> Result<()> {
-    match which {
-        Which::CCnt(args) => c_cnt(args),
-        Which::Km(args) => km(args),
-    }
 }
 
 /// Returns the model with the scene's contact nodes as it lists them, whatever its variant.

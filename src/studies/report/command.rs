@@ -19,7 +19,7 @@ use paper::mirror::Reading;
 use problem::modelling::Variant;
 use problem::scene::{Scene, sha256_of};
 
-use commands::{progress, report_written, waiting};
+use commands::{folder, progress, report_written, waiting};
 
 /// The most nodes of a mesh on which the print is repaired one finding at a time unasked: it takes some
 /// hundred runs, half a second on fig1 and minutes on strand, with 1,111 nodes.
@@ -55,7 +55,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<()> {
-    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join("report.html"));
+    let out = folder(&args.out, "report.html".into());
     files::check_file(&out, HTML)?;
     args.ccx.as_deref().map_or(Ok(()), calculix::check)?;
     let scene = Scene::open(&args.scene)?;

@@ -12,7 +12,7 @@ use output::model::Report;
 use problem::modelling::Variant;
 use problem::scene::{Scene, SceneFile};
 
-use commands::{MethodArgs, offered, print_report, waiting};
+use commands::{MethodArgs, folder, offered, print_report, waiting};
 
 /// Record what a scene gives, to be verified later: a regression snapshot.
 #[derive(clap::Args)]
@@ -75,10 +75,7 @@ pub fn run(args: &Args) -> Result<()> {
         snapshot.keep_only(&args.only);
         snapshot.tolerance = args.tolerance;
         let mut snapshot = snapshot.summarised(&scene);
-        let file = args
-            .out
-            .clone()
-            .unwrap_or_else(|| Path::new("out").join(format!("{}.snapshot.json", scene.name)));
+        let file = folder(&args.out, format!("{}.snapshot.json", scene.name));
         snapshot.scene_file =
             scene_file.path().and_then(|scene| files::from_folder_of(&file, Path::new(scene)));
         write_new(&file, &snapshot.readable_text()?)?;
