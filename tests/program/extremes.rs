@@ -157,3 +157,13 @@ fn underflow_is_met() {
         assert!(matches!(verdict, Kept::Refused(_)), "{pressure:e}: {verdict}");
     }
 }
+
+/// C3: near the vertical the printed distance loses a digit a decade, and that along the normal none.
+#[test]
+fn c3_the_normal_distance_does_not_feel_the_angle() {
+    for (angle, verdict) in column("steep-edge", "normal gap f64") {
+        assert!(!verdict.breaks_down(14.0), "{angle:e}: {verdict}");
+    }
+    let lost = column("steep-edge", "yt f64").find(|(angle, _)| *angle == 1e-12);
+    assert!(lost.is_some_and(|(_, verdict)| verdict.breaks_down(7.0)), "{lost:?}");
+}

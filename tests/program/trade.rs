@@ -156,6 +156,14 @@ fn a_place_of_the_range_is_a_run_of_its_scene() {
 }
 
 #[test]
+fn the_picture_is_xml() {
+    let empty = measured(&open("fig1"), &["symmetry"]);
+    assert_eq!(report::picture(&empty), None, "a chart without a point");
+    let svg = report::picture(&measured(&open("fig1"), &["solver"])).expect("a chart");
+    roxmltree::Document::parse(&svg).expect("XML");
+}
+
+#[test]
 fn errors_fall_with_precision() {
     let trade = measured(&open("fig1"), &["arithmetic"]);
     let error = |label: &str| {

@@ -1,6 +1,6 @@
 //! A chart: curves over one axis, each axis linear or logarithmic. A curve has its name at its end.
 
-use super::page::{Page, text_width};
+use super::page::{Page, Sign, text_width};
 use super::svg::{Anchor, Coloured, DARK, Pixel, TEXT_SIZE, circle, group, line, path, text};
 use crate::numbers::{power_of_ten, ticks};
 
@@ -15,7 +15,7 @@ const LEFT: f64 = 78.0;
 const GRID: &str = "#dddddd";
 
 /// The number of colours that can be told apart: a chart of more series has them again, in thin lines.
-const SERIES: usize = 8;
+pub const SERIES: usize = 8;
 
 /// The least distance between the base lines of two names, pixels.
 const LINE: f64 = 17.0;
@@ -34,7 +34,7 @@ pub struct Axis<'a> {
 
 /// A series of points of a chart.
 pub struct Series {
-    /// Its name, which stands at its end.
+    /// Its name in the legend.
     pub name: String,
     /// The places on the two axes, finite, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
@@ -45,10 +45,14 @@ pub struct Series {
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// A line with dots.
+    /// By dots alone.
     Dotted,
     /// A line without dots.
     Line,
+    /// Dots without a line.
+    Dots,
+    /// Rings, around dots of other series.
+    Rings,
 }
 
 /// Draws a chart of `series`, with paragraphs under it.
@@ -70,7 +74,12 @@ pub fn small_chart(title: &str, axes: [Axis; 2], series: &[Series]) -> String {
 fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
     page.paragraph(axes[1].label);
     let scales = [0, 1].map(|column| Scale::new(axes[column].logarithmic, series, column));
-    let names = series.iter().map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
+    let is_curve = |style| match style {
+        Style::Dotted | Style::Line => true,
+        Style::Dots | Style::Rings => false,
+    };
+    let curves = series.iter().filter(|series| is_curve(series.style));
+    let names = curves.map(|series| text_width(&series.name, TEXT_SIZE) + 20.0);
     let width = page.inner() - LEFT - names.fold(0.0, f64::max);
     let (left, top) = (page.margin + LEFT, page.y + 6.0);
     let pixel = |x: f64, y: f64| [left + x * width, top + (1.0 - y) * height];
@@ -92,20 +101,34 @@ fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
         .with(line(pixel(0.0, 0.0), pixel(0.0, 1.0)));
     page.put(group().with(lines).with(both).with(words));
 
-    let mut ends = Vec::new();
+    // A curve has its name at its end, other series stand in the legend.
+    let (mut ends, mut legend) = (Vec::new(), Vec::new());
     for (k, Series { name, points, style }) in series.iter().enumerate() {
         let place = |[x, y]: &[f64; 2]| Some(pixel(scales[0].place(*x)?, scales[1].place(*y)?));
         let points: Vec<Pixel> = points.iter().filter_map(place).collect();
-        let colour = COLOURS[k % SERIES];
+        let colour = if *style == Style::Rings { DARK } else { COLOURS[k % SERIES] };
         let mut drawn = group();
-        if points.len() > 1 {
+        if is_curve(*style) && points.len() > 1 {
             drawn.push(path([&points]).stroke(colour, if k < SERIES { 2.0 } else { 1.0 }));
         }
-        if *style == Style::Dotted {
-            drawn.push(group().fill(colour).with_all(points.iter().map(|p| circle(*p, 3.0))));
+        match style {
+            Style::Line => {}
+            Style::Rings => {
+                let rings = points.iter().map(|p| circle(*p, 6.0).fill("none").stroke(DARK, 1.5));
+                drawn = drawn.with_all(rings);
+            }
+            Style::Dotted | Style::Dots => {
+                drawn.push(group().fill(colour).with_all(points.iter().map(|p| circle(*p, 3.0))));
+            }
         }
         page.put(drawn);
-        ends.extend(points.last().map(|end| (*end, name, colour)));
+        match style {
+            Style::Dotted | Style::Line => {
+                ends.extend(points.last().map(|end| (*end, name, colour)));
+            }
+            Style::Dots => legend.push((Sign::Node(colour), name.clone())),
+            Style::Rings => legend.push((Sign::Ring(colour), name.clone())),
+        }
     }
 
     // The names stand in the order of the ends from above, as they are written: of ends that rounding parts,
@@ -122,6 +145,7 @@ fn put(page: &mut Page, height: f64, axes: [Axis; 2], series: &[Series]) {
     let under = [left + width / 2.0, top + height + 40.0];
     page.put(text(under, Anchor::Middle, axes[0].label));
     page.y = top + height + 56.0;
+    page.legend(&legend);
 }
 
 /// The range of an axis; of a logarithmic one `low` and `high` are exponents of ten.

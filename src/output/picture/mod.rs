@@ -24,7 +24,7 @@ mod raster;
 pub mod svg;
 pub mod view;
 
-pub use self::chart::{Axis, Series, Style, chart, small_chart};
+pub use self::chart::{Axis, SERIES, Series, Style, chart, small_chart};
 pub use self::drawing::{Contact, Drawing, Field, MOST_SHAPES, boundary_edges};
 pub use self::fields::field;
 

@@ -34,10 +34,12 @@ const SCALE_BAR: f64 = 240.0;
 pub enum Sign {
     /// A filled area.
     Body(&'static str),
-    /// A dot, for a node.
+    /// A dot, for a node or a point of a chart.
     Node(&'static str),
     /// A line.
     Edge(&'static str),
+    /// A circle.
+    Ring(&'static str),
 }
 
 /// A picture of several panels, one below the other.
@@ -174,6 +176,7 @@ impl Page {
                     rect([x, y - 7.0], [22.0, 14.0]).fill(colour).stroke(DARK, 0.5)
                 }
                 Sign::Node(colour) => circle([x + 11.0, y], 3.5).fill(colour),
+                Sign::Ring(colour) => circle([x + 11.0, y], 6.0).fill("none").stroke(colour, 1.5),
                 Sign::Edge(colour) => line([x, y], [x + 22.0, y]).stroke(colour, 3.0),
             });
             self.put(text([x + 30.0, self.y + 14.0], Anchor::Start, words));

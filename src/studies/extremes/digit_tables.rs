@@ -1,7 +1,16 @@
-//! Stability at the extremes, for people.
+//! Stability at the extremes, for people, for machines and as a picture.
+
+use serde_json::json;
 
 use crate::extremes::{Break, Column, Kept, SweepTable};
+use output::json;
 use output::model::{Cell, Report, Table};
+use output::picture::{Axis, Series, Style, chart};
+
+/// Returns the content of `extremes.json`: a row for each generator.
+pub fn json(measured: &[SweepTable]) -> String {
+    json::line(None, &json!({ "rows": measured }))
+}
 
 /// Reports for each generator where its methods break down, then what came of every magnitude.
 pub fn report(measured: &[SweepTable]) -> Report {
@@ -11,6 +20,22 @@ pub fn report(measured: &[SweepTable]) -> Report {
             .table(format!("Limits of {}", measured.generator.name), breaks(measured))
             .then(sweep(measured))
     })
+}
+
+/// Draws the digits that each method keeps against the magnitude.
+pub fn picture(measured: &SweepTable) -> String {
+    let curve = |column: &Column| {
+        let points = measured.magnitudes.iter().zip(&column.verdicts);
+        let points = points.filter_map(|(x, v)| Some([*x, v.digits(column.carried)?])).collect();
+        Series { name: column.name.clone(), points, style: Style::Dotted }
+    };
+    let series: Vec<Series> = measured.columns.iter().map(curve).collect();
+    let axes = [
+        Axis { label: measured.generator.magnitude, logarithmic: true },
+        Axis { label: "digits kept", logarithmic: false },
+    ];
+    let caption = "A curve has a gap where a run is refused; 0 is an answer without a right digit.";
+    chart(measured.generator.title, axes, &series, &[caption.into()])
 }
 
 /// Returns a row for each method: the digits where the sweep is kindest, and where it breaks down.

@@ -36,6 +36,11 @@ impl Kept {
         }
     }
 
+    /// Of a status: exact if it is the right one, else wrong.
+    pub fn of_status(same: bool) -> Self {
+        if same { Kept::Exact } else { Kept::Wrong("contact") }
+    }
+
     /// No more digits than the scalar carries: an error may be less than its rounding by chance.
     pub fn at_most(self, carried: f64) -> Self {
         match self {

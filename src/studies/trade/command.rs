@@ -2,14 +2,17 @@
 
 use std::path::PathBuf;
 
-use crate::trade::trial_tables::report;
+use crate::trade::trial_tables as report;
 use crate::trade::{self, AXES, Axis};
+use base::files;
+use base::plain::shown;
 use clap::builder::PossibleValuesParser;
 use engine::Request;
 use engine::error::Result;
+use output::json;
 use problem::scene::Scene;
 
-use commands::{ReadingArg, TablesArgs, progress};
+use commands::{ReadingArg, TablesArgs, folder, folder_name, print, progress};
 
 /// The runs of each trial by default.
 const RUNS: u16 = 3;
@@ -19,12 +22,13 @@ const RUNS: u16 = 3;
 #[command(after_help = "\
 Times are medians of several runs in one process, in turn (A B C A B C ...), each of which factors \
 anew; a trial that took 0.05 s is not repeated. Settings of contact are varied in f64 by \
-sparse-cholesky, meshes under unilateral.
+sparse-cholesky, meshes under unilateral. Writes trade.json and trade.svg to --out.
 
 Examples:
   plane-contact trade
   plane-contact trade fig1 --only arithmetic,solver
   plane-contact trade strand --only c_tll --runs 1 --json")]
+#[command(mut_arg("json", |json| json.help("Print trade.json in place of the tables; files are written only to a folder that --out names")))]
 pub struct Args {
     /// Path of a scene, or the name of an embedded one: strand, fig1, two-blocks.
     #[arg(value_name = "SCENE", default_value = "strand")]
@@ -39,6 +43,9 @@ pub struct Args {
     reading: ReadingArg,
     #[command(flatten)]
     tables: TablesArgs,
+    /// Folder for the files [default: out/trade-<scene>, and every option that is given].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 pub fn run(args: &Args) -> Result<()> {
@@ -46,6 +53,14 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
     let request = Request::new(&scene).reading(args.reading.reading);
+    let runs = (args.runs != RUNS).then(|| format!("runs-{}", args.runs));
+    let asked: Vec<String> = args.only.iter().cloned().chain(runs).collect();
+    let start = format!("trade-{}", scene.name);
+    let out = folder(&args.out, folder_name(start, &request, &asked));
+    let is_written = !args.tables.json || args.out.is_some();
+    if is_written {
+        files::check_folder(&out, &["trade.svg", "trade.json"])?;
+    }
     let plan = trade::plan(&request, &args.only)?;
     let trials: usize = plan.iter().map(|(_, trials)| trials.len()).sum();
     let runs = usize::from(args.runs);
@@ -56,5 +71,16 @@ pub fn run(args: &Args) -> Result<()> {
     };
     let measured = trade::measure(&request, plan, runs, watch);
     bar.finish();
-    args.tables.print_either(Some(&scene), &measured, || report(&measured))
+    let json = json::line(Some(&scene), &measured);
+    if is_written {
+        let picture = report::picture(&measured);
+        let picture = picture.iter().map(|picture| ("trade.svg", picture));
+        let written = picture.chain([("trade.json", &json)]).collect::<Vec<_>>();
+        files::write_all(&out, &written)?;
+    }
+    if args.tables.json {
+        return print(&json);
+    }
+    let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
+    args.tables.print(report)
 }

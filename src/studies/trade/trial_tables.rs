@@ -1,11 +1,15 @@
-//! Speed against accuracy, for people.
+//! Speed against accuracy, for people, for machines and as a picture.
 
-use crate::trade::{AccurateSolution, Contact, Errors, Order, Rounding, Row, Section, Trade};
+use crate::trade::{AXES, AccurateSolution, Contact, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
 use output::model::{Cell, Report, Table};
 use output::numbers::{figure, reason, with_unit};
+use output::picture::{Axis, SERIES, Series, Style, chart};
 use problem::modelling::Variant;
 use problem::scene::Units;
+
+// Each axis has a colour of its own.
+const _: () = assert!(AXES.len() <= SERIES);
 
 /// Reports a table for each axis.
 pub fn report(trade: &Trade) -> Report {
@@ -107,6 +111,36 @@ fn orders(orders: &[Order]) -> Table<Vec<&Order>> {
             let finest = order.errors.as_ref()?.last()?;
             Some(Cell::scientific(*finest, 1))
         })
+}
+
+/// Draws time against error: a series for each axis, and rings around what is on its front. None where
+/// nothing was timed.
+pub fn picture(trade: &Trade) -> Option<String> {
+    let place = |row: &Row| row.seconds.zip(row.error).map(|(s, e)| [s, e.displacement]);
+    let shown = |p: &[f64; 2]| p[1] > 0.0 && p[1].is_finite();
+    let of_section = |section: &Section| Series {
+        name: section.parameter.to_string(),
+        points: section.rows.iter().filter_map(place).filter(shown).collect(),
+        style: Style::Dots,
+    };
+    let rows = trade.sections.iter().flat_map(|section| &section.rows);
+    let front = rows.filter(|row| row.pareto).filter_map(place).filter(shown);
+    let front = Series {
+        name: "Pareto front of its table".into(),
+        points: front.collect(),
+        style: Style::Rings,
+    };
+    let series: Vec<Series> = trade.sections.iter().map(of_section).chain([front]).collect();
+    if series.iter().all(|series| series.points.is_empty()) {
+        return None;
+    }
+    let axes = ["time, s", "relative error of the displacements"]
+        .map(|label| Axis { label, logarithmic: true });
+    let references =
+        trade.sections.iter().map(|s| format!("{}: against {}.", s.parameter, s.against));
+    let captions: Vec<String> =
+        references.chain(["What has no error, the best itself, is not shown.".into()]).collect();
+    Some(chart(&format!("Speed against accuracy: {}", trade.scene), axes, &series, &captions))
 }
 
 /// Reports what `solve --accuracy` did to reach `accuracy`, a part of the largest displacement.
