@@ -5,13 +5,21 @@ use std::path::Path;
 /// Compares `text` with the file at `path`; INSTA_UPDATE=always changes the file.
 #[track_caller]
 pub fn assert_file(path: &Path, text: &str) {
+    assert_file_by(path, text, |golden, is| golden == is);
+}
+
+/// The same under a rule of what is the same, which gets the golden text, then the value.
+#[track_caller]
+pub fn assert_file_by(path: &Path, text: &str, same: fn(&str, &str) -> bool) {
+    let golden = std::fs::read_to_string(path).unwrap_or_default();
+    if same(&golden, text) {
+        return;
+    }
     if std::env::var_os("INSTA_UPDATE").is_some_and(|update| update == "always") {
         let folder = path.parent().expect("a golden file lies in a folder");
         let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
-        written.expect("a golden file can be written");
+        return written.expect("a golden file can be written");
     }
-    let golden = std::fs::read_to_string(path).unwrap_or_default();
-    let lines = || golden.lines().zip(text.lines()).enumerate();
-    let first = lines().find(|(_, (golden, is))| golden != is);
-    assert!(golden == text, "{} differs: {first:?}", path.display());
+    let first = golden.lines().zip(text.lines()).find(|(golden, is)| !same(golden, is));
+    panic!("{} differs: {first:?}", path.display());
 }

@@ -9,7 +9,7 @@ pub mod golden_file;
 pub mod golden_floats;
 pub mod hard;
 pub mod json;
-pub mod recorded;
+pub mod rows;
 pub mod shipped;
 pub mod statuses;
 pub mod worksheets;
