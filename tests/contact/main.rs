@@ -2,7 +2,7 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden_floats, json, rows, tolerances};
+    pub use testing::{annulus, embedded, golden_floats, rows, tolerances};
 
     pub mod outcome;
     pub mod program;

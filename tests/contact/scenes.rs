@@ -27,7 +27,7 @@ const FAR_FROM_THE_ORIGIN: Tolerance = Tolerance {
          thousand times less",
 };
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/contact/scenes");
+pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/contact/scenes");
 
 #[test]
 fn scenes_by_hand() {

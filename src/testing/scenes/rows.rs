@@ -7,7 +7,6 @@ use problem::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::golden_file::assert_file_by;
-use crate::json::build;
 
 /// Compares the rows of a file, behind each of which stands what `answer` gives of it, in lines that begin with two
 /// blanks; lines that begin with `#` say what must hold.
@@ -42,7 +41,11 @@ pub fn scene_of(folder: &str, row: &str) -> Result<Scene, InputError> {
             _ => set(&mut scene, &format!("/contact/{place}"), json),
         }
     }
-    build(&scene)
+    let beside = |file: &str| {
+        let path = Path::new(folder).join(name).with_file_name(file);
+        std::fs::read(path).map_err(|why| why.to_string())
+    };
+    Scene::build("test", scene.to_string().as_bytes(), beside)
 }
 
 fn set(scene: &mut Value, place: &str, value: Value) {
