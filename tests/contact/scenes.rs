@@ -8,7 +8,7 @@ use std::path::Path;
 
 use plane_contact::engine::contact::{ContactNode, Sense, Status};
 use plane_contact::engine::error::Error;
-use plane_contact::engine::{self, Detail, Request, Solution};
+use plane_contact::engine::{self, Detail, Request, Solution, share_of_load};
 use plane_contact::error::InputError;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::scene::Scene;
@@ -58,19 +58,19 @@ fn answer(row: &str) -> String {
     let mut start = None;
     let ending = scene(row).map_err(Error::from).and_then(|scene| {
         engine::solve(&Request::new(&scene), &mut |step| {
-            let Detail::Unilateral(own) = &step.detail else { unreachable!("it is the variant") };
-            start.get_or_insert_with(|| own.statuses.iter().map(letter).collect::<String>());
+            if let Detail::Unilateral(own) = &step.detail {
+                start.get_or_insert_with(|| own.statuses.iter().map(letter).collect::<String>());
+            }
         })
     });
     match (ending, start) {
         (_, Some(start)) if row.ends_with(START) => start,
-        (Ok(solution), Some(start)) => format!("{start} to {}", end(&solution)),
+        (Ok(solution), start) => format!("{} to {}", start.unwrap_or_default(), end(&solution)),
         (Err(why), _) => {
             let (status, why) = (why.exit_status().number(), why.to_string());
             let tried = why.find("; on springs").unwrap_or(why.len());
             format!("status {status}: {}", &why[..tried])
         }
-        (Ok(_), None) => unreachable!("a solution has a contact state"),
     }
 }
 
@@ -91,11 +91,13 @@ fn end(solution: &Solution) -> String {
         |node: &ContactNode| format!("{}{}", node.node, node.status.map_or('?', |s| letter(&s)));
     let states = nodes.iter().map(state).collect::<Vec<_>>().join(" ");
     let most = nodes.iter().filter_map(|node| node.force).fold(0.0, f64::max);
+    // To 1e-10 of the largest force.
+    let digits = if most > 0.0 { 10 - most.log10().ceil() as i32 } else { 10 }.max(0) as usize;
     let list = |name: &str, zero: f64, of: fn(&ContactNode) -> Option<f64>| {
         let number = |x: Option<f64>| match x {
             None => "-".to_owned(),
             Some(x) if x.abs() <= zero => "zero".to_owned(),
-            Some(x) => format!("{x:.10}"),
+            Some(x) => format!("{x:.digits$}"),
         };
         let numbers: Vec<_> = nodes.iter().map(|node| number(of(node))).collect();
         let says_something = numbers.iter().any(|number| number != "zero");
@@ -103,6 +105,7 @@ fn end(solution: &Solution) -> String {
     };
     let [x, y] = solution.model.node_ids().last().expect("a node").components(&solution.u);
     let unseen = solution.equilibrium.as_ref().and_then(|found| found.unseen);
+    let status = solution.exit_status().number();
     let parts = [
         Some(states),
         list("gap", 1e-12, |node| Some(node.gap)),
@@ -110,9 +113,18 @@ fn end(solution: &Solution) -> String {
         list("pressure", 1e-10 * most, |node| node.pressure),
         list("shear", 1e-10 * most, |node| node.shear),
         list("friction needed", 1e-10, |node| node.friction_needed),
-        Some(format!("passes on {:.10}", solution.target_force())),
+        Some(format!("passes on {:.digits$}", solution.target_force())),
         Some(format!("the last node moves {x:.12} {y:.12}")),
+        share_of_load(&solution.model, solution.target_force())
+            .map(|share| format!("{share:.10} of the load")),
         unseen.map(|(node, depth)| format!("unseen {node} {depth:.10}")),
+        solution
+            .overlap
+            .as_ref()
+            .map(|at| format!("{} nodes inside, {} deepest", at.nodes, at.node)),
+        solution.is_inside_out().then(|| "inside out".to_owned()),
+        solution.transmits_nothing().then(|| "passes nothing on".to_owned()),
+        (status != 0).then(|| format!("status {status}")),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }

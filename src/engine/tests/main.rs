@@ -13,7 +13,6 @@ mod facing;
 mod friction;
 mod hard;
 mod invariance;
-mod orders;
 mod overlap;
 mod perturbed;
 mod precisions;
