@@ -12,6 +12,7 @@ mod faced;
 mod facing;
 mod friction;
 mod hard;
+mod hard_scenes;
 mod invariance;
 mod overlap;
 mod perturbed;

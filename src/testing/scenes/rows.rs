@@ -22,7 +22,7 @@ pub fn assert_rows(path: &Path, same: fn(&str, &str) -> bool, answer: impl Fn(&s
 }
 
 /// Returns the scene `FOLDER/NAME.json` of a row `NAME CHANGES`. A change is `key=value` of its contact or `/place=value` at
-/// a JSON pointer, of which `-` is behind the last; `shift=x,y` moves all nodes, `turn=degrees` turns them with all forces,
+/// a JSON pointer, of which `-` is behind the last, `null` for none; `shift=x,y` moves all nodes, `turn=degrees` turns them with all forces,
 /// and with restraints along an axis where the angle is right.
 ///
 /// # Errors
@@ -53,6 +53,7 @@ fn set(scene: &mut Value, place: &str, value: Value) {
     match scene.pointer_mut(parent).expect(place) {
         Value::Array(all) if key == "-" => all.push(value),
         Value::Array(all) => all[key.parse::<usize>().expect(place)] = value,
+        Value::Object(all) if value.is_null() => drop(all.remove(key)),
         other => other[key] = value,
     }
 }
