@@ -5,7 +5,6 @@ pub mod bodies;
 pub mod drawn;
 pub mod embedded;
 pub mod golden;
-pub mod golden_file;
 pub mod golden_floats;
 pub mod json;
 pub mod rows;

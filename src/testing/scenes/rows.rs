@@ -1,4 +1,4 @@
-//! Files of rows, each followed by what is found of it; rows that change a scene of a file.
+//! Rows that change a scene of a file.
 
 use std::path::Path;
 
@@ -6,20 +6,7 @@ use base::error::InputError;
 use problem::scene::Scene;
 use serde_json::{Value, json};
 
-use crate::golden_file::assert_file_by;
-
-/// Compares the rows of a file, behind each of which stands what `answer` gives of it, in lines that begin with two
-/// blanks; lines that begin with `#` say what must hold.
-#[track_caller]
-pub fn assert_rows(path: &Path, same: fn(&str, &str) -> bool, answer: impl Fn(&str) -> String) {
-    let text = std::fs::read_to_string(path).expect("a file of rows");
-    let rows = text.lines().filter(|line| !line.starts_with("  "));
-    let found = rows.map(|row| match row.starts_with('#') || row.is_empty() {
-        true => format!("{row}\n"),
-        false => format!("{row}\n  {}\n", answer(row).replace('\n', "\n  ")),
-    });
-    assert_file_by(path, &found.collect::<String>(), same);
-}
+pub use crate::golden_file::assert_rows;
 
 /// Returns the scene `FOLDER/NAME.json` of a row `NAME CHANGES`. A change is `key=value` of its contact or `/place=value` at
 /// a JSON pointer, of which `-` is behind the last, `null` for none; `shift=x,y` moves all nodes, `turn=degrees` turns them with all forces,

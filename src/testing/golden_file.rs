@@ -1,4 +1,4 @@
-//! Golden files that are what users get, without a head: schemas, pages.
+//! Golden files without a head: what users get, as schemas and pages, and rows.
 
 use std::path::Path;
 
@@ -22,4 +22,17 @@ pub fn assert_file_by(path: &Path, text: &str, same: fn(&str, &str) -> bool) {
     }
     let first = golden.lines().zip(text.lines()).find(|(golden, is)| !same(golden, is));
     panic!("{} differs: {first:?}", path.display());
+}
+
+/// Compares the rows of a file, behind each of which stands what `answer` gives of it, in lines that begin with two
+/// blanks; lines that begin with `#` say what must hold.
+#[track_caller]
+pub fn assert_rows(path: &Path, same: fn(&str, &str) -> bool, answer: impl Fn(&str) -> String) {
+    let text = std::fs::read_to_string(path).expect("a file of rows");
+    let rows = text.lines().filter(|line| !line.starts_with("  "));
+    let found = rows.map(|row| match row.starts_with('#') || row.is_empty() {
+        true => format!("{row}\n"),
+        false => format!("{row}\n  {}\n", answer(row).replace('\n', "\n  ")),
+    });
+    assert_file_by(path, &found.collect::<String>(), same);
 }
