@@ -7,7 +7,6 @@ use crate::common::annulus::annulus;
 use crate::common::rows::{assert_rows, scene_of};
 use crate::common::same_text::same_text;
 use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, Tolerance, assert_near};
-use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::problem::element;
@@ -244,29 +243,6 @@ fn everything_but_times_is_reproducible() {
         serde_json::to_string(&trade).unwrap()
     };
     assert!(measured() == measured());
-}
-
-#[test]
-fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
-    let request = Request::new(&open("fig1")).variant(Variant::Tied);
-    let reach = |accuracy| solve_to(&request, accuracy);
-    for (accuracy, scalar) in [
-        (1e-2, ScalarName::F64),
-        (1e-10, ScalarName::F64),
-        (1e-20, ScalarName::F64x2),
-        (1e-35, ScalarName::Exact),
-    ] {
-        let reached = reach(accuracy).expect("a precision meets it");
-        let last = reached.attempts.last().expect("an attempt");
-        assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
-        assert!(matches!(last.rounding, Rounding::Measured(bound) if bound <= accuracy));
-        let words = report::reached(&reached, accuracy).text(usize::MAX);
-        assert!(words.contains("mesh"), "{words}");
-    }
-    for accuracy in [0.0, -1.0, 1.0, f64::NAN, 1e-60] {
-        let error = reach(accuracy).err();
-        assert!(matches!(error, Some(Error::Input(_))), "{accuracy:e}: {error:?}");
-    }
 }
 
 /// The true error, against f64x2, is within the bar of every precision that is taken.

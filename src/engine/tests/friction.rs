@@ -273,13 +273,3 @@ fn stages_sum_to_the_load() {
     });
     assert_near("stuck from the start", (&a - &b).amax(), 0.0, a.amax(), &BALANCE);
 }
-
-#[test]
-fn stages_are_counted_without_a_gap() {
-    for (stage, word) in [(3, "no load has stage 2"), (0, "stages count from 1")] {
-        let mut scene = strip(4, 0.5, 0.3, 0.5);
-        scene.description.loads[1].stage = Some(stage);
-        let error = scene.build().unwrap_err().to_string();
-        assert!(error.contains(word), "{error}");
-    }
-}

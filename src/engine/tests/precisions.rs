@@ -5,13 +5,12 @@ use dashu_ratio::RBig;
 use engine::error::Error;
 use engine::estimates::perturbed;
 use engine::linear::{
-    Arithmetic, DenseLu, Inputs, Ldlt, Precision, ScalarName, Solver, SparseSymmetric,
-    inverse_norm, solve_dense,
+    Arithmetic, DenseLu, Inputs, Ldlt, ScalarName, Solver, SparseSymmetric, inverse_norm,
+    solve_dense,
 };
 use engine::{self, Request, Solution, Step};
 use nalgebra::{DMatrix, DVector};
-use numbers::scalar::{Exact, F64x2, Scalar, scope};
-use numbers::square::SparseSquare;
+use numbers::scalar::Scalar;
 use paper::door;
 use problem::model::NodeId;
 use problem::modelling::Variant;
@@ -342,23 +341,4 @@ fn what_no_precision_has_is_refused() {
     );
     let unilateral = Variant::Unilateral;
     refused("fig1", unilateral, of(ScalarName::F64, by_lu), "does not solve by sparse-lu");
-}
-
-#[test]
-fn a_singular_matrix_is_reported_on_every_setting() {
-    // Two springs in a row that nothing holds.
-    let a = [[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];
-    fn check<T: Precision>(a: &[[f64; 3]; 3], solvers: &[Solver]) {
-        let matrix = DMatrix::from_fn(3, 3, |i, j| T::from_f64(a[i][j]));
-        let matrix = SparseSquare::from_dense(&matrix);
-        let b = DVector::from_fn(3, |i, _| T::from_f64(f64::from(i == 2)));
-        for solver in solvers {
-            assert!(T::solve(&matrix, &b, *solver).is_err(), "{solver}");
-        }
-    }
-    use Solver::{DenseLu, SparseCholesky};
-    check::<f64>(&a, Solver::ALL);
-    check::<f32>(&a, &[DenseLu, SparseCholesky]);
-    check::<F64x2>(&a, &[DenseLu, SparseCholesky]);
-    scope(|| check::<Exact>(&a, &[DenseLu, SparseCholesky]));
 }
