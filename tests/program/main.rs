@@ -12,7 +12,6 @@ mod common {
 
 mod accuracy;
 mod claims;
-mod conclusion;
 mod document;
 mod drawing;
 mod examples;
