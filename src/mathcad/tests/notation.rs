@@ -31,7 +31,7 @@ fn listings_are_read_or_refused() {
 #[test]
 fn an_error_shows_its_line() {
     let text = "# header\nf(x) :=\n  y ← 1\n  z ← y[1\n  z";
-    let shown = Listing::parse("f", text).err().expect("no second bracket").to_string();
+    let shown = Listing::parse("f", text).expect_err("no second bracket").to_string();
     assert!(shown.starts_with("f, line 3 (line 4 of the file), column 10: found"), "{shown}");
     assert!(shown.ends_with("      z ← y[1\n             ^"), "{shown}");
 }

@@ -163,10 +163,12 @@ fn models_by_hand() {
 /// carries.
 #[test]
 fn loads_in_a_scalar() {
-    let row =
-        r#"blocks /thickness=0.5 /loads=[{"on":12,"pressure":8.0},{"node":3,"force":[1.0,2.0]}]"#;
-    let load = scene_of("tests/models", row).expect("sound").model.load_in(|x| 2.0 * x);
-    assert_eq!(load.as_slice()[4..8], [2.0, 4.0 - 32.0, 0.0, -32.0]);
+    let loads =
+        r#"{"on":12,"pressure":8.0},{"node":3,"force":[1.0,2.0]},{"on":10,"traction":[3.0,5.0]}"#;
+    let scene = scene_of("tests/models", &format!("blocks /thickness=0.5 /loads=[{loads}]"));
+    let load = scene.expect("sound").model.load_in(|x| 2.0 * x);
+    let twice = [12.0, 20.0, 12.0, 20.0, 2.0, 4.0 - 32.0, 0.0, -32.0];
+    assert_eq!(load.as_slice()[..8], twice);
 }
 
 #[test]
