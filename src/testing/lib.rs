@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 pub mod draws;
+pub mod golden_file;
 pub mod random;
 pub mod tolerances;
 

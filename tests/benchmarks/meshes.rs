@@ -17,63 +17,19 @@ const CHORDS: Tolerance = Tolerance {
          ends",
 };
 
-/// A kind with the area of each body and the length of each group of edges.
-struct Case {
-    kind: Kind,
-    tolerance: Tolerance,
-    areas: &'static [(&'static str, f64)],
-    lengths: Vec<(&'static str, f64)>,
-}
+/// Of each kind the area of its two bodies, then lengths of groups of edges; `3π` is three times π.
+const SIZES: [&str; 4] = [
+    "lower 1250, upper 1250, bottom 50, target 50, contact 50, top 50, lower_left 25, upper_left 25",
+    "block 20000, cylinder 1250π, bottom 100, block_axis 200, cylinder_axis 100",
+    "foundation 100π, punch 1, outer 10π, foundation_axis 20, contact 1, top 1, punch_axis 1",
+    "block 2313.734888, stamp 28.88π, bottom 50, right 50, top 50, left 50, duct_wall 15.4π, stamp_arc 7.6π, \
+     stamp_top 15.2, stamp_axis 7.6",
+];
 
-fn cases() -> Vec<Case> {
-    vec![
-        Case {
-            kind: Kind::Blocks(Blocks::default()),
-            tolerance: STRAIGHT,
-            areas: &[("lower", 1250.0), ("upper", 1250.0)],
-            lengths: vec![
-                ("bottom", 50.0),
-                ("target", 50.0),
-                ("contact", 50.0),
-                ("top", 50.0),
-                ("lower_left", 25.0),
-                ("upper_left", 25.0),
-            ],
-        },
-        Case {
-            kind: Kind::Hertz(Hertz::default()),
-            tolerance: CHORDS,
-            areas: &[("block", 20000.0), ("cylinder", 1250.0 * PI)],
-            lengths: vec![("bottom", 100.0), ("block_axis", 200.0), ("cylinder_axis", 100.0)],
-        },
-        Case {
-            kind: Kind::Punch(Punch::default()),
-            tolerance: CHORDS,
-            areas: &[("foundation", 100.0 * PI), ("punch", 1.0)],
-            lengths: vec![
-                ("outer", 10.0 * PI),
-                ("foundation_axis", 20.0),
-                ("contact", 1.0),
-                ("top", 1.0),
-                ("punch_axis", 1.0),
-            ],
-        },
-        Case {
-            kind: Kind::Strand(Strand::default()),
-            tolerance: CHORDS,
-            areas: &[("block", 2500.0 - PI * 7.7 * 7.7), ("stamp", PI * 7.6 * 7.6 / 2.0)],
-            lengths: vec![
-                ("bottom", 50.0),
-                ("right", 50.0),
-                ("top", 50.0),
-                ("left", 50.0),
-                ("duct_wall", PI * 15.4),
-                ("stamp_arc", PI * 7.6),
-                ("stamp_top", 15.2),
-                ("stamp_axis", 7.6),
-            ],
-        },
-    ]
+/// Each kind by its defaults, made.
+fn made() -> impl Iterator<Item = (Kind, SceneBuilder)> {
+    let made = |kind: Kind| (kind.clone(), kind.generate().expect("the defaults are in range"));
+    Kind::all().into_iter().map(made)
 }
 
 /// Area of each body and length of each group of edges, by name.
@@ -95,22 +51,25 @@ fn sizes(mesh: &Mesh) -> BTreeMap<String, f64> {
 
 #[test]
 fn every_kind_has_its_bodies_and_its_complete_groups() {
-    for case in cases() {
-        let benchmark = case.kind.generate().expect("the defaults are in range");
+    let exact = |size: &str| match size.strip_suffix('π') {
+        Some(part) => PI * part.parse::<f64>().expect("a number"),
+        None => size.parse().expect("a number"),
+    };
+    for ((_, benchmark), exactly) in made().zip(SIZES) {
         let sizes = sizes(&benchmark.mesh);
-        for (group, exact) in case.areas.iter().chain(&case.lengths) {
-            let what = format!("{} {group}", benchmark.name);
-            assert_near(&what, sizes[*group], *exact, *exact, &case.tolerance);
+        let tolerance = if benchmark.name == "blocks" { &STRAIGHT } else { &CHORDS };
+        for (group, size) in exactly.split(", ").map(|size| size.split_once(' ').expect("a size")) {
+            let (what, exact) = (format!("{} {group}", benchmark.name), exact(size));
+            assert_near(&what, sizes[group], exact, exact, tolerance);
         }
     }
 }
 
 #[test]
 fn every_kind_is_a_sound_scene() {
-    for case in cases() {
-        let benchmark = case.kind.generate().expect("the defaults are in range");
+    for (_, benchmark) in made() {
         let scene = benchmark.build().unwrap_or_else(|why| panic!("{}: {why}", benchmark.name));
-        assert_eq!(scene.model.bodies.len(), case.areas.len());
+        assert_eq!(scene.model.bodies.len(), 2);
         assert!(scene.model.dropped.is_empty());
         assert!(scene.model.total_load().iter().any(|f| *f != 0.0));
     }
@@ -118,8 +77,7 @@ fn every_kind_is_a_sound_scene() {
 
 #[test]
 fn the_files_read_back_to_the_same_mesh_and_description() {
-    for case in cases() {
-        let benchmark = case.kind.generate().expect("the defaults are in range");
+    for (kind, benchmark) in made() {
         let folder = TempDir::new().unwrap();
         benchmark.write(folder.path()).expect("the folder can be written to");
         let beside =
@@ -127,7 +85,7 @@ fn the_files_read_back_to_the_same_mesh_and_description() {
         let text = beside("scene.json").unwrap();
         let read = SceneBuilder::read(&benchmark.name, &text, beside).expect("the files are sound");
         assert_eq!(read, benchmark);
-        assert_eq!(case.kind.generate().unwrap(), benchmark, "the same every time");
+        assert_eq!(kind.generate().unwrap(), benchmark, "the same every time");
     }
 }
 

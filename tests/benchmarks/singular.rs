@@ -10,7 +10,6 @@
 use std::f64::consts::PI;
 
 use crate::common::annulus::annulus;
-use crate::common::json::build;
 use crate::common::recovery::solved;
 use crate::common::tolerances::{Tolerance, assert_near};
 use crate::cook::membrane;
@@ -22,7 +21,6 @@ use plane_contact::problem::element::Plane;
 use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::{Axis, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::{Request, solve};
-use serde_json::json;
 
 /// The growth of the displacement under a force on a node, from mesh to mesh.
 const FLAMANT: Tolerance = Tolerance {
@@ -148,34 +146,21 @@ fn sticking_contact_has_none_where_it_ends() {
     assert_eq!(run(&request.reference()), [None, None]);
 }
 
-/// A block of unit width on rollers, six by six squares, with a force on the middle of its top.
+/// A block of unit width on a fixed side, six by six squares, with a force on the middle of its top.
 fn pushed() -> Scene {
-    let n = 6;
-    let number = |i: usize, j: usize| j * (n + 1) + i + 1;
-    let place = |k: usize| k as f64 / n as f64;
-    let nodes = (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j)));
-    let node: Vec<_> = nodes.map(|(i, j)| json!([number(i, j), place(i), place(j), 0.0])).collect();
-    let mut elem = Vec::new();
-    for k in 0..n {
-        elem.push(json!([elem.len() + 1, 1, 2, 10, 10, number(k, 0), number(k + 1, 0)]));
-    }
-    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
-        let [a, b] = [number(i, j), number(i + 1, j)];
-        let [d, c] = [number(i, j + 1), number(i + 1, j + 1)];
-        elem.push(json!([elem.len() + 1, 2, 2, 1, 1, a, b, c]));
-        elem.push(json!([elem.len() + 1, 2, 2, 1, 1, a, c, d]));
-    }
-    build(&json!({
-        "plane": "strain",
-        "node": node,
-        "elem": elem,
-        "materials": { "1": { "E": E, "nu": NU } },
-        "restraints": [{ "on": 10, "fix": ["x", "y"] }],
-        "loads": [{ "node": number(n / 2, n), "force": [0.0, -P] }],
-        "variant": "tied",
-        "iterations": 1
-    }))
-    .expect("a sound scene")
+    let mut mesh = MeshBuilder::default();
+    let row = |j: usize| (0..7).map(move |i| [i, j].map(|k| k as f64 / 6.0));
+    let rows: Vec<_> = (0..7).map(|j| mesh.row(row(j))).collect();
+    mesh.join_all("body", &rows);
+    mesh.edges("bottom", &rows[0]);
+    SceneBuilder::new("pushed", mesh.finish(), Plane::Strain)
+        .variant(Variant::Tied)
+        .iterations(1)
+        .material("body", E, NU)
+        .restrain("bottom", &[Axis::X, Axis::Y])
+        .force(rows[6][3], [0.0, -P])
+        .build()
+        .expect("a sound scene")
 }
 
 const E: f64 = 1000.0;

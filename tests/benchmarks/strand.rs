@@ -20,18 +20,7 @@ use plane_contact::studies::benchmark::Strand;
 const RADIUS: f64 = 7.6;
 const DUCTS: [f64; 8] = [7.61, 7.62, 7.65, 7.7, 8.0, 8.5, 12.0, 20.0];
 const SIZES: [f64; 3] = [0.9, 0.45, 0.25];
-const GROUPS: [&str; 10] = [
-    "bottom",
-    "right",
-    "top",
-    "left",
-    "duct_wall",
-    "stamp_arc",
-    "stamp_top",
-    "stamp_axis",
-    "block",
-    "stamp",
-];
+const GROUPS: &str = "bottom right top left duct_wall stamp_arc stamp_top stamp_axis block stamp";
 
 /// Every duct at every size.
 fn meshes() -> impl Iterator<Item = (f64, f64, Mesh)> {
@@ -133,7 +122,7 @@ fn stamps_of_all_heights_are_well_shaped() {
 fn meshes_are_exactly_symmetric() {
     let bits = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
     for (duct, size, mesh) in meshes() {
-        for name in GROUPS {
+        for name in GROUPS.split(' ') {
             let image_of = match name {
                 "left" => "right",
                 "right" => "left",
@@ -182,7 +171,7 @@ fn the_block_has_its_square_without_the_polygon_of_the_duct() {
 fn groups_are_those_of_the_golden_scene() {
     for (duct, size, mesh) in meshes() {
         let names: Vec<&str> = mesh.names.iter().map(|n| n.name.as_str()).collect();
-        assert_eq!(names, GROUPS);
+        assert_eq!(names.join(" "), GROUPS);
         let wall = chain(&mesh, "duct_wall");
         assert_eq!(wall.first(), wall.last(), "the wall is closed");
         let arc = chain(&mesh, "stamp_arc");

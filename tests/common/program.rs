@@ -5,6 +5,9 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use serde_json::Value;
+use tempfile::TempDir;
+
 /// Runs the program in `folder`, with texts of help as wide as they are without a terminal.
 pub fn run(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_plane-contact"))
@@ -13,6 +16,14 @@ pub fn run(folder: &Path, args: &[&str]) -> Output {
         .current_dir(folder)
         .output()
         .expect("the program starts")
+}
+
+/// Returns the JSON that the program prints in a folder of its own, where it ends well.
+pub fn json(args: &[&str]) -> Value {
+    let folder = TempDir::new().expect("a temporary folder");
+    let output = run(folder.path(), args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("the command prints JSON")
 }
 
 /// Runs the program in `folder`; returns its exit status, what it prints, and its messages.

@@ -5,10 +5,11 @@ use std::process::Command;
 
 use crate::common::embedded::scene_json;
 use crate::common::golden_floats::assert_golden;
-use crate::common::json::build;
 use crate::common::outcome::solve;
 use crate::common::program;
+use crate::common::rows::scene_of;
 use crate::common::tolerances::{Tolerance, assert_near};
+use crate::scenes::FOLDER;
 use crate::unilateral::models;
 use nalgebra::DVector;
 use plane_contact::engine::{self, Request, Solution};
@@ -166,96 +167,16 @@ fn assert_same(solution: &Solution, u: DVector<f64>, what: &str) {
     assert_near(&format!("{what}, node {}", beside.worst(1)[0]), far, 0.0, 1.0, &CCX_PRINTS);
 }
 
-/// A block of `nx` by `ny` cells of two triangles on 0 .. 2 by `y0` .. `y0` + 1; its nodes follow
-/// `first`.
-struct Block {
-    nx: usize,
-    ny: usize,
-    y0: f64,
-    first: usize,
-}
-
-impl Block {
-    fn node(&self, i: usize, j: usize) -> usize {
-        self.first + j * (self.nx + 1) + i
-    }
-
-    fn nodes(&self) -> Vec<Value> {
-        let places = (0..=self.ny).flat_map(|j| (0..=self.nx).map(move |i| (i, j)));
-        let row = |(i, j): (usize, usize)| {
-            let [x, y] = [2.0 * i as f64 / self.nx as f64, self.y0 + j as f64 / self.ny as f64];
-            json!([self.node(i, j), x, y, 0.0])
-        };
-        places.map(row).collect()
-    }
-
-    /// Type, tag and nodes of the edges of row `j`.
-    fn row(&self, j: usize, tag: usize) -> Vec<Value> {
-        (0..self.nx)
-            .map(|i| json!([1, 2, tag, tag, self.node(i, j), self.node(i + 1, j)]))
-            .collect()
-    }
-
-    fn triangles(&self, tag: usize) -> Vec<Value> {
-        let cells = (0..self.ny).flat_map(|j| (0..self.nx).map(move |i| (i, j)));
-        let two = |(i, j)| {
-            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-            let [a, b, c, d] = [a, b, c, d].map(|(i, j)| self.node(i, j));
-            [json!([2, 2, tag, tag, a, b, c]), json!([2, 2, tag, tag, a, c, d])]
-        };
-        cells.flat_map(two).collect()
-    }
-}
-
 /// GOAL: two blocks whose nodes do not match, every kind of row in the equations.
 /// MESH: 2 x 1 mm each, 10 x 5 and 7 x 4 cells of two triangles.
 /// BOUNDARY CONDITIONS: bottom restrained in y, one corner of each block in x; the top is pushed
 /// down and aside, and so is a contact node.
 /// PARAMETERS: E = 30000 and 210000 MPa, nu = 0.2 and 0.3, thickness 0.7 mm.
-fn blocks_that_do_not_match() -> Value {
-    let below = Block { nx: 10, ny: 5, y0: 0.0, first: 1 };
-    let above = Block { nx: 7, ny: 4, y0: 1.0, first: 67 };
-    let nodes = [below.nodes(), above.nodes()].concat();
-    let rows = [
-        below.row(0, 10),
-        below.row(5, 11),
-        above.row(0, 20),
-        above.row(4, 21),
-        below.triangles(1),
-        above.triangles(2),
-    ];
-    let numbered = |(k, row): (usize, Value)| {
-        let mut row = row.as_array().unwrap().clone();
-        row.insert(0, json!(k + 1));
-        Value::from(row)
-    };
-    let elem: Vec<Value> = rows.concat().into_iter().enumerate().map(numbered).collect();
-    json!({
-        "plane": "strain",
-        "thickness": 0.7,
-        "node": nodes,
-        "elem": elem,
-        "materials": { "1": { "E": 30000.0, "nu": 0.2 }, "2": { "E": 210000.0, "nu": 0.3 } },
-        "restraints": [
-            { "on": 10, "fix": ["y"] },
-            { "node": below.node(0, 0), "fix": ["x"] },
-            { "node": above.node(0, 4), "fix": ["x"] }
-        ],
-        "loads": [
-            { "on": 21, "traction": [0.3, -6.3] },
-            { "node": above.node(3, 0), "force": [0.2, -0.9] }
-        ],
-        "contact": { "cnt": 20, "trg": 11, "c_tll": 0.001 },
-        "iterations": 5,
-        "variant": "stepped"
-    })
-}
-
 fn scenes() -> Vec<(&'static str, Scene)> {
     vec![
         ("two-blocks", Scene::open("two-blocks").unwrap()),
         ("strand", Scene::open("strand").unwrap()),
-        ("blocks that do not match", build(&blocks_that_do_not_match()).unwrap()),
+        ("blocks that do not match", scene_of(FOLDER, "unmatched").unwrap()),
     ]
 }
 

@@ -2,16 +2,17 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden_floats, json, tolerances};
+    pub use testing::{annulus, embedded, golden_floats, rows, tolerances};
 
     pub mod outcome;
     pub mod program;
+    pub mod same_text;
     pub mod tools;
 }
 
 mod calculix;
 mod calculix_files;
 mod corrected;
-mod limits;
 mod page_iterations;
+mod scenes;
 mod unilateral;

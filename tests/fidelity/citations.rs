@@ -17,54 +17,23 @@ const SKIPPED: [&str; 3] = ["target", "out", ".git"];
 /// Folders at the repository's root in which a named path must exist.
 const FOLDERS: [&str; 5] = ["src/", "tests/", "golden/", "listings/", "benches/"];
 
-/// A text of the repository: its path from the root, with `/`, and its content.
-struct Text {
-    path: String,
-    content: String,
-}
-
-impl Text {
-    fn is_page(&self) -> bool {
-        self.path.ends_with(".md")
-    }
-
-    /// `path:line`, for the words of a failure.
-    fn place(&self, line: usize) -> String {
-        format!("{}:{}", self.path, line + 1)
-    }
-}
-
-/// Every `.rs` and `.md` file but this one, whose examples name what is not there.
-fn texts() -> Vec<Text> {
+/// The paths from the root of every `.rs` and `.md` file below a folder but this one, whose examples name what is not
+/// there.
+fn texts(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder of the repository");
     let mut found = Vec::new();
-    walk(Path::new(ROOT), &mut found);
-    let this = Path::new(file!()).file_name().expect("a source file has a name");
-    let mut texts: Vec<Text> = found
-        .into_iter()
-        .filter(|path| path.file_name() != Some(this))
-        .map(|path| {
-            let content = fs::read_to_string(&path).expect("a source is text");
-            let path = path.strip_prefix(ROOT).expect("within the repository");
-            Text { path: path.to_string_lossy().replace('\\', "/"), content }
-        })
-        .collect();
-    texts.sort_by(|a, b| a.path.cmp(&b.path));
-    texts
-}
-
-fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder of the repository") {
-        let path = entry.expect("an entry").path();
+    for path in entries.map(|entry| entry.expect("an entry").path()) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         // What a package links to stands elsewhere too.
         if path.is_symlink() || SKIPPED.contains(&name.as_str()) {
             continue;
         } else if path.is_dir() {
-            walk(&path, found);
-        } else if name.ends_with(".rs") || name.ends_with(".md") {
-            found.push(path);
+            found.extend(texts(&path));
+        } else if (name.ends_with(".rs") || name.ends_with(".md")) && !file!().ends_with(&name) {
+            found.push(path.strip_prefix(ROOT).expect("within the repository").to_path_buf());
         }
     }
+    found
 }
 
 /// The words of a line, in order.
@@ -82,33 +51,27 @@ fn paths(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Whether `path` is there, seen from the root or from a folder above `text`.
-fn exists(text: &Text, path: &str) -> bool {
-    let from = Path::new(ROOT).join(&text.path);
-    from.ancestors().skip(1).any(|folder| folder.starts_with(ROOT) && folder.join(path).exists())
+fn exists(text: &Path, path: &str) -> bool {
+    text.ancestors().skip(1).any(|folder| Path::new(ROOT).join(folder).join(path).exists())
 }
 
-/// What is wrong with the citations of `text`.
-fn faults(text: &Text) -> Vec<String> {
-    let mut faults = Vec::new();
-    for (at, line) in text.content.lines().enumerate() {
-        let mut fault = |what: String| faults.push(format!("{}: {what}", text.place(at)));
-        for path in paths(line) {
-            let named = path.ends_with(".md") && path != ".md"
-                || FOLDERS.iter().any(|folder| path.starts_with(folder));
-            if named && !exists(text, path) {
-                fault(format!("names {path}, which is not there"));
-            }
-        }
-        if text.is_page() {
-            for target in links(line) {
-                let from = Path::new(ROOT).join(&text.path);
-                if !from.parent().unwrap().join(target).exists() {
-                    fault(format!("links to {target}, which is not there"));
-                }
-            }
-        }
-    }
-    faults
+/// What is wrong with the citations of a text.
+fn faults(text: &Path) -> Vec<String> {
+    let content = fs::read_to_string(Path::new(ROOT).join(text)).expect("a source is text");
+    let is_page = text.extension().is_some_and(|ending| ending == "md");
+    let beside = Path::new(ROOT).join(text.parent().expect("a folder"));
+    let of_line = |(at, line): (usize, &str)| {
+        let is_named = |path: &&str| {
+            let is_page = path.ends_with(".md") && *path != ".md";
+            is_page || FOLDERS.iter().any(|folder| path.starts_with(folder))
+        };
+        let named = paths(line).filter(is_named).filter(|path| !exists(text, path));
+        let links = links(line).filter(|target| is_page && !beside.join(target).exists());
+        let place = format!("{}:{}", text.display(), at + 1);
+        let lost = named.chain(links).map(|path| format!("{place}: {path} is not there"));
+        lost.collect::<Vec<_>>()
+    };
+    content.lines().enumerate().flat_map(of_line).collect()
 }
 
 /// The targets of a page's links that are files: `[words](target)`.
@@ -122,9 +85,9 @@ fn links(line: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn every_citation_leads_somewhere() {
-    let texts = texts();
-    assert!(texts.iter().any(|text| text.path == READING), "the walk reaches {READING}");
-    let faults: Vec<String> = texts.iter().flat_map(faults).collect();
+    let texts = texts(Path::new(ROOT));
+    assert!(texts.contains(&READING.into()), "the walk reaches {READING}");
+    let faults: Vec<String> = texts.iter().flat_map(|text| faults(text)).collect();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 

@@ -2,7 +2,9 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{draws, embedded, golden_file, golden_floats, json, random, tolerances};
+    pub use testing::{
+        draws, embedded, golden_file, golden_floats, json, random, rows, tolerances,
+    };
 
     pub mod outcome;
     pub mod program;

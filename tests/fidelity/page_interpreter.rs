@@ -300,6 +300,9 @@ fn rules() -> Vec<String> {
     }
     let notation = include_str!("../../src/mathcad/tests/notation.rs");
     programs.extend(notation.split('"').skip(1).step_by(2).map(|text| text.replace("\\n", "\n")));
+    let rows = include_str!("../../src/mathcad/tests/notation.txt").lines();
+    let rows = rows.filter(|row| !row.starts_with("  ") && !row.starts_with("# "));
+    programs.extend(rows.map(|row| row.trim_start_matches("raw: ").replace('⏎', "\n")));
     programs.push("y ← 1 if x = 5\ny ← 2 if x = 4\ny ← 3 otherwise\ny".into());
     let program = |text: String| format!("f(x) :=\n  {}", text.replace('\n', "\n  "));
     programs.into_iter().map(program).collect()

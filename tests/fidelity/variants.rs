@@ -3,6 +3,7 @@
 use crate::common::embedded::scene_json;
 use crate::common::json::build;
 use crate::common::outcome::solve;
+use crate::common::rows::scene_of;
 use crate::common::tolerances::{BALANCE, Tolerance, assert_near};
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Solver};
@@ -221,14 +222,12 @@ fn c4_a_scene_mirrored_in_y_has_another_answer() {
 /// where a reading or a scene inflates them, it shows.
 #[test]
 fn the_residual_of_eq_1_shows_inflated_weights() {
-    let mut once = scene_json("fig1");
-    once["iterations"] = json!(1);
     let inside: Reading = "R1=inside".parse().unwrap();
-    let request = Request::new(&build(&once).unwrap()).variant(Variant::Tied).reading(inside);
+    let once = scene_of("golden", "fig1/scene /iterations=1").unwrap();
+    let request = Request::new(&once).variant(Variant::Tied).reading(inside);
     assert!(published(&run(&request).unwrap().steps[0]).eq1_residual > 1e-3);
-    let mut twice = scene_json("two-blocks");
-    twice["contact"]["cnt"] = json!([10, 11, 11, 12]);
-    let solution = solved(&build(&twice).unwrap(), Variant::Tied);
+    let twice = scene_of("golden", "two-blocks/scene cnt=[10,11,11,12]").unwrap();
+    let solution = solved(&twice, Variant::Tied);
     assert!(published(&solution.steps[0]).eq1_residual > 1e-4);
 }
 
@@ -269,14 +268,10 @@ fn as_printed_sparse_and_dense_lu_agree() {
 /// force.
 #[test]
 fn r2_printed_holds_what_km_holds() {
-    let mut scene = scene_json("fig1");
-    scene["restraints"] = json!([
-        { "on": 11, "fix": ["x", "y"] }, { "node": 13, "fix": ["x"] }, { "node": 12, "fix": ["y"] }
-    ]);
-    scene["loads"] = json!([{ "node": 12, "force": [5.0, 0.0] }]);
-    scene["iterations"] = json!(1);
+    let held = r#"[{"on":11,"fix":["x","y"]},{"node":13,"fix":["x"]},{"node":12,"fix":["y"]}]"#;
+    let row = r#"/loads=[{"node":12,"force":[5.0,0.0]}] /iterations=1"#;
+    let scene = scene_of("golden", &format!("fig1/scene /restraints={held} {row}")).unwrap();
     let reading: Reading = "R2=printed".parse().unwrap();
-    let scene = build(&scene).unwrap();
     let request = Request::new(&scene).variant(Variant::Printed).reading(reading);
     assert_eq!(NodeId::from_number(12).components(&run(&request).unwrap().u), [0.0, 0.0]);
 }
@@ -285,9 +280,8 @@ fn r2_printed_holds_what_km_holds() {
 #[test]
 fn loads_of_any_size() {
     let pressed = |p: f64| {
-        let mut scene = scene_json("two-blocks");
-        scene["loads"][0]["pressure"] = json!(p);
-        run(&Request::new(&build(&scene).unwrap()).variant(Variant::Tied))
+        let scene = scene_of("golden", &format!("two-blocks/scene /loads/0/pressure={p:?}"));
+        run(&Request::new(&scene.unwrap()).variant(Variant::Tied))
     };
     for p in [1e-200, 1e150] {
         let force = pressed(p).unwrap().target_force();
@@ -300,9 +294,8 @@ fn loads_of_any_size() {
 /// What a constraint passes straight to a restrained target node reaches the target too.
 #[test]
 fn forces_on_held_target_nodes_count() {
-    let mut scene = scene_json("two-blocks");
-    scene["restraints"].as_array_mut().unwrap().push(json!({ "on": 11, "fix": ["y"] }));
-    let scene = build(&scene).unwrap();
+    let row = r#"two-blocks/scene /restraints/-={"on":11,"fix":["y"]}"#;
+    let scene = scene_of("golden", row).unwrap();
     for variant in [Variant::Tied, Variant::Stepped] {
         let solution = solved(&scene, variant);
         let u = &solution.u;
@@ -327,11 +320,8 @@ fn r7_turns_one_variant_into_the_other() {
 /// Without contact nothing of contact is built, and one body stands for itself.
 #[test]
 fn a_scene_without_contact_is_plain_elasticity() {
-    let mut json = scene_json("two-blocks");
-    let object = json.as_object_mut().unwrap();
-    object.remove("contact");
-    object["restraints"].as_array_mut().unwrap().push(json!({ "on": 20, "fix": ["y"] }));
-    let scene = build(&json).unwrap();
+    let row = r#"two-blocks/scene /contact=null /restraints/-={"on":20,"fix":["y"]}"#;
+    let scene = scene_of("golden", row).unwrap();
     let solution = solved(&scene, Variant::Tied);
     assert!(solution.steps.iter().all(|it| it.in_contact == 0 && it.target_force == 0.0));
     let mut lower = NodeId::all(9).map(|node| node.components(&solution.u));

@@ -2,9 +2,11 @@
 //! it says that it cannot.
 
 use std::cell::Cell;
+use std::path::Path;
 
 use crate::common::json::build;
 use crate::common::random::fixed;
+use crate::common::rows::{assert_rows, scene_of};
 use dashu_ratio::RBig;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Inputs, ScalarName};
@@ -12,7 +14,8 @@ use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::numbers::scalar::rational;
 use plane_contact::problem::modelling::{ContactModel, Coupling, Variant};
 use plane_contact::problem::scene::Scene;
-use plane_contact::studies::trade::{AccurateSolution, Rounding, solve_to};
+use plane_contact::studies::trade::trial_tables as report;
+use plane_contact::studies::trade::{Rounding, solve_to};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::{Value, json};
@@ -118,10 +121,6 @@ fn error(delivered: &Solution, exact: &Solution) -> f64 {
     if off == 0.0 { 0.0 } else { off / max_displacement(&exact.u) }
 }
 
-fn case(scene: &Value, variant: Variant, accuracy: f64) -> Result<AccurateSolution, Error> {
-    solve_to(&Request::new(&build(scene).expect("a scene")).variant(variant), accuracy)
-}
-
 #[test]
 fn an_accuracy_is_held_or_refused() {
     let [delivered, refused, unbuilt] = [(); 3].map(|()| Cell::new(0));
@@ -160,91 +159,54 @@ fn an_accuracy_is_held_or_refused() {
     assert!(delivered > refused + unbuilt, "{delivered}, {refused}, {unbuilt}");
 }
 
-/// A square under pressure at `at`, in units of stress and force as given.
-fn square(at: f64, e: f64, pressure: f64) -> Value {
-    json!({
-        "plane": "strain",
-        "node": [[1, at, 0.0, 0.0], [2, at + 1.0, 0.0, 0.0], [3, at + 1.0, 1.0, 0.0], [4, at, 1.0, 0.0]],
-        "elem": [[1, 1, 2, 10, 1, 3, 4], [2, 2, 2, 1, 1, 1, 2, 3], [3, 2, 2, 1, 1, 1, 3, 4]],
-        "materials": { "1": { "E": e, "nu": 0.3 } },
-        "restraints": [{ "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] }],
-        "loads": [{ "on": 10, "pressure": pressure }],
-        "iterations": 1
-    })
+/// The square of `accuracy/square.json`, changed.
+fn square(changes: &str) -> Scene {
+    scene_of("tests/program", &format!("accuracy/square {changes}")).expect("it is sound")
 }
 
-/// f32 is never the cheapest: what overflows, vanishes or collapses in it takes no other precision than the rest.
-/// What overflows in f64 is taken to the next precision that has it.
+/// The rows of `accuracy/rows.txt`: an accuracy, a variant and a scene, and what was tried, or why nothing meets it.
 #[test]
-fn what_a_precision_cannot_represent_climbs() {
-    for (what, scene, tried) in [
-        ("an overflow of f32", square(0.0, 1e40, 1e38), &[ScalarName::F64][..]),
-        ("a load that vanishes in f32", square(0.0, 1.0, 1e-50), &[ScalarName::F64]),
-        ("an edge that collapses in f32", square(1e9, 1.0, 0.1), &[ScalarName::F64]),
-        (
-            "an overflow of f64",
-            square(0.0, 1.5e308, 1e300),
-            &[ScalarName::F64, ScalarName::F64x2, ScalarName::Exact],
-        ),
-    ] {
-        let reached =
-            case(&scene, Variant::Tied, 1e-3).unwrap_or_else(|why| panic!("{what}: {why}"));
-        let (last, failed) = reached.attempts.split_last().expect("one was tried");
-        let failed = failed.iter().inspect(|attempt| {
-            assert!(matches!(attempt.rounding, Rounding::Failed(_)), "{what}: {attempt:?}");
+fn precisions_are_tried_from_the_cheapest() {
+    let answer = |row: &str| {
+        let [accuracy, variant, scene] = row.splitn(3, ' ').collect::<Vec<_>>()[..] else {
+            panic!("{row}")
+        };
+        let scene = scene_of("tests/program", scene).expect("it is sound");
+        let request = Request::new(&scene).variant(variant.parse().expect("a variant"));
+        let accuracy = accuracy.parse().expect("a number");
+        let reached = match solve_to(&request, accuracy) {
+            Ok(reached) => reached,
+            Err(why) => return format!("status {}: {why}", why.exit_status().number()),
+        };
+        assert!(report::reached(&reached, accuracy).text(usize::MAX).contains("mesh"));
+        let last = reached.attempts.last().expect("an attempt");
+        assert!(matches!(last.rounding, Rounding::Measured(bound) if bound <= accuracy));
+        let tried = reached.attempts.iter().map(|attempt| match attempt.rounding {
+            Rounding::Failed(_) => format!("{} fails", attempt.arithmetic.scalar),
+            _ => attempt.arithmetic.scalar.to_string(),
         });
-        let all = failed.chain([last]).map(|attempt| attempt.arithmetic.scalar);
-        assert_eq!(all.collect::<Vec<_>>(), tried, "{what}");
-    }
+        tried.collect::<Vec<_>>().join(", ")
+    };
+    assert_rows(Path::new("tests/program/accuracy/rows.txt"), |golden, is| golden == is, answer);
 }
 
 /// f32 rounds coordinates far from the origin: no number of its run shows that.
 #[test]
 fn rounded_coordinates_count() {
-    let mut scene = square(1e6, 1.0, 0.1);
-    for node in [1, 2] {
-        scene["node"][node][1] = json!(1e6 + 0.7);
-    }
-    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    let scene = square("shift=1e6,0 /node/1/1=1000000.7 /node/2/1=1000000.7");
+    let request = Request::new(&scene).variant(Variant::Tied);
     let single = Arithmetic { scalar: ScalarName::F32, ..Arithmetic::default() };
     let single = solve(&request.clone().arithmetic(single), &mut |_| ()).unwrap();
     assert!(error(&single, &exactly(&request).unwrap()) > 1e-3, "f32 would do");
-    let reached = case(&scene, Variant::Tied, 1e-5).unwrap();
-    assert_eq!(reached.solution.request.arithmetic.scalar, ScalarName::F64);
-}
-
-#[test]
-fn printed_reaches_double_double() {
-    for name in ["fig1", "two-blocks", "strand"] {
-        let request = Request::new(&Scene::open(name).unwrap()).variant(Variant::Printed);
-        let reached = solve_to(&request, 1e-20).unwrap_or_else(|why| panic!("{name}: {why}"));
-        let last = reached.attempts.last().unwrap();
-        assert_eq!(last.arithmetic.scalar, ScalarName::F64x2, "{name}: {last:?}");
-    }
-}
-
-#[test]
-fn unilateral_has_one_precision() {
-    let strand = Request::new(&Scene::open("strand").unwrap()).variant(Variant::Unilateral);
-    let error = solve_to(&strand, 1e-16).unwrap_err();
-    assert_eq!(error.exit_status().number(), 2);
-    let words = error.to_string();
-    assert!(words.contains("unilateral runs in f64 only"), "{words}");
 }
 
 /// A matrix that is singular to the digits of a scalar only may be no fault of the print.
 #[test]
 fn singular_by_rounding_is_not_blamed_on_the_print() {
     // A stamp 1e18 times as soft as the spring that the last triangle makes of it.
-    let mut scene = square(0.0, 1.0, 0.1);
-    scene["node"] =
-        json!([[1, 0.0, 0.0, 0.0], [2, 1.0, 0.0, 0.0], [3, 1.0, 1.0, 0.0], [4, 0.0, 1.0, 0.0]]);
-    scene["elem"] =
-        json!([[1, 1, 2, 10, 1, 3, 4], [2, 2, 2, 1, 1, 1, 2, 3], [3, 2, 2, 2, 2, 1, 3, 4]]);
-    scene["materials"] = json!({ "1": { "E": 1e-18, "nu": 0.3 }, "2": { "E": 1.0, "nu": 0.3 } });
-    scene["restraints"] =
-        json!([{ "node": 1, "fix": ["x", "y"] }, { "node": 2, "fix": ["x", "y"] }]);
-    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Printed);
+    let scene =
+        square(r#"/elem/2=[3,2,2,2,2,1,3,4] /materials/1/E=1e-18 /materials/2={"E":1.0,"nu":0.3}"#);
+    let request = Request::new(&scene).variant(Variant::Printed);
     let error = solve(&request, &mut |_| ()).unwrap_err();
     assert_eq!(error.exit_status().number(), 3, "{error}");
     assert!(error.to_string().contains("f64 rounds: --scalar exact"), "{error}");
@@ -260,9 +222,8 @@ fn singular_by_rounding_is_not_blamed_on_the_print() {
 /// 6.3 · 0.35 on an edge of length 1 and a thickness of 2 is 2.205 on each end, as decimals.
 #[test]
 fn decimal_loads_are_multiplied_exactly() {
-    let mut scene = square(0.0, 1.0, 6.3);
-    scene["thickness"] = json!(0.7);
-    let request = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    let scene = square("/loads/0/pressure=6.3 /thickness=0.7");
+    let request = Request::new(&scene).variant(Variant::Tied);
     let number = |x| rational::of_decimal(x).unwrap();
     let forces = plane_contact::numbers::scalar::scope(|| {
         use plane_contact::numbers::scalar::{Exact, Scalar};
@@ -277,9 +238,9 @@ fn decimal_loads_are_multiplied_exactly() {
         Arithmetic { scalar: ScalarName::Exact, inputs: Inputs::Decimal, ..Arithmetic::default() };
     let run =
         |request: &Request| solve(&request.clone().arithmetic(decimals), &mut |_| ()).unwrap();
-    scene["loads"] =
-        json!([{ "node": 3, "force": [0.0, -2.205] }, { "node": 4, "force": [0.0, -2.205] }]);
-    let nodal = Request::new(&build(&scene).unwrap()).variant(Variant::Tied);
+    let at = |node: usize| format!(r#"{{"node":{node},"force":[0.0,-2.205]}}"#);
+    let nodal = square(&format!("/thickness=0.7 /loads=[{},{}]", at(3), at(4)));
+    let nodal = Request::new(&nodal).variant(Variant::Tied);
     assert_eq!(run(&request).digits, run(&nodal).digits);
 }
 

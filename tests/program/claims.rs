@@ -6,9 +6,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::common::program::run;
+use crate::common::program::json;
 use crate::common::tolerances::{CLAIM, assert_near};
 use plane_contact::Scene;
 use plane_contact::engine::{Request, distance, solve};
@@ -42,16 +41,12 @@ pub fn judged(id: ClaimId) -> &'static JudgedClaim {
 
 #[test]
 fn a_claims_number_is_the_one_that_its_command_prints() {
-    let folder = TempDir::new().expect("a temporary folder");
     let mut printed: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
     // What is measured on random scenes stands in a table.
     for judged in JUDGED.iter().filter(|judged| judged.claim.basis != Basis::Random) {
         let (id, number) = (judged.claim.id.name(), judged.measured.number);
         let command: Vec<&str> = judged.command.iter().map(String::as_str).collect();
-        let json = printed.entry(command).or_insert_with_key(|command| {
-            let output = run(folder.path(), command);
-            serde_json::from_slice(&output.stdout).expect("the command prints JSON")
-        });
+        let json = printed.entry(command).or_insert_with_key(|command| json(command));
         let at = |pointer: &String| {
             let value = json.pointer(pointer).and_then(Value::as_f64);
             value.unwrap_or_else(|| panic!("{id}: no number at {pointer}"))
@@ -76,10 +71,8 @@ fn the_change_by_c_tol_is_that_of_trade() {
     let p10 = judged(ClaimId::P10);
     assert_eq!((p10.measured.verdict, p10.measured.number), (Verdict::False, None));
     assert_eq!(p10.measured.detail, BY_ROUNDING);
-    let folder = TempDir::new().expect("a temporary folder");
-    let args = ["trade", "fig1", "--only", "c_tll", "--runs", "1", "--json"];
-    let json: Value = serde_json::from_slice(&run(folder.path(), &args).stdout).expect("JSON");
-    let rows = json["sections"][0]["rows"].as_array().expect("rows");
+    let trade = json(&["trade", "fig1", "--only", "c_tll", "--runs", "1", "--json"]);
+    let rows = trade["sections"][0]["rows"].as_array().expect("rows");
     let row = rows.iter().find(|row| row["variant"] == "stepped" && row["setting"] == "1e-6");
     let change = row.expect("a row")["change"]["displacement"].as_f64().expect("a number");
     let measured = p10.claim.measure(&open("fig1"));
@@ -115,11 +108,9 @@ fn verdicts_on_runs_name_the_errors_of_the_mesh() {
         let is_on_runs = judged.claim.basis == Basis::Runs;
         assert_eq!(judged.measured.mesh_errors.is_empty(), !is_on_runs, "{}", judged.claim.id);
     }
-    let folder = TempDir::new().expect("a temporary folder");
     let solved = |variant: &str| {
-        let output = run(folder.path(), &["solve", "strand", "--variant", variant, "--json"]);
-        let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        json["error_estimates"]["mesh_energy_relative"].as_f64().expect("an estimate")
+        let solved = json(&["solve", "strand", "--variant", variant, "--json"]);
+        solved["error_estimates"]["mesh_energy_relative"].as_f64().expect("an estimate")
     };
     for (id, variant) in [(ClaimId::P1, "stepped"), (ClaimId::P11, "tied")] {
         let [own] = errors(id).collect::<Vec<_>>()[..] else { panic!("{id} rests on one run") };
@@ -150,15 +141,11 @@ fn the_friction_that_ties_is_confirmed_by_a_run_on_either_side() {
 /// Under `stepped` a node that is not in contact ends inside the target.
 #[test]
 fn penetration_is_that_of_the_contact_surface() {
-    let json = {
-        let folder = TempDir::new().expect("a temporary folder");
-        let output = run(folder.path(), &["solve", "strand", "--variant", "stepped", "--json"]);
-        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
-    };
+    let solved = json(&["solve", "strand", "--variant", "stepped", "--json"]);
     let number = |value: &Value| value.as_f64().expect("a number");
-    let nodes = json["contact"].as_array().expect("nodes");
+    let nodes = solved["contact"].as_array().expect("nodes");
     let gap = nodes.iter().map(|node| number(&node["gap"])).fold(0.0, f64::min);
-    let bodies = json["bodies"].as_array().expect("bodies").iter();
+    let bodies = solved["bodies"].as_array().expect("bodies").iter();
     let block = bodies.clone().find(|body| body["name"] == "block").expect("a body");
     let expected = -gap / number(&block["max_displacement"]);
     let judged = judged(ClaimId::P1);
@@ -169,10 +156,6 @@ fn penetration_is_that_of_the_contact_surface() {
 /// What the table of verdicts by reading says of a reading is what an audit under it prints.
 #[test]
 fn a_verdict_by_reading_is_that_of_an_audit_under_it() {
-    let folder = TempDir::new().expect("a temporary folder");
-    let json = |arguments: &[&str]| {
-        serde_json::from_slice::<Value>(&run(folder.path(), arguments).stdout).expect("JSON")
-    };
     let as_printed = json(&["audit", "fig1", "--json"]);
     let node_n = json(&["audit", "fig1", "--reading", "R5=node_n", "--json"]);
     let rows = as_printed["by_reading"].as_array().expect("rows");
@@ -200,13 +183,8 @@ fn a_verdict_by_reading_is_that_of_an_audit_under_it() {
 /// The corrected algorithm is no reading of the print: of a reading only what changes the model matters.
 #[test]
 fn of_a_reading_prices_follow_the_model_alone() {
-    let folder = TempDir::new().expect("a temporary folder");
-    let prices = |reading: &str| {
-        let output = run(folder.path(), &["audit", "fig1", "--reading", reading, "--json"]);
-        assert_eq!(output.status.code(), Some(0), "{reading}");
-        let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        json["prices"].clone()
-    };
+    let prices =
+        |reading: &str| json(&["audit", "fig1", "--reading", reading, "--json"])["prices"].clone();
     let as_printed = prices("R1=beside");
     assert!(as_printed["Ok"].is_array());
     assert_eq!(prices("R1=inside,R5=node_n"), as_printed);
@@ -254,5 +232,34 @@ fn a_scope_is_what_was_tried() {
         let known =
             judged.measured.number.is_some() || judged.measured.verdict == Verdict::NotCheckable;
         assert!(known, "{}", judged.claim.id);
+    }
+}
+
+/// The distances that a list of an audit has at a pointer.
+fn distances<'a>(audit: &'a Value, list: &str, at: &'a str) -> impl Iterator<Item = f64> + 'a {
+    let rows = audit[list].as_array().expect("a list").iter();
+    rows.filter_map(move |row| row.pointer(at)?.as_f64())
+}
+
+/// The conclusion of an audit: its numbers are those of the rows that it is drawn of.
+#[test]
+fn a_conclusion_has_the_numbers_of_its_rows() {
+    for scene in ["strand", "fig1", "two-blocks"] {
+        let audit = json(&["audit", scene, "--json"]);
+        let conclusion = |at: &str| audit["conclusion"].pointer(at).and_then(Value::as_f64);
+        let k1 = json(&["audit", scene, "--finding", "K1", "--json"]);
+        assert_eq!(conclusion("/coupled/joins"), k1["number"].as_f64(), "{scene}");
+        let of_the_paper = audit["variants"].as_array().expect("variants").iter();
+        let of_the_paper = of_the_paper.filter(|row| row["variant"] != "unilateral");
+        let of_the_paper =
+            of_the_paper.filter_map(|row| row.pointer("/distance/energy_relative")?.as_f64());
+        let is_apart = |run: &Value, far: f64| run["energy"].as_f64() == Some(far);
+        let apart = audit.pointer("/conclusion/nearest/apart").and_then(Value::as_array);
+        let apart = apart.expect("runs of another plane problem");
+        let readings = distances(&audit, "readings", "/equilibrium_error");
+        let readings = readings.filter(|far| !apart.iter().any(|run| is_apart(run, *far)));
+        let least = of_the_paper.chain(readings).reduce(f64::min).expect("a run ends");
+        let nearest = conclusion("/nearest/runs/0/energy").expect("a nearest run");
+        assert_near(scene, nearest, least, least, &CLAIM);
     }
 }

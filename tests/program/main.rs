@@ -2,7 +2,7 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden, golden_file, json, random, tolerances};
+    pub use testing::{annulus, embedded, golden, golden_file, json, random, rows, tolerances};
 
     pub mod conforming;
     pub mod program;
@@ -12,7 +12,6 @@ mod common {
 
 mod accuracy;
 mod claims;
-mod conclusion;
 mod document;
 mod drawing;
 mod examples;

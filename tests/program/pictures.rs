@@ -2,33 +2,15 @@
 //!
 //! Words and the order of everything are exact; a coordinate may differ by a tenth of a pixel.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use tempfile::TempDir;
 
+use crate::common::golden_file::assert_file_by;
 use crate::common::program::run;
 
 /// A tenth of a pixel: pictures are for the eye.
 const PIXEL: f64 = 0.1;
-
-fn golden() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("golden")
-}
-
-fn succeeds(folder: &Path, args: &[&str]) {
-    assert!(run(folder, args).status.success(), "{args:?}");
-}
-
-/// Compares a shipped picture with one just drawn; INSTA_UPDATE=always takes the new one.
-fn assert_picture(shipped: &Path, drawn: &Path) {
-    let drawn = std::fs::read_to_string(drawn).expect("it was drawn");
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
-        std::fs::write(shipped, &drawn).expect("the repository can be written");
-    }
-    let expected = std::fs::read_to_string(shipped).unwrap_or_default();
-    let same = same_picture(&expected, &drawn);
-    assert!(same, "{} is stale: INSTA_UPDATE=always cargo test draws it anew", shipped.display());
-}
 
 fn same_picture(expected: &str, value: &str) -> bool {
     let (expected, value) = (pieces(expected), pieces(value));
@@ -57,8 +39,10 @@ fn shipped_pictures_are_drawn_anew() {
     let folder = TempDir::new().expect("a temporary folder");
     for (scene, picture) in [("fig1", "pressure.svg"), ("findings/C4", "mesh.svg")] {
         let out = scene.replace('/', "-");
-        succeeds(folder.path(), &["solve", scene, "--out", &out]);
-        let shipped = golden().join(scene).join(picture);
-        assert_picture(&shipped, &folder.path().join(out).join(picture));
+        assert!(run(folder.path(), &["solve", scene, "--out", &out]).status.success(), "{scene}");
+        let drawn = folder.path().join(out).join(picture);
+        let drawn = std::fs::read_to_string(drawn).expect("it was drawn");
+        let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+        assert_file_by(&golden.join(scene).join(picture), &drawn, same_picture);
     }
 }

@@ -6,6 +6,7 @@ use plane_contact::output::model::{Cell, Report, Table};
 use plane_contact::output::text::fitted;
 use tempfile::TempDir;
 
+use crate::common::golden_file::assert_file;
 use crate::common::program::run;
 use crate::texts::commands;
 
@@ -25,50 +26,17 @@ fn report() -> Report {
     Report::titled("A run").table("Iterations (all)", table).note("(1) a note that is no row")
 }
 
+/// Compares with a file of `printed`.
+#[track_caller]
+fn assert_printed(name: &str, text: &str) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/printed");
+    assert_file(&folder.join(name), text);
+}
+
+/// In 80 columns, in 25, and in 18, where the table turns to records.
 #[test]
 fn tables_turn_to_records() {
-    let wide = "A run
-
-Iterations (all)
-  k  contact state    remark
-  -  ---------------  ------
-  1  new              a \"b\"
-  2  as in 1, a turn  -
-  -: nothing moves
-  (1) a note that is no row
-";
-    assert_eq!(report().text(80), wide);
-    let narrow = "A run
-
-Iterations (all)
-  k  contact       remark
-     state
-  -  ------------  ------
-  1  new           a \"b\"
-  2  as in 1, a    -
-     turn
-  -: nothing moves
-  (1) a note that is no
-    row
-";
-    assert_eq!(report().text(25), narrow);
-    let records = "A run
-
-Iterations (all)
-  k 1
-    contact state:
-      new
-    remark: a \"b\"
-  k 2
-    contact state:
-      as in 1, a
-      turn
-    remark: -
-  -: nothing moves
-  (1) a note that
-    is no row
-";
-    assert_eq!(report().text(18), records);
+    assert_printed("text.txt", &[80, 25, 18].map(|width| report().text(width)).join("\n"));
 }
 
 /// A word that is longer than a line is broken, behind a slash where it has one.
@@ -131,69 +99,21 @@ fn a_cell_may_have_any_length() {
 
 #[test]
 fn a_report_is_markdown() {
-    let page = "# A run
-
-## Iterations (all)
-
-| k | contact state | remark |
-|---|---|---|
-| 1 | new | a \"b\" |
-| 2 | as in 1, a turn | - |
-
-- -: nothing moves
-
-- (1) a note that is no row
-
-````text
-```
-````
-
-a\\_b
-";
-    assert_eq!(report().code("```\n").line("a_b").markdown(), page);
+    assert_printed("report.md.txt", &report().code("```\n").line("a_b").markdown());
 }
 
 /// Notes are lists, numbers stand to the right with all their digits beside them, nothing is markup.
 #[test]
 fn a_report_is_html() {
-    let page = "<h1>A run</h1>
-<p>a &lt;b&gt; <code>c</code> &amp;</p>
-<ul><li>one
-<ul><li>inner
-</li></ul>
-</li>
-<li>two
-</li></ul>
-<pre>&lt;x&gt;</pre>
-<figure><img src=\"data:image/svg+xml;base64,PHN2Zy8+\" alt=\"Figure 4: &quot;m&quot;\">
-<figcaption>Figure 4: &quot;m&quot;</figcaption></figure>
-<div class=\"table\" tabindex=\"0\" role=\"region\" aria-label=\"T\"><table><caption>T</caption>
-<thead><tr><th scope=\"col\">a</th><th scope=\"col\" class=\"number\">b</th></tr></thead>
-<tbody>
-<tr><td>x</td><td class=\"number\" data-exact=\"0.125\">12 %</td></tr>
-<tr><td></td><td class=\"number\">-</td></tr>
-</tbody></table></div>
-<p>-: nothing moves</p>
-";
     let missing = Cell::from(None::<f64>).because("nothing moves");
     let table =
         Table::new(["a", "b"], [vec!["x".into(), Cell::percent(0.125)], vec!["".into(), missing]]);
     let report =
         Report::titled("A run").line("a <b> `c` &").note("one").detail("inner").note("two");
     let report = report.code("<x>\n").figure("Figure 4: \"m\"", "<svg/>").table("T", table);
-    assert_eq!(report.html(), page);
     let part = Report::default().heading("P1: b").deeper(1).note("c");
-    let unfolding = Report::default().heading("A part").then(part).heading("Another").html();
-    let expected = "<details id=\"a-part\"><summary><h2>A part</h2></summary>
-<details id=\"p1\"><summary><h3>P1: b</h3></summary>
-<ul><li>c
-</li></ul>
-</details>
-</details>
-<details id=\"another\"><summary><h2>Another</h2></summary>
-</details>
-";
-    assert_eq!(unfolding, expected);
+    let unfolding = Report::default().heading("A part").then(part).heading("Another");
+    assert_printed("report.html", &[report.html(), unfolding.html()].join("\n"));
 }
 
 const FACTORIAL: &str = "fact(n) :=
@@ -285,19 +205,8 @@ fn tables_fit_a_hundred_columns() {
 /// A column is broken between words before a table turns to records.
 #[test]
 fn columns_are_broken_between_words() {
-    let table = Table::new(
-        ["id", "what it is", "value, mm"],
-        [
-            vec!["C1".into(), "a node on a corner is found twice".into(), 1.5.into()],
-            vec!["C2".into(), "short".into(), 22.0.into()],
-        ],
-    );
-    let broken = "  id  what it is      value, mm
-  --  --------------  ---------
-  C1  a node on a       1.50000
-      corner is
-      found twice
-  C2  short                  22
-";
-    assert_eq!(Report::default().table("", table).text(31), broken);
+    let rows = [("C1", "a node on a corner is found twice", 1.5), ("C2", "short", 22.0)];
+    let rows = rows.map(|(id, what, value)| vec![id.into(), what.into(), value.into()]);
+    let table = Table::new(["id", "what it is", "value, mm"], rows);
+    assert_printed("columns.txt", &Report::default().table("", table).text(31));
 }

@@ -52,6 +52,15 @@ fn edit(folder: &Path) {
     fs::write(&scene, text.replace("30000", "31000")).expect("written");
 }
 
+/// Asserts that what holds of the snapshot ends with another status once the scene is edited.
+#[track_caller]
+fn holds_until_edited(folder: &Path, status: i32, command: impl Fn() -> Command) {
+    succeeds(&command().output().expect("it starts"), "the recipe");
+    edit(folder);
+    let output = command().output().expect("it starts");
+    assert_eq!(output.status.code(), Some(status), "{output:?}");
+}
+
 fn command(program: &str, args: &[&str], folder: &Path, programs: &Path) -> Command {
     let path = std::env::var("PATH").expect("a path");
     let mut command = Command::new(program);
@@ -107,13 +116,7 @@ fn the_recipe_for_a_shell_runs() {
     let (folder, programs) = repository();
     let lines = blocks("sh");
     let line = lines.iter().find(|block| block.lines().count() == 1).expect("a line");
-    let status = || {
-        let output = command("sh", &["-c", line], folder.path(), &programs).output();
-        output.expect("sh").status.code()
-    };
-    assert_eq!(status(), Some(0));
-    edit(folder.path());
-    assert_eq!(status(), Some(1));
+    holds_until_edited(folder.path(), 1, || command("sh", &["-c", line], folder.path(), &programs));
 }
 
 #[cfg(unix)]
@@ -152,10 +155,9 @@ fn the_recipe_for_fieldcompare_runs() {
     fs::copy(folder.path().join("reference/fields.vtu"), folder.path().join("my/reference.vtu"))
         .expect("copied");
     let lines = blocks("bash")[0].replace("\nfieldcompare", " &&\nfieldcompare");
-    let ran = || command("sh", &["-c", &lines], folder.path(), &programs).output().expect("sh");
-    succeeds(&ran(), "fieldcompare");
-    edit(folder.path());
-    assert_eq!(ran().status.code(), Some(1));
+    holds_until_edited(folder.path(), 1, || {
+        command("sh", &["-c", &lines], folder.path(), &programs)
+    });
 }
 
 #[cfg(unix)]
@@ -170,13 +172,10 @@ fn the_recipe_for_ctest_runs() {
     let head = "cmake_minimum_required(VERSION 3.16)\nproject(my NONE)\nenable_testing()\n";
     fs::write(folder.path().join("CMakeLists.txt"), head.to_string() + &blocks("cmake")[0])
         .expect("written");
-    let ran = |program: &str, args: &[&str]| {
-        command(program, args, folder.path(), &programs).output().expect(program)
-    };
-    succeeds(&ran("cmake", &["-S", ".", "-B", "build"]), "cmake");
-    succeeds(&ran("ctest", &["--test-dir", "build", "--output-on-failure"]), "ctest");
-    edit(folder.path());
-    assert!(!ran("ctest", &["--test-dir", "build"]).status.success());
+    let ran = |program: &str, args: &[&str]| command(program, args, folder.path(), &programs);
+    succeeds(&ran("cmake", &["-S", ".", "-B", "build"]).output().expect("cmake"), "cmake");
+    let tests = ["--test-dir", "build", "--output-on-failure"];
+    holds_until_edited(folder.path(), 8, || ran("ctest", &tests));
 }
 
 /// pytest with the module of Python and its fixtures.
@@ -218,13 +217,9 @@ fn the_hook_verifies_the_snapshots_of_a_repository() {
     for args in [&["init", "-q"][..], &["add", "my"]] {
         succeeds(&command("git", args, folder.path(), &programs).output().expect("git"), "git");
     }
-    let status = || {
-        let output = command("sh", &["-c", entry], folder.path(), &programs).output();
-        output.expect("sh").status.success()
-    };
-    assert!(status());
-    edit(folder.path());
-    assert!(!status());
+    holds_until_edited(folder.path(), 123, || {
+        command("sh", &["-c", entry], folder.path(), &programs)
+    });
 }
 
 /// The module of Python beside scikit-fem, its examples and its types.

@@ -7,6 +7,7 @@
 //! can do. `golden/tables/statuses.md` has the numbers, and claims P6 and P8 rest on them.
 
 mod counted;
+mod drawn;
 
 use std::path::Path;
 
@@ -23,7 +24,7 @@ use plane_contact::studies::audit::claims::{Claim, ClaimId};
 use crate::common::golden_file::assert_file;
 use crate::tables::{markdown, percent};
 use counted::{Counted, counting};
-use testing::statuses::{DrawnScene, Kind, draw};
+use drawn::{DrawnScene, Kind, draw};
 
 /// Scenes for each row.
 const SCENES: usize = 200;

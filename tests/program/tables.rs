@@ -97,9 +97,6 @@ fn thousands(number: usize) -> String {
     }
 }
 
-/// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
-/// minutes), and what the tables must show on any scene: without a fault nothing, with a weight added
-/// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 /// The quantities of a result, each declared once.
 #[test]
 fn quantities() {
@@ -107,6 +104,9 @@ fn quantities() {
     assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
 }
 
+/// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
+/// minutes), and what the tables must show on any scene: without a fault nothing, with a weight added
+/// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 #[test]
 fn prices() {
     let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");
@@ -281,11 +281,8 @@ fn mesh_errors() {
         "scene, frictionless, small displacements | coupling | estimate | error beside the finer mesh | estimate over error",
         runs,
     );
-    let text = format!(
-        "**The estimate of the error of the mesh, in the energy norm, beside the error from a mesh 64 times finer.** Made by \
-         the test `mesh_errors`.\n\n{table}"
-    );
-    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/tables/mesh_errors.md"), &text);
+    let title = "The estimate of the error of the mesh, in the energy norm, beside the error from a mesh 64 times finer.";
+    assert_table("mesh_errors", title, "", &table);
 }
 
 #[test]

@@ -1,24 +1,24 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
+use std::path::Path;
+
 use crate::claims::judged;
 use crate::common::annulus::annulus;
-use crate::common::json::build;
+use crate::common::rows::{assert_rows, scene_of};
+use crate::common::same_text::same_text;
 use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, Tolerance, assert_near};
-use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
 use plane_contact::engine::{Request, Solution, max_displacement, solve};
-use plane_contact::error::InputError;
-use plane_contact::problem::element::{self, Plane};
-use plane_contact::problem::model::{Model, NodeId};
+use plane_contact::problem::element;
+use plane_contact::problem::model::Model;
 use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::Scene;
 use plane_contact::problem::scene::symmetry::half;
-use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
 use plane_contact::studies::audit::claims::ClaimId;
 use plane_contact::studies::audit::range::{self, ParameterValue};
 use plane_contact::studies::benchmark::Strand;
 use plane_contact::studies::trade::trial_tables as report;
 use plane_contact::studies::trade::{self, AXES, Order, Point, Rounding, Trade, pareto, solve_to};
-use serde_json::{Value, json};
 
 /// Lamé: order of convergence in the energy norm, absolute.
 const LAME_ENERGY_ORDER: Tolerance = Tolerance {
@@ -35,6 +35,8 @@ const HALF: Tolerance = Tolerance {
          equations in another order add 1e-13",
 };
 
+const HALF_SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/program/half");
+
 /// What is measured of the axes of these names, of all where there are none.
 fn measured(scene: &Scene, only: &[&str]) -> Trade {
     let request = Request::new(scene);
@@ -49,31 +51,6 @@ fn open(name: &str) -> Scene {
 
 fn solved(scene: &Scene, variant: Variant) -> Solution {
     solve(&Request::new(scene).variant(variant), &mut |_| ()).expect("the variant runs")
-}
-
-/// A square under pressure, symmetric about x = `at`: two triangles left and right of it; `changed`
-/// edits the scene file.
-fn square(at: f64, changed: impl Fn(&mut Value)) -> Result<Scene, InputError> {
-    let mut scene = json!({
-        "plane": "strain",
-        "node": [
-            [1, at - 1.0, 0.0, 0.0], [2, at, 0.0, 0.0], [3, at + 1.0, 0.0, 0.0],
-            [4, at - 1.0, 2.0, 0.0], [5, at, 2.0, 0.0], [6, at + 1.0, 2.0, 0.0]
-        ],
-        "elem": [
-            [1, 1, 2, 10, 1, 4, 5], [2, 1, 2, 10, 1, 5, 6],
-            [3, 1, 2, 11, 1, 1, 2], [4, 1, 2, 11, 1, 2, 3],
-            [5, 2, 2, 1, 1, 1, 2, 5], [6, 2, 2, 1, 1, 1, 5, 4],
-            [7, 2, 2, 1, 1, 2, 3, 5], [8, 2, 2, 1, 1, 3, 6, 5]
-        ],
-        "materials": { "1": { "E": 1000.0, "nu": 0.3 } },
-        "restraints": [{ "on": 11, "fix": ["x", "y"] }],
-        "loads": [{ "on": 10, "pressure": 2.0 }, { "node": 5, "force": [0.0, -1.0] }],
-        "iterations": 1,
-        "variant": "tied"
-    });
-    changed(&mut scene);
-    build(&scene)
 }
 
 #[test]
@@ -228,109 +205,27 @@ fn half_is_whole(scene: &Scene, variant: Variant) {
 
 #[test]
 fn half_of_a_symmetric_scene_is_the_whole() {
-    for at in [0.0, 3.7, -20.1] {
-        half_is_whole(&square(at, |_| ()).unwrap(), Variant::Tied);
+    for row in ["square", "square shift=3.7,0", "square shift=-20.1,0"] {
+        half_is_whole(&scene_of(HALF_SCENES, row).unwrap(), Variant::Tied);
     }
     half_is_whole(&open("strand"), Variant::Unilateral);
 }
 
+/// The rows of `half/rows.txt`: what is left of each scene.
 #[test]
-fn what_is_not_symmetric_has_no_half() {
-    let none = |changed: &dyn Fn(&mut Value)| half(&square(0.0, changed).unwrap()).is_none();
-    assert!(none(&|s| s["node"][0][1] = json!(-1.1)), "a node");
-    assert!(none(&|s| s["loads"][1]["node"] = json!(4)), "a load");
-    assert!(none(&|s| s["loads"][1]["force"] = json!([1.0, 0.0])), "a load across the line");
-    assert!(none(&|s| s["restraints"] =
-        json!([{ "node": 1, "fix": ["x", "y"] }, { "on": 11, "fix": ["y"] }])));
-    let flipped = |s: &mut Value| {
-        s["elem"][6] = json!([7, 2, 2, 1, 1, 2, 3, 6]);
-        s["elem"][7] = json!([8, 2, 2, 1, 1, 2, 6, 5]);
-    };
-    assert!(none(&flipped), "a diagonal");
-    assert!(half(&open("fig1")).is_none());
-}
-
-/// Images are off by 4 in 1e10, across the borders of the cells in which they are looked for.
-#[test]
-fn images_are_found_where_coordinates_are_large_and_rounded() {
-    let scene = json!({
-        "plane": "strain",
-        "node": [
-            [1, -5e9, 0.0, 0.0], [2, -40018.0, 0.0, 0.0], [3, 0.0, 0.0, 0.0],
-            [4, 40022.0, 0.0, 0.0], [5, 5e9, 0.0, 0.0],
-            [6, -5e9, 40018.0, 0.0], [7, 0.0, 5e9, 0.0], [8, 5e9, 40022.0, 0.0]
-        ],
-        "elem": [
-            [1, 1, 2, 11, 1, 1, 2], [2, 1, 2, 11, 1, 2, 3],
-            [3, 1, 2, 11, 1, 3, 4], [4, 1, 2, 11, 1, 4, 5],
-            [5, 2, 2, 1, 1, 1, 2, 6], [6, 2, 2, 1, 1, 2, 7, 6], [7, 2, 2, 1, 1, 2, 3, 7],
-            [8, 2, 2, 1, 1, 4, 5, 8], [9, 2, 2, 1, 1, 4, 8, 7], [10, 2, 2, 1, 1, 3, 4, 7]
-        ],
-        "materials": { "1": { "E": 1000.0, "nu": 0.3 } },
-        "restraints": [{ "on": 11, "fix": ["x", "y"] }]
+fn what_is_symmetric_has_a_half() {
+    assert_rows(&Path::new(HALF_SCENES).join("rows.txt"), same_text, |row| {
+        let Some(half) = half(&scene_of(HALF_SCENES, row).unwrap()) else { return "none".into() };
+        assert!(half.scene.model.dropped.is_empty() && half.nodes.iter().all(|[a, b]| a == b));
+        let nodes = half.nodes.iter().map(|[node, _]| format!(" {node}"));
+        format!("nodes{}", nodes.collect::<String>())
     });
-    let half = half(&build(&scene).unwrap()).expect("the scene is symmetric");
-    assert_eq!(half.nodes, [3, 4, 5, 7, 8].map(|n| [NodeId::from_number(n); 2]));
-}
-
-#[test]
-fn loads_are_compared_by_their_size() {
-    let is_symmetric = |left: f64, right: f64| {
-        let force = |node: usize, y: f64| json!({ "node": node, "force": [0.0, y] });
-        let loads = |s: &mut Value| s["loads"] = json!([force(4, left), force(6, right)]);
-        half(&square(0.0, loads).unwrap()).is_some()
-    };
-    for size in [1e-6, 1.0, 1e6] {
-        assert!(is_symmetric(size, size * (1.0 + 1e-10)), "{size}");
-        assert!(!is_symmetric(size, size * (1.0 + 1e-8)), "{size}");
-    }
-}
-
-/// One square on another: nodes 7 to 9 of the upper one stand on edges 1 and 2 of the lower one.
-#[test]
-fn both_surfaces_must_be_their_own_image() {
-    let mut mesh = MeshBuilder::default();
-    let rows: [[usize; 3]; 4] =
-        [0.0, 2.0, 2.0, 4.0].map(|y| [-1.0, 0.0, 1.0].map(|x| mesh.node([x, y])));
-    for [below, above] in [[0, 1], [2, 3]] {
-        let ([a, b, c], [d, e, f]) = (rows[below], rows[above]);
-        mesh.triangles("body", [[a, b, e], [a, e, d], [b, c, e], [c, f, e]]);
-    }
-    mesh.edges("target", &rows[1]);
-    mesh.edges("bottom", &rows[0]);
-    let scene = SceneBuilder::new("squares", mesh.finish(), Plane::Strain)
-        .variant(Variant::Stepped)
-        .material("body", 1000.0, 0.3)
-        .restrain("bottom", &[Axis::X, Axis::Y])
-        .restrain_node(11, &[Axis::X, Axis::Y])
-        .restrain_node(10, &[Axis::Y])
-        .restrain_node(12, &[Axis::Y]);
-    let is_symmetric = |nodes: &[usize], edges: &[usize]| {
-        let contact = Contact::new(nodes.to_vec(), edges.to_vec(), 0.001);
-        half(&scene.clone().contact(contact).build().expect("a sound scene")).is_some()
-    };
-    assert!(is_symmetric(&[7, 8, 9], &[1, 2]));
-    assert!(!is_symmetric(&[7, 8], &[1, 2]));
-    assert!(!is_symmetric(&[7, 8, 9], &[1]));
-}
-
-#[test]
-fn half_a_scene_has_no_dropped_node() {
-    let orphan = |s: &mut Value| {
-        let nodes = s["node"].as_array_mut().expect("a list");
-        nodes.push(json!([7, 0.25, 1.0, 0.0]));
-        s["drop_orphans"] = json!(true);
-    };
-    let scene = square(0.0, orphan).unwrap();
-    assert_eq!(scene.model.dropped, [NodeId::from_number(7)]);
-    let half = half(&scene).expect("the scene is symmetric");
-    assert!(half.scene.model.dropped.is_empty());
-    assert_eq!(half.nodes, [2, 3, 5, 6].map(|n| [NodeId::from_number(n); 2]));
+    assert!(half(&open("fig1")).is_none());
 }
 
 #[test]
 fn half_a_scene_is_refined_as_the_whole() {
-    let whole = square(0.0, |_| ()).unwrap();
+    let whole = scene_of(HALF_SCENES, "square").unwrap();
     let of_half = half(&whole).unwrap().scene.refined().unwrap().scene;
     let half_of = half(&whole.refined().unwrap().scene).unwrap().scene;
     assert_eq!(of_half.model.free_dofs(), half_of.model.free_dofs());
@@ -348,29 +243,6 @@ fn everything_but_times_is_reproducible() {
         serde_json::to_string(&trade).unwrap()
     };
     assert!(measured() == measured());
-}
-
-#[test]
-fn an_accuracy_takes_the_cheapest_precision_that_meets_it() {
-    let request = Request::new(&open("fig1")).variant(Variant::Tied);
-    let reach = |accuracy| solve_to(&request, accuracy);
-    for (accuracy, scalar) in [
-        (1e-2, ScalarName::F64),
-        (1e-10, ScalarName::F64),
-        (1e-20, ScalarName::F64x2),
-        (1e-35, ScalarName::Exact),
-    ] {
-        let reached = reach(accuracy).expect("a precision meets it");
-        let last = reached.attempts.last().expect("an attempt");
-        assert_eq!(last.arithmetic.scalar, scalar, "{accuracy:e}: {:?}", reached.attempts);
-        assert!(matches!(last.rounding, Rounding::Measured(bound) if bound <= accuracy));
-        let words = report::reached(&reached, accuracy).text(usize::MAX);
-        assert!(words.contains("mesh"), "{words}");
-    }
-    for accuracy in [0.0, -1.0, 1.0, f64::NAN, 1e-60] {
-        let error = reach(accuracy).err();
-        assert!(matches!(error, Some(Error::Input(_))), "{accuracy:e}: {error:?}");
-    }
 }
 
 /// The true error, against f64x2, is within the bar of every precision that is taken.

@@ -10,10 +10,11 @@ use problem::modelling::{ContactModel, Coupling, StatusRule, Variant};
 use problem::scene::Scene;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
-use serde_json::{Value, json};
+use serde_json::json;
 use testing::embedded::scene_json;
 use testing::json::build;
 use testing::random::fixed;
+use testing::rows::scene_of;
 
 /// What is drawn of a scene of one block on another.
 #[derive(Clone, Debug)]
@@ -160,28 +161,9 @@ fn what_rounding_decides_is_said() {
     assert!(turned("nts") > 0 && turned("mortar") > 0, "on some scene rounding is here to decide");
 }
 
-/// A block whose upper side, the target, ends at x = 1, and a stamp on it that its nodes 6 and 7 hold;
-/// `stamp` is where its three nodes stand.
-pub fn block_and_stamp(stamp: [[f64; 2]; 3], contact: &Value, variant: Variant) -> Request {
-    let [[x5, y5], [x6, y6], [x7, y7]] = stamp;
-    let scene = build(&json!({
-        "plane": "strain",
-        "node": [
-            [1, 0.0, 0.0, 0.0], [2, 1.0, 0.0, 0.0], [3, 0.0, -1.0, 0.0], [4, 1.0, -1.0, 0.0],
-            [5, x5, y5, 0.0], [6, x6, y6, 0.0], [7, x7, y7, 0.0]
-        ],
-        "elem": [
-            [1, 1, 2, 10, 10, 1, 2], [2, 2, 2, 1, 1, 1, 3, 2], [3, 2, 2, 1, 1, 3, 4, 2],
-            [4, 2, 2, 2, 2, 5, 6, 7]
-        ],
-        "materials": { "1": { "E": 4.0, "nu": 0.0 }, "2": { "E": 4.0, "nu": 0.0 } },
-        "restraints": [
-            { "node": 3, "fix": ["x", "y"] }, { "node": 4, "fix": ["x", "y"] },
-            { "node": 6, "fix": ["x", "y"] }, { "node": 7, "fix": ["x", "y"] }
-        ],
-        "loads": [{ "node": 5, "force": [0.0, -0.2] }],
-        "contact": contact
-    }));
+/// A block whose upper side, the target, ends at x = 1, and a stamp on it whose node 5 may touch, held at nodes 6 and 7.
+pub fn block_and_stamp(changes: &str, variant: Variant) -> Request {
+    let scene = scene_of("tests", &format!("stamp {changes}"));
     Request::new(&scene.expect("it is sound")).variant(variant)
 }
 
@@ -189,10 +171,8 @@ pub fn block_and_stamp(stamp: [[f64; 2]; 3], contact: &Value, variant: Variant) 
 /// two are one number.
 #[test]
 fn a_status_that_hangs_on_the_last_digit_is_said() {
-    let contact = json!({ "cnt": [5], "trg": [1], "c_tll": 0.1000000001 });
     let found = |scalar: ScalarName| {
-        let request =
-            block_and_stamp([[0.3, 0.1], [2.0, 1.0], [0.0, 1.0]], &contact, Variant::Tied);
+        let request = block_and_stamp("c_tll=0.1000000001", Variant::Tied);
         let request = request.arithmetic(Arithmetic { scalar, ..Arithmetic::default() });
         perturbed(&solve(&request, &mut |_| ()).expect("it runs"))
     };

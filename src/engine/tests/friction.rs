@@ -6,8 +6,31 @@ use engine::{self, Assessment, Request, Solution};
 use problem::element::Plane;
 use problem::modelling::{ContactModel, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
-use testing::tolerances::{
-    BALANCE, CATTANEO, DISSIPATION, LARGE_FRICTION, LOAD_STEP, SHEAR_LAG, assert_near,
+use testing::tolerances::{BALANCE, Tolerance, assert_near};
+
+/// The slip of a pulled strip beside that of a bar, in heights over the length of the slip for its
+/// end, in heights for its edge.
+const SHEAR_LAG: Tolerance =
+    Tolerance { limit: 1.2, reason: "a strip is no bar over one height, and slip ends at a node" };
+
+/// The zone of stick under partial slip, relative to Cattaneo's and Mindlin's.
+const CATTANEO: Tolerance = Tolerance {
+    limit: 0.035,
+    reason: "fitted on 15 to 25 nodes; 0.6, 1.4 and 3.3 % measured, 0.2 % with 70 nodes",
+};
+
+/// How far a sticking node moves on a foundation of a modulus a million times as large.
+const DISSIPATION: Tolerance =
+    Tolerance { limit: 1e-5, reason: "the foundation yields by its modulus over the strip's" };
+
+/// Displacements under a coefficient of 1000 beside those of nodes that never slide.
+const LARGE_FRICTION: Tolerance =
+    Tolerance { limit: 1e-5, reason: "what is left of the size of the steps" };
+
+/// Displacements in 16 steps of the load beside those in 32.
+const LOAD_STEP: Tolerance = Tolerance {
+    limit: 1e-5,
+    reason: "a node that slips and then sticks within a step; 3e-6 measured",
 };
 
 fn rubbing(mu: f64) -> Contact {
@@ -249,14 +272,4 @@ fn stages_sum_to_the_load() {
         engine::solve(&request, &mut |_| ()).unwrap().u
     });
     assert_near("stuck from the start", (&a - &b).amax(), 0.0, a.amax(), &BALANCE);
-}
-
-#[test]
-fn stages_are_counted_without_a_gap() {
-    for (stage, word) in [(3, "no load has stage 2"), (0, "stages count from 1")] {
-        let mut scene = strip(4, 0.5, 0.3, 0.5);
-        scene.description.loads[1].stage = Some(stage);
-        let error = scene.build().unwrap_err().to_string();
-        assert!(error.contains(word), "{error}");
-    }
 }

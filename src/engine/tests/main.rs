@@ -2,6 +2,9 @@
 
 extern crate plane_contact_engine as engine;
 
+#[path = "../../../tests/common/same_text.rs"]
+mod same_text;
+
 mod corners;
 mod decisions;
 mod error_estimates;
@@ -9,8 +12,8 @@ mod faced;
 mod facing;
 mod friction;
 mod hard;
+mod hard_scenes;
 mod invariance;
-mod orders;
 mod overlap;
 mod perturbed;
 mod precisions;

@@ -1,60 +1,33 @@
 //! Nodes that lie inside another body: how deep, and whether contact watches them, by hand.
 
 use std::collections::HashSet;
-use std::sync::Arc;
 
 use engine::contact::{InsideNode, Surfaces, Watched};
-use engine::{Request, share_of_load, solve};
+use engine::{Request, solve};
 use problem::element::Plane;
 use problem::model::NodeId;
 use problem::modelling::{Coupling, Friction, Geometry, Variant};
 use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use testing::rows::scene_of;
 
-/// A block on a wider one; the groups of contact have some of the nodes where they meet.
+/// A block on a wider one; the groups of contact, nodes 11 to 13 and edges 5 to 8, may have some of where they meet.
 ///
 /// ```text
-///          13--14--15       y = 2
+///          14--15--16       y = 2
 ///           |   |   |
-///          10--11--12       y = 1
-///       5---6---7---8---9   y = 1
+///          11--12--13       y = 1
+///       6---7---8---9--10   y = 1
 ///       |   |   |   |   |
-///       0---1---2---3---4   y = 0
+///       1---2---3---4---5   y = 0
 /// ```
-fn blocks(contact: &[usize], target: &[usize]) -> Scene {
-    let contact_of = Contact {
-        friction: Some(Friction::NONE),
-        coupling: Some(Coupling::Mortar),
-        ..Contact::new("contact", "target", 0.01)
-    };
-    let scene = pressed([contact, target]).restrain_node(15, &[Axis::X]).pressure("top", 1.0);
-    scene.contact(contact_of).build().expect("it is sound")
+fn blocks(row: &str) -> Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/contact/scenes");
+    scene_of(folder, row).expect("it is sound")
 }
-
-/// The same without contact, load, and what holds the upper block.
-fn pressed([contact, target]: [&[usize]; 2]) -> SceneBuilder {
-    let mut mesh = MeshBuilder::default();
-    let mut row = |xs: &[f64], y: f64| mesh.row(xs.iter().map(|x| [*x, y]));
-    let (wide, narrow) = ([0.0, 1.0, 2.0, 3.0, 4.0], [0.75, 1.75, 2.75]);
-    let rows = [row(&wide, 0.0), row(&wide, 1.0), row(&narrow, 1.0), row(&narrow, 2.0)];
-    mesh.join("lower", &rows[0], &rows[1]);
-    mesh.join("upper", &rows[2], &rows[3]);
-    let of = |row: &[_], kept: &[usize]| kept.iter().map(|k| row[*k]).collect::<Vec<_>>();
-    mesh.edges("bottom", &rows[0]);
-    mesh.edges("target", &of(&rows[1], target));
-    mesh.edges("contact", &of(&rows[2], contact));
-    mesh.edges("top", &rows[3]);
-    SceneBuilder::new("blocks", mesh.finish(), Plane::Stress)
-        .variant(Variant::Unilateral)
-        .material("lower", 1000.0, 0.3)
-        .material("upper", 1000.0, 0.3)
-        .restrain("bottom", &[Axis::X, Axis::Y])
-}
-
-const ALL: [&[usize]; 2] = [&[0, 1, 2], &[0, 1, 2, 3, 4]];
 
 /// The nodes inside where the upper block is moved down by a tenth, in order, with their depths.
-fn inside([contact, target]: [&[usize]; 2]) -> Vec<(usize, Watched)> {
-    let model = blocks(contact, target).model;
+fn inside(row: &str) -> Vec<(usize, Watched)> {
+    let model = blocks(row).model;
     let mut shape = model.nodes.clone();
     shape[10..].iter_mut().for_each(|at| at[1] -= 0.1);
     let surfaces = Surfaces::new(&model).expect("edges of the outline");
@@ -72,11 +45,11 @@ fn inside([contact, target]: [&[usize]; 2]) -> Vec<(usize, Watched)> {
 fn nodes_beyond_either_group_are_watched_by_nothing() {
     use Watched::{Contact, Not, Target};
     let all = [(6, Target), (7, Target), (10, Contact), (11, Contact), (12, Contact)];
-    assert_eq!(inside(ALL), all);
+    assert_eq!(inside("foot"), all);
     let short = [(6, Target), (7, Not), (10, Contact), (11, Contact), (12, Not)];
-    assert_eq!(inside([&[0, 1], ALL[1]]), short);
+    assert_eq!(inside("foot cnt=[11,12]"), short);
     let short = [(6, Target), (7, Target), (10, Not), (11, Contact), (12, Contact)];
-    assert_eq!(inside([ALL[0], &[1, 2, 3, 4]]), short);
+    assert_eq!(inside("foot trg=[6,7,8]"), short);
 }
 
 /// A curved surface on another of the same radius enters it by the height of an arc over its edge, (1 − cos a/2) r.
@@ -123,27 +96,15 @@ fn the_facets_of_flush_curved_surfaces_have_their_height() {
     assert_eq!(solution.overlap, None);
 }
 
-#[test]
-fn an_equilibrium_of_bodies_that_lie_in_each_other_is_none_of_the_scene() {
-    let overlap = |[contact, target]: [&[usize]; 2]| {
-        let request = Request::new(&blocks(contact, target));
-        let solution = solve(&request, &mut |_| ()).expect("an equilibrium of the groups");
-        assert_eq!(solution.exit_status().number() == 4, solution.overlap.is_some());
-        solution.overlap.map(|overlap| (overlap.node.index(), overlap.nodes))
-    };
-    assert_eq!(overlap(ALL), None);
-    assert_eq!(overlap([&[0, 1], ALL[1]]), Some((12, 2)));
-    assert_eq!(overlap([ALL[0], &[1, 2, 3, 4]]).map(|found| found.0), Some(10));
-}
-
 /// Without contact the lower block is pulled into the upper one, or away from it, or pushed through its own bottom.
 #[test]
 fn bodies_without_contact_are_searched_and_so_are_triangles_turned_inside_out() {
     for (pressure, [overlaps, inside_out]) in
-        [(-10.0, [true, false]), (10.0, [false, false]), (3000.0, [false, true])]
+        [("-10", [true, false]), ("10", [false, false]), ("3000", [false, true])]
     {
-        let scene = pressed(ALL).restrain("top", &[Axis::X, Axis::Y]).pressure("target", pressure);
-        let mut request = Request::new(&scene.build().expect("it is sound"));
+        let held = r#"/restraints/1={"on":21,"fix":["x","y"]}"#;
+        let pulled = format!(r#"/loads/-={{"on":11,"pressure":{pressure}.0}}"#);
+        let mut request = Request::new(&blocks(&format!("foot {held} {pulled} /contact=null")));
         // In the current geometry the step that turns a triangle inside out is refused.
         request.contact.geometry = Geometry::Initial;
         let solution = solve(&request, &mut |_| ()).expect("there are displacements");
@@ -153,28 +114,13 @@ fn bodies_without_contact_are_searched_and_so_are_triangles_turned_inside_out() 
     }
 }
 
-/// Bodies lie in each other by what six digits leave of their coordinates; what the load adds is found all the same.
-#[test]
-fn rounded_coordinates_are_no_overlap() {
-    for (depth, load, is_found) in
-        [(0.0, 1e-6, true), (4e-6, 1e-6, false), (4e-6, 1.0, true), (4e-4, 1e-6, true)]
-    {
-        let mut scene = blocks(&[0, 1], ALL[1]);
-        let model = Arc::make_mut(&mut scene.model);
-        model.nodes[12][1] -= depth;
-        model.stages.iter_mut().chain([&mut model.load]).for_each(|f| *f *= load);
-        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("an equilibrium");
-        assert_eq!(solution.overlap.is_some(), is_found, "{depth} {load}");
-    }
-}
-
 /// The lower block is 1 thick: however short the edges, a node up to 0.5 deep is read as an interference, and a deeper
 /// one as come from the other side; behind the block it faces nothing.
 #[test]
 fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
     for (depth, is_refused, faces) in [(0.49, false, true), (0.51, true, true), (1.5, false, false)]
     {
-        let mut model = (*blocks(ALL[0], ALL[1]).model).clone();
+        let mut model = (*blocks("foot").model).clone();
         model.nodes[10..].iter_mut().for_each(|at| at[1] -= depth);
         let surfaces = Surfaces::new(&model).expect("edges of the outline");
         let refused = surfaces.check_initial_penetration(&model).is_err();
@@ -184,28 +130,4 @@ fn a_scene_is_refused_where_a_node_is_nearer_to_the_other_side_of_the_target() {
             assert_eq!(pairings.iter().any(Option::is_some), faces, "{depth} {coupling}");
         }
     }
-}
-
-/// Contact passes on the whole load, none where it acts across, and no share where the loads on a body cancel or act on
-/// both.
-#[test]
-fn a_share_of_the_load_is_said_where_it_says_something() {
-    let share = |forces: &[(usize, [f64; 2])]| {
-        let mut scene = pressed(ALL).restrain_node(15, &[Axis::X]);
-        for (node, force) in forces {
-            scene = scene.force(*node, *force);
-        }
-        let contact =
-            Contact { friction: Some(Friction::NONE), ..Contact::new("contact", "target", 0.01) };
-        let scene = scene.contact(contact).build().expect("it is sound");
-        let solution = solve(&Request::new(&scene), &mut |_| ()).expect("an equilibrium");
-        assert!(!solution.transmits_nothing(), "{forces:?}");
-        share_of_load(&solution.model, solution.target_force()).map(|share| share.round())
-    };
-    let (down, up, across) = ([0.0, -1.0], [0.0, 1.0], [0.1, 0.0]);
-    assert_eq!(share(&[(15, down)]), Some(1.0));
-    assert_eq!(share(&[(15, down), (6, up)]), None);
-    assert_eq!(share(&[(15, [0.0, -1.0 - 1e-9]), (12, up)]), None);
-    assert_eq!(share(&[(15, [10.0, -0.1])]), Some(0.0));
-    assert_eq!(share(&[(15, down), (11, across)]), Some(1.0));
 }

@@ -6,7 +6,6 @@ use engine::{Margin, NearestDecision, Request, last_under_each_load, solve};
 use problem::model::NodeId;
 use problem::modelling::Variant;
 use problem::scene::Scene;
-use serde_json::json;
 
 fn measured(request: &Request) -> Perturbed {
     let solution = solve(request, &mut |_| ()).expect("there is an equilibrium");
@@ -37,11 +36,9 @@ fn rounding_decides_nothing_in_the_references() {
 /// penetrates, the step is divided, and slip counts from later on: at the limit the last digit decides.
 #[test]
 fn a_path_that_turns_on_the_last_digit_is_found() {
-    let contact = json!({
-        "cnt": [5], "trg": [1], "c_tll": 0.1, "coupling": "nts", "friction": "stick", "geometry": "initial", "load_steps": 2
-    });
     let request = |gap: f64| {
-        block_and_stamp([[0.3, gap], [2.0, 1.5], [0.0, 1.0]], &contact, Variant::Unilateral)
+        let contact = "coupling=nts friction=stick geometry=initial load_steps=2 /node/5/2=1.5";
+        block_and_stamp(&format!("{contact} /node/4/2={gap:?}"), Variant::Unilateral)
     };
     let divides = |gap: f64| {
         let solution = solve(&request(gap), &mut |_| ()).expect("the stamp is held");
@@ -68,12 +65,9 @@ fn last_digits_between(mut near: f64, mut far: f64, holds: impl Fn(f64) -> bool)
 /// last digit decides whether it faces the target.
 #[test]
 fn a_node_at_the_limit_of_what_it_faces_is_found() {
-    let contact = json!({
-        "cnt": [5], "trg": [1], "c_tll": 0.1, "coupling": "nts", "friction": 0, "geometry": "initial"
-    });
     let request = |x: f64| {
-        let stamp = [[x, 0.0], [2.0, 1.0], [0.0, 1.0]];
-        block_and_stamp(stamp, &contact, Variant::Unilateral)
+        let contact = "coupling=nts friction=0 geometry=initial /node/4/2=0.0";
+        block_and_stamp(&format!("{contact} /node/4/1={x:?}"), Variant::Unilateral)
     };
     let faces = |x: f64| {
         let solution = solve(&request(x), &mut |_| ()).expect("the stamp is held");

@@ -9,7 +9,7 @@ use engine::linear::{
     SparseSymmetric, inverse_norm, solve_dense,
 };
 use nalgebra::{DMatrix, DVector};
-use numbers::scalar::{F64x2, Scalar};
+use numbers::scalar::{Exact, F64x2, Scalar, scope};
 use numbers::square::SparseSquare;
 
 /// Makes a vector of its entries.
@@ -276,17 +276,25 @@ fn a_column_of_zeros_is_singular_in_double_doubles() {
     }
 }
 
-/// Nothing holds the direction of the load.
+/// Two springs in a row that nothing holds.
 #[test]
 fn factors_tell_a_singular_matrix() {
-    let matrix = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
-    for solver in Solver::ALL {
-        let matrix = SparseSquare::from_dense(&matrix);
-        assert!(f64::solve(&matrix, &dvector![1.0, 1.0], *solver).is_err(), "{solver}");
+    fn check<T: Precision>(solvers: &[Solver]) {
+        let matrix = [1.0, -1.0, 0.0, -1.0, 2.0, -1.0, 0.0, -1.0, 1.0].map(T::from_f64);
+        let matrix = SparseSquare::from_dense(&DMatrix::from_row_slice(3, 3, &matrix));
+        for solver in solvers {
+            let b = DVector::from_fn(3, |i, _| T::from_f64(f64::from(i == 2)));
+            assert!(T::solve(&matrix, &b, *solver).is_err(), "{solver}");
+        }
     }
+    check::<f64>(Solver::ALL);
+    check::<f32>(&[Solver::DenseLu, Solver::SparseCholesky]);
+    check::<F64x2>(&[Solver::DenseLu, Solver::SparseCholesky]);
+    scope(|| check::<Exact>(&[Solver::DenseLu, Solver::SparseCholesky]));
 }
 
-/// In a column of numbers of 2^20, or of its inverse, so is the pivot that counts as 0.
+/// Less than 16 epsilons for each of four equations count as 0: in a column of numbers of 2^20, or of its inverse, beside
+/// as large numbers.
 #[test]
 fn a_pivot_is_measured_by_its_column() {
     let solved = |epsilons: f64, size: f64| {
@@ -295,7 +303,7 @@ fn a_pivot_is_measured_by_its_column() {
         matrix[(3, 3)] = F64x2::from_f64(epsilons * f64::EPSILON * f64::EPSILON * size);
         F64x2::solve(&SparseSquare::from_dense(&matrix), &DVector::zeros(4), Solver::DenseLu)
     };
-    for size in [2_f64.powi(20), 2_f64.powi(-20)] {
+    for size in [1.0, 2_f64.powi(20), 2_f64.powi(-20)] {
         assert!(solved(60.0, size).is_err_and(|why| why.column == 3), "{size}");
         assert!(solved(70.0, size).is_ok(), "{size}");
     }

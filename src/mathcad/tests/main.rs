@@ -15,7 +15,7 @@ mod xmcd;
 use fastrand::Rng;
 use mathcad::failure::Fallible;
 use mathcad::xmcd::page::Page;
-use mathcad::{Array, Cause, Ended, Limits, Listing, Settings, Value};
+use mathcad::{Array, Ended, Limits, Listing, Settings, Value};
 
 /// One of few.
 fn one_of<T: Clone>(rng: &mut Rng, from: &[T]) -> T {
@@ -55,18 +55,4 @@ fn value_under(settings: &Settings, lines: &str) -> String {
 /// Returns the program's value as text in a default worksheet.
 fn value(lines: &str) -> String {
     value_under(&Settings::default(), lines)
-}
-
-/// Returns why the program fails, and on which line of the listing (the first line of the program
-/// is line 2).
-fn failure_under(settings: &Settings, lines: &str) -> (usize, Cause) {
-    match outcome(lines, settings) {
-        Err(failure) => (failure.line, failure.cause),
-        Ok(outcome) => panic!("expected a failure, found {}", outcome.value),
-    }
-}
-
-/// Returns why the program fails in a default worksheet.
-fn failure(lines: &str) -> Cause {
-    failure_under(&Settings::default(), lines).1
 }

@@ -107,11 +107,3 @@ fn sines_of_small_angles_are_near_the_library_s() {
         assert!(near("sin", x.sin()) && near("cos", x.cos()) && near("tan", x.tan()), "{x}");
     }
 }
-
-#[test]
-fn a_loop_that_does_not_end_reaches_its_limit() {
-    let endless = Limits { steps: 1_000, ..Limits::default() };
-    let listing = program("while x > 0\n  x ← x + 1\nx");
-    let error = listing.runner(&Settings::default(), &endless).call(&[5.0.into()]).unwrap_err();
-    assert!(matches!(error.cause, Cause::Limit { .. }));
-}

@@ -2,13 +2,14 @@
 //! damage.
 
 use std::fs;
+use std::path::Path;
 
-use problem::scene::gmsh::GmshError;
 use problem::scene::gmsh::{read, write};
 use problem::scene::{Element, Mesh, Node, PhysicalName, SceneBuilder};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use testing::random::fixed;
+use testing::rows::assert_rows;
 
 /// `tests/gmsh/blocks.geo` as Gmsh saves it.
 const BLOCKS: [&str; 4] =
@@ -136,62 +137,8 @@ fn windows_line_ends_and_a_missing_last_one_are_read() {
     assert_eq!(read(SMALL_2.trim_end().as_bytes()), Ok(small()));
 }
 
-/// Numbers in any order, each once: the items ascend.
-#[test]
-fn numbers_may_come_in_any_order() {
-    let text = |numbers: &[usize]| {
-        let nodes: String = numbers.iter().map(|n| format!("{n} {n} 0 0\n")).collect();
-        let count = numbers.len();
-        format!(
-            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{count}\n{nodes}$EndNodes\n\
-             $Elements\n0\n$EndElements\n"
-        )
-    };
-    let found = |numbers: &[usize]| {
-        let mesh = read(text(numbers).as_bytes());
-        mesh.map(|mesh| mesh.nodes.iter().map(|node| node.number).collect::<Vec<_>>())
-            .map_err(|error| error.to_string())
-    };
-    let orders: [&[usize]; 6] =
-        [&[1, 2, 3, 4], &[4, 3, 2, 1], &[2, 1, 4, 3], &[3, 4, 1, 2], &[7, 1, 9, 8, 2], &[5]];
-    for numbers in orders {
-        let mut sorted = numbers.to_vec();
-        sorted.sort_unstable();
-        assert_eq!(found(numbers), Ok(sorted), "{numbers:?}");
-        for again in numbers {
-            let error = found(&[numbers, &[*again]].concat()).unwrap_err();
-            assert!(error.contains(&format!("node {again}")), "{error}");
-        }
-    }
-}
-
-/// The largest number that is read, and the first that is not.
-#[test]
-fn dimensions_and_tags_at_their_bounds() {
-    let named =
-        |dim: usize| read(SMALL_2.replace("1 7 \"base\"", &format!("{dim} 7 \"base\"")).as_bytes());
-    assert!([0, 1, 2, 3].iter().all(|dim| named(*dim).is_ok()));
-    assert!(named(4).is_err());
-    let tags = |count: usize| {
-        let tags: String = (1..=count).map(|tag| format!(" {tag}")).collect();
-        read(SMALL_4.replace(" 1 1 1 -3", &format!(" {count}{tags} 1 -3")).as_bytes())
-    };
-    let tagged = tags(32).expect("as many as are allowed");
-    assert_eq!(tagged.elements[1].physical[..], (1..=32).collect::<Vec<_>>());
-    assert!(tags(33).unwrap_err().to_string().contains("at most 32 physical groups"));
-    let block = |dim: usize| {
-        let volume = SMALL_4.replace("0 1 1 0\n", "0 1 1 1\n");
-        let volume = volume.replace("$EndEntities", "4 0 0 0 1 1 1 0 0\n$EndEntities");
-        read(volume.replace("2 4 0 1\n30", &format!("{dim} 4 0 1\n30")).as_bytes())
-    };
-    assert!([2, 3].iter().all(|dim| block(*dim).is_ok()), "{:?}", block(3));
-    assert!(block(4).is_err());
-}
-
 #[test]
 fn other_sections_are_skipped() {
-    let comment = "$Comments\n$Nodes of 2 kinds\n$EndComments\n\n$NodeData\n$EndNodeData\n$Nodes\n";
-    assert_eq!(read(SMALL_2.replace("$Nodes\n", comment).as_bytes()), Ok(small()));
     for name in BLOCKS {
         let plain = blocks(name);
         let at = plain.windows(7).position(|window| window == b"$Nodes\n").unwrap();
@@ -236,24 +183,6 @@ fn triangles(mesh: &Mesh) -> Vec<(Vec<usize>, Vec<usize>)> {
 }
 
 #[test]
-fn a_triangle_of_several_groups_is_one_in_both_versions() {
-    let row = "9 2 2 1 4 10 20 30\n";
-    let with = |rows: &str| {
-        let text =
-            SMALL_2.replace("Elements\n3\n", &format!("Elements\n{}\n", 3 + rows.lines().count()));
-        triangles(&read(text.replace(row, &format!("{row}{rows}")).as_bytes()).expect("a mesh"))
-    };
-    let of_4 = SMALL_4.replace("1 1 0 1 1 1 -3", "1 1 0 3 2 1 5 1 -3");
-    let joined = with("12 2 2 5 4 10 20 30\n10 2 2 2 4 10 20 30\n");
-    assert_eq!(joined, triangles(&read(of_4.as_bytes()).expect("a mesh")));
-    assert_eq!(joined, [(vec![1, 2, 5], vec![10, 20, 30])]);
-    // Of one group, of none, on another surface, and turned round.
-    for other in ["2 1 4 10 20 30", "2 0 4 10 20 30", "2 5 6 10 20 30", "2 5 4 10 30 20"] {
-        assert_eq!(with(&format!("10 2 {other}\n")).len(), 2, "{other}");
-    }
-}
-
-#[test]
 fn binary_files_are_read() {
     assert_eq!(BINARY.map(read), [Ok(small()), Ok(small_4())]);
 }
@@ -270,48 +199,39 @@ fn the_other_byte_order_is_refused_by_name() {
     }
 }
 
-/// A physical tag of 0 is none, in version 4.1 too: of an entity's tags the others count.
+/// Each row of the file: a version and what is changed.
 #[test]
-fn a_physical_tag_of_zero_is_none() {
-    let text = SMALL_4.replace("1 -7 0", "2 0 -7 0");
-    assert_ne!(text, SMALL_4);
-    assert_eq!(read(text.as_bytes()), Ok(small_4()));
-}
-
-/// Each line of the file: a version, what is replaced, by what, and the error.
-#[test]
-fn faults_are_named_with_their_line() {
-    for fault in include_str!("gmsh/faults.txt").lines().skip(1) {
-        let [version, from, to, expected] = fault.split(" | ").collect::<Vec<_>>()[..] else {
-            panic!("{fault}")
-        };
-        let [from, to] = [from, to].map(|text| text.replace('⏎', "\n"));
-        let text = if version == "2.2" { SMALL_2 } else { SMALL_4 };
-        assert!(text.contains(&from), "{fault}");
-        let error = read(text.replacen(&from, &to, 1).as_bytes()).expect_err(fault);
-        assert_eq!(error.to_string(), expected);
-    }
-}
-
-#[test]
-fn missing_and_repeated_sections_are_named() {
-    let cut = |text: &str, from: &str, to: &str| {
-        let (start, end) = (text.find(from).unwrap(), text.find(to).unwrap());
-        read((text[..start].to_owned() + &text[end..]).as_bytes())
-    };
-    let message = |result: Result<Mesh, GmshError>| result.unwrap_err().to_string();
-    let no_nodes = cut(SMALL_2, "$Nodes", "$Elements");
-    assert_eq!(
-        message(no_nodes),
-        "line 9: found $Elements, expected $Nodes before it (in Gmsh set Mesh.SaveParametric = 0)"
+fn changed_files_are_read_or_refused() {
+    assert_rows(
+        Path::new("tests/gmsh/changes.txt"),
+        |golden, is| golden == is,
+        |row| {
+            let mut parts = row.split(" | ");
+            let (text, whole) = match parts.next() {
+                Some("2.2") => (SMALL_2, small()),
+                _ => (SMALL_4, small_4()),
+            };
+            let changed = parts.fold(text.to_owned(), |text, change| {
+                let (from, to) = change.split_once(" → ").expect("a change");
+                let [from, to] = [from, to].map(|text| text.replace('⏎', "\n"));
+                assert!(text.contains(&from), "{row}");
+                text.replacen(&from, &to, 1)
+            });
+            match read(changed.as_bytes()) {
+                Err(why) => why.to_string(),
+                Ok(mesh) if mesh == whole => "the same mesh".into(),
+                Ok(mesh) => {
+                    let nodes: Vec<_> = mesh.nodes.iter().map(|node| node.number).collect();
+                    let names = mesh.names.iter().map(|name| (name.dim, name.tag, &name.name));
+                    let names = names.collect::<Vec<_>>();
+                    let elements =
+                        mesh.elements.iter().map(|e| (e.kind, &e.physical[..], &e.nodes[..]));
+                    let elements = elements.collect::<Vec<_>>();
+                    format!("nodes {nodes:?}, elements {elements:?}, names {names:?}")
+                }
+            }
+        },
     );
-    let no_elements = read(&SMALL_2.as_bytes()[..SMALL_2.find("$Elements").unwrap()]);
-    assert_eq!(message(no_elements), "line 15: the file has no section $Elements");
-    let nodes = &SMALL_2[SMALL_2.find("$Nodes").unwrap()..SMALL_2.find("$Elements").unwrap()];
-    let twice = SMALL_2.to_owned() + nodes;
-    assert_eq!(message(read(twice.as_bytes())), "line 21: a second section $Nodes, expected one");
-    let without_groups = cut(SMALL_4, "$Entities", "$Nodes").unwrap();
-    assert!(without_groups.elements.iter().all(|element| element.physical.is_empty()));
 }
 
 #[test]
@@ -392,22 +312,6 @@ fn triangles_that_run_clockwise_are_turned() {
         let why = both(folded).expect_err("it folds").what;
         assert_eq!(why, "triangles 7 and 9 lie over each other");
     }
-}
-
-#[test]
-fn versions_2_0_and_2_1_are_read_as_2_2_is() {
-    let own = read(SMALL_2.as_bytes()).unwrap();
-    for version in ["2", "2.0", "2.1"] {
-        let other = SMALL_2.replace("2.2 0 8", &format!("{version} 0 8"));
-        assert_eq!(read(other.as_bytes()).unwrap(), own, "{version}");
-    }
-    // Names without a dimension are those of the groups with that tag.
-    let plain = SMALL_2.replace("2 1 \"the", "1 \"the").replace("1 7 \"base\"", "7 \"base\"");
-    let names = |mesh: &Mesh| -> Vec<_> {
-        mesh.names.iter().map(|n| (n.dim, n.tag, n.name.clone())).collect()
-    };
-    let read = read(plain.replace("2.2 0 8", "2 0 8").as_bytes()).unwrap();
-    assert_eq!(names(&read), [(1, 7, "base".into()), (2, 1, "the body".into())]);
 }
 
 #[test]

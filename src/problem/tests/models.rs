@@ -1,10 +1,13 @@
 //! What a scene is built into: bodies and how they are held, loads of edges, identifiers and boxes.
 
+use std::path::Path;
+
 use nalgebra::DVector;
 use problem::element::Plane;
 use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
 use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder, file};
 use serde_json::json;
+use testing::rows::{assert_rows, scene_of};
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
 /// a gap; the nodes of block k are 4k + 1 to 4k + 4, counter-clockwise from the lower left one.
@@ -131,77 +134,41 @@ fn restraints_beside_each_other_leave_a_body_free_to_turn() {
     assert_eq!([2e-6, 4e-6].map(&mut found), [Some("rotate about 1e-6, 0".into()), None]);
 }
 
+/// The rows of `models/rows.txt`: the bodies of a scene, its loads by node, and their sums after each half of a stage.
 #[test]
-fn a_body_that_can_move_is_refused() {
-    let what = |scene: SceneBuilder| scene.build().expect_err("it is refused").what;
-    let free = held(blocks(&["a", "b"]), 1);
-    let says = "body \"b\" is restrained by no contact and can still";
-    assert_eq!(what(free.clone()), format!("{says} move in x"));
-    assert_eq!(what(free.clone().restrain("bottom 1", &[Axis::X])), format!("{says} move in y"));
-    let turns = free.restrain_node(5, &[Axis::X, Axis::Y]);
-    assert!(what(turns.clone()).starts_with(&format!("{says} rotate about ")));
-    assert!(turns.restrain_node(6, &[Axis::Y]).build().is_ok());
-}
-
-/// A triangle on one node of a block that is held; another node of it may be held too.
-#[test]
-fn a_part_that_turns_about_the_node_it_hangs_on_is_refused() {
-    let mut mesh = MeshBuilder::default();
-    mesh.row([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]]);
-    mesh.triangles("a", [[1, 2, 3], [2, 4, 5]]);
-    let hanging = SceneBuilder::new("hinge", mesh.finish(), Plane::Stress)
-        .material("a", 1000.0, 0.25)
-        .restrain_node(1, &[Axis::X, Axis::Y])
-        .restrain_node(3, &[Axis::X]);
-    let error = hanging.clone().build().expect_err("it is refused");
-    assert_eq!(
-        error.what,
-        "the part of body \"a\" at node 4 hangs on node 2 alone, and turns about it"
-    );
-    assert!(hanging.restrain_node(4, &[Axis::Y]).build().is_ok());
-}
-
-/// On an edge of length 2 and a thickness of 0.5, half of a traction on each end; a pressure
-/// pushes inwards, whichever way the edge runs.
-#[test]
-fn loads_of_edges() {
-    let scene = held(blocks(&["a"]), 1).thickness(0.5);
-    let load = |scene: SceneBuilder| scene.build().expect("a sound scene").model;
-    let traction = load(scene.clone().traction("right 0", [8.0, -2.0]));
-    let at = |model: &Model, n: usize| NodeId::from_number(n).components(&model.load);
-    assert_eq!(
-        [1, 2, 3, 4].map(|n| at(&traction, n)),
-        [[0.0; 2], [4.0, -1.0], [4.0, -1.0], [0.0; 2]]
-    );
-    let pressure = load(scene.clone().pressure("right 0", 8.0));
-    assert_eq!([2, 3].map(|n| at(&pressure, n)), [[-4.0, 0.0]; 2]);
-    let pressure = load(scene.clone().pressure("top 0", 8.0));
-    assert_eq!([3, 4].map(|n| at(&pressure, n)), [[0.0, -4.0]; 2]);
-    let all = scene.pressure("top 0", 8.0).force(3, [1.0, 2.0]).traction("bottom 0", [3.0, 5.0]);
-    let model = load(all.clone());
-    assert_eq!(model.total_load(), [4.0, -8.0 + 2.0 + 5.0]);
-    assert_eq!(model.free_part(&model.load).sum(), 1.0 - 8.0 + 2.0, "not that on held nodes");
-    // Twice each number: that is twice a force, and eight times what an edge of a body carries.
-    let twice = [12.0, 20.0, 12.0, 20.0, 2.0, 4.0 - 32.0, 0.0, -32.0];
-    assert_eq!(model.load_in(|x| 2.0 * x).as_slice(), twice);
-    // Stages: their parts and what was before.
-    let staged = load(all.force(4, [16.0, 0.0]).in_stage(2));
-    assert_eq!(staged.stages.len(), 2);
-    let sums = [0.0, 0.5, 1.0, 1.5, 2.0, 3.0].map(|part| staged.load_after(part).sum());
-    assert_eq!(sums, [0.0, 1.5, 3.0, 11.0, 19.0, 19.0]);
-}
-
-#[test]
-fn stages_count_without_a_gap() {
-    let scene = held(blocks(&["a"]), 1);
-    let staged = |stages: &[usize]| {
-        let all = stages.iter().fold(scene.clone(), |s, k| s.force(3, [1.0, 0.0]).in_stage(*k));
-        all.build().map(|scene| scene.model.stages.len()).map_err(|error| error.what)
+fn models_by_hand() {
+    let answer = |row: &str| {
+        let model = match scene_of("tests/models", row) {
+            Ok(scene) => scene.model,
+            Err(why) => return why.to_string(),
+        };
+        let names: Vec<_> = model.bodies.iter().map(|body| &*body.name).collect();
+        let loaded = model.node_ids().map(|n| (n, n.components(&model.load)));
+        let loaded = loaded.filter(|(_, load)| *load != [0.0; 2]);
+        let loads = loaded.map(|(n, [x, y])| format!("{n}: {x} {y}")).collect::<Vec<_>>();
+        let parts = (0..=2 * model.stages.len() + 1).map(|half| half as f64 / 2.0);
+        let sums = parts.map(|part| model.load_after(part).sum()).collect::<Vec<_>>();
+        let free = model.free_part(&model.load).sum();
+        format!(
+            "bodies {}; loads {}; in all {:?}, of free equations {free}; by half stages {sums:?}",
+            names.join(", "),
+            loads.join(", "),
+            model.total_load()
+        )
     };
-    assert_eq!(scene.build().expect("sound").model.stages.len(), 1, "an empty one");
-    assert_eq!(staged(&[1]), Ok(1));
-    assert_eq!(staged(&[2, 1]), Ok(2));
-    assert_eq!(staged(&[1, 3, 2, 3]), Ok(3));
+    assert_rows(Path::new("tests/models/rows.txt"), |golden, is| golden == is, answer);
+}
+
+/// In a scalar in which each number is twice as large: that is twice a force, and eight times what an edge of a body
+/// carries.
+#[test]
+fn loads_in_a_scalar() {
+    let loads =
+        r#"{"on":12,"pressure":8.0},{"node":3,"force":[1.0,2.0]},{"on":10,"traction":[3.0,5.0]}"#;
+    let scene = scene_of("tests/models", &format!("blocks /thickness=0.5 /loads=[{loads}]"));
+    let load = scene.expect("sound").model.load_in(|x| 2.0 * x);
+    let twice = [12.0, 20.0, 12.0, 20.0, 2.0, 4.0 - 32.0, 0.0, -32.0];
+    assert_eq!(load.as_slice()[..8], twice);
 }
 
 #[test]

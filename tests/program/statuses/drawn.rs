@@ -9,11 +9,11 @@
 //!                                is drawn between.
 //! ```
 
-use crate::draws::between;
 use fastrand::Rng;
-use problem::element::Plane;
-use problem::modelling::Variant;
-use problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use plane_contact::problem::element::Plane;
+use plane_contact::problem::modelling::Variant;
+use plane_contact::problem::scene::{Axis, Contact, MeshBuilder, Scene, SceneBuilder};
+use testing::draws::between;
 
 /// The tolerance of the contact search, length: the text's c_tol.
 const C_TLL: f64 = 0.001;

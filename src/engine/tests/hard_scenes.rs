@@ -8,8 +8,8 @@ use problem::element::area;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use problem::scene::{Axis, Scene};
 
-use crate::bodies::{Bodies, Writing};
-use crate::draws::{between, one_of};
+use testing::bodies::{Bodies, Writing};
+use testing::draws::{between, one_of};
 
 const BOTH: [Axis; 2] = [Axis::X, Axis::Y];
 
