@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::trade::trial_tables as report;
 use crate::trade::{self, AXES, Axis};
+use base::exit::ExitStatus;
 use base::files;
 use base::plain::shown;
 use clap::builder::PossibleValuesParser;
@@ -48,7 +49,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-pub fn run(args: &Args) -> Result<()> {
+pub fn run(args: &Args) -> Result<ExitStatus> {
     args.tables.check()?;
     let scene = Scene::open(&args.scene)?;
     scene.check_friction()?;
@@ -79,8 +80,10 @@ pub fn run(args: &Args) -> Result<()> {
         files::write_all(&out, &written)?;
     }
     if args.tables.json {
-        return print(&json);
+        print(&json)?;
+    } else {
+        let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
+        args.tables.print(report)?;
     }
-    let report = report::report(&measured).line(format!("Written to {}", shown(&out)));
-    args.tables.print(report)
+    Ok(measured.exit_status())
 }

@@ -1,9 +1,11 @@
 //! The tables that a measurement fills.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::errors::{Contact, Errors};
 use super::order::Order;
+use base::exit::ExitStatus;
+use engine::error::Error;
 use engine::estimates::Certainty;
 use problem::modelling::Variant;
 use problem::scene::Units;
@@ -75,5 +77,20 @@ pub struct Row {
     /// Whether no other row of the section is quicker and nearer.
     pub pareto: bool,
     /// Why it has no result; null where it has one.
-    pub failure: Option<String>,
+    #[serde(serialize_with = "in_words")]
+    pub failure: Option<Error>,
+}
+
+fn in_words<S: Serializer>(failure: &Option<Error>, serializer: S) -> Result<S::Ok, S::Error> {
+    failure.as_ref().map(Error::to_string).serialize(serializer)
+}
+
+impl Trade {
+    /// Returns the exit status: that of the first failure where no trial has a result.
+    pub fn exit_status(&self) -> ExitStatus {
+        let mut failures = self.sections.iter().flat_map(|of| &of.rows).map(|row| &row.failure);
+        let first = failures.clone().next().and_then(Option::as_ref);
+        let failed = first.filter(|_| failures.all(Option::is_some));
+        failed.map_or(ExitStatus::Done, Error::exit_status)
+    }
 }

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::axis::{Axis, Truth};
+use engine::error::Result;
 use engine::estimates::{Certainty, certain};
 use engine::linear::cost;
 use engine::{Request, Solution, solve};
@@ -38,7 +39,7 @@ pub(super) struct Run {
     pub(super) trial: Trial,
     /// A time for each run, seconds.
     pub(super) seconds: Vec<f64>,
-    pub(super) solution: Result<Solution, String>,
+    pub(super) solution: Result<Solution>,
     /// Whether rounding decides who is in contact; nothing where that was not asked.
     pub(super) certainty: Option<Certainty>,
 }
@@ -54,7 +55,6 @@ impl Run {
             Truth::Equilibrium => solution,
             Truth::Last(_) | Truth::Finest | Truth::Own(_) => solution.map(light),
         };
-        let solution = solution.map_err(|why| why.to_string());
         Run { trial, seconds, solution, certainty: None }
     }
 

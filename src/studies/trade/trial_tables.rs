@@ -2,6 +2,7 @@
 
 use crate::trade::{AXES, AccurateSolution, Contact, Errors, Order, Rounding, Row, Section, Trade};
 use engine::estimates::Certainty;
+use output::layout::first_line;
 use output::model::{Cell, Report, Table};
 use output::numbers::{figure, reason, with_unit};
 use output::picture::{Axis, SERIES, Series, Style, chart};
@@ -88,7 +89,7 @@ fn trials(section: &Section) -> Table<Vec<&Row>> {
         return table;
     }
     table.column("failure", |row| {
-        row.failure.as_ref().and_then(|why| why.lines().next()).unwrap_or_default().to_string()
+        row.failure.as_ref().map_or(String::new(), |why| first_line(&why.to_string()).into())
     })
 }
 
