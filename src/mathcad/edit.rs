@@ -103,7 +103,15 @@ impl Edit {
     /// Names a range that the listing does not have, or why the edited listing cannot be
     /// read.
     pub fn apply(&self, listing: &Listing) -> Result<Listing, EditError> {
-        let mut lines = listing.lines().to_vec();
+        let lines = self.applied(listing.name(), listing.lines().to_vec())?;
+        Ok(Listing::from_lines(listing.name(), lines, &Limits::default())?)
+    }
+
+    /// Returns the lines of the listing of that name under this reading.
+    ///
+    /// # Errors
+    /// Names a range that the listing does not have.
+    pub fn applied(&self, name: &str, mut lines: Vec<Line>) -> Result<Vec<Line>, EditError> {
         for Change { listing: wanted, first, last, deeper, lines: own } in &self.changes {
             // Where the lines to be replaced stand, if they are there, all and in order.
             let start = lines.iter().position(|line| line.printed == *first);
@@ -111,11 +119,10 @@ impl Edit {
                 .zip(last.checked_sub(*first))
                 .and_then(|(start, more)| Some(start..start.checked_add(more)?.checked_add(1)?));
             let ordered = |found: &[Line]| found.iter().zip(*first..).all(|(l, n)| l.printed == n);
-            let range = range.filter(|range| {
-                wanted == listing.name() && lines.get(range.clone()).is_some_and(ordered)
-            });
+            let range = range
+                .filter(|range| wanted == name && lines.get(range.clone()).is_some_and(ordered));
             let Some(range) = range else {
-                let (listing, wanted) = (listing.name().into(), wanted.clone());
+                let (listing, wanted) = (name.into(), wanted.clone());
                 let (first, last) = (*first, *last);
                 return Err(EditError::NoSuchLines { listing, wanted, first, last });
             };
@@ -125,7 +132,7 @@ impl Edit {
                 lines.splice(range, own.iter().cloned());
             }
         }
-        Ok(Listing::from_lines(listing.name(), lines, &Limits::default())?)
+        Ok(lines)
     }
 }
 

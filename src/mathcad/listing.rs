@@ -110,19 +110,14 @@ impl Listing {
         before: usize,
         limits: &Limits,
     ) -> Result<Self, ParseError> {
-        let numbered = lines.iter().zip(before + 1..);
-        let lines = numbered.filter(|(text, _)| !without_remark(text).trim().is_empty());
-        let lines =
-            lines.enumerate().map(|(k, (text, in_file))| Line::new(k + 1, in_file, text)).collect();
-        Self::from_lines(name, lines, limits)
+        Self::from_lines(name, Line::all(lines, before), limits)
     }
 
-    /// Reads a listing from its lines, the first being its header.
-    pub(super) fn from_lines(
-        name: &str,
-        lines: Vec<Line>,
-        limits: &Limits,
-    ) -> Result<Self, ParseError> {
+    /// Reads a listing from its lines, the first being its header, under limits of the caller's.
+    ///
+    /// # Errors
+    /// Those of [`Listing::parse_within`].
+    pub fn from_lines(name: &str, lines: Vec<Line>, limits: &Limits) -> Result<Self, ParseError> {
         let mut reader = Reader { name, lines: &lines, names: Names::default(), limits, next: 0 };
         let (parameters, body) = reader.header()?;
         let program = match body {
@@ -190,6 +185,14 @@ impl fmt::Display for Listing {
 }
 
 impl Line {
+    /// Returns the lines of a listing, those that are a remark alone left out; so many others stand before it in its
+    /// file.
+    pub fn all(lines: &[&str], before: usize) -> Vec<Line> {
+        let numbered = lines.iter().zip(before + 1..);
+        let lines = numbered.filter(|(text, _)| !without_remark(text).trim().is_empty());
+        lines.enumerate().map(|(k, (text, in_file))| Line::new(k + 1, in_file, text)).collect()
+    }
+
     /// Makes a line of `text` with its indentation.
     pub(super) fn new(printed: usize, in_file: usize, text: &str) -> Self {
         let behind = text.trim_start_matches(' ');

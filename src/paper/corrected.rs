@@ -259,9 +259,8 @@ const ONCE: [Once; 3] = [
 ];
 
 impl Once {
-    fn lines_of(&self, listing: &Listing) -> Vec<Line> {
-        let lines = listing.lines().iter();
-        lines.filter(|line| self.lines.contains(&line.printed)).cloned().collect()
+    fn lines_of<'l>(&self, lines: &'l [Line]) -> Vec<&'l Line> {
+        lines.iter().filter(|line| self.lines.contains(&line.printed)).collect()
     }
 
     /// Returns the lines' value; None where they fail, as the whole program does then and says why, or read
@@ -328,11 +327,11 @@ impl<'m> Worksheet<'m> {
 /// Returns a program with what concerns it of the edits, in which values stand in place of what is computed once; those
 /// that edits change are computed anew, by the programs that the worksheet has.
 fn shortened(own: Program, edits: &[&str], sheet: &mut Sheet) -> Listing {
-    let normals = Program::Normals;
-    let are_turned = program(normals, edits).lines() != normals.listing().lines();
+    let are_turned = lines(Program::Normals, edits) != lines(Program::Normals, &[]);
+    let printed = lines(own, &[]).expect("nothing is edited");
     let mut listing = program(own, edits);
     for once in ONCE.iter().filter(|once| once.program == own) {
-        if are_turned || once.lines_of(&listing) != once.lines_of(&own.listing()) {
+        if are_turned || once.lines_of(listing.lines()) != once.lines_of(&printed) {
             let Some(value) = once.value(edits, sheet) else { continue };
             sheet.define(once.name, value);
         }
@@ -382,7 +381,13 @@ pub fn program(program: Program, edits: &[&str]) -> Listing {
 
 /// Returns the same; None where an edit does not fit what those behind it leave.
 fn edited(program: Program, edits: &[&str]) -> Option<Listing> {
+    Listing::from_lines(program.name(), lines(program, edits)?, &Limits::default()).ok()
+}
+
+/// Returns the lines of the same.
+fn lines(program: Program, edits: &[&str]) -> Option<Vec<Line>> {
     let parse = |edit: &&str| Edit::parse(edit).expect("the edits in listings are sound");
     let mut own = edits.iter().rev().map(|edit| parse(edit).of(program.name()));
-    own.try_fold(program.listing(), |listing, edit| edit.apply(&listing).ok())
+    let printed = Line::all(&program.text().lines().collect::<Vec<_>>(), 0);
+    own.try_fold(printed, |lines, edit| edit.applied(program.name(), lines).ok())
 }

@@ -13,7 +13,7 @@ use crate::lesson::{self as study, Repairs, Switch, reference, switches};
 use base::files::{self, HTML};
 use base::plain::shown;
 use engine::error::Result;
-use paper::corrected::FAULTS;
+use paper::corrected::{FAULTS, Fault};
 use paper::door::check_restraints;
 use paper::edited::Edited;
 use problem::model::Model;
@@ -80,7 +80,10 @@ fn lesson(args: &Args) -> Result<String> {
         let own = opened(scene.clone(), runs.collect(), args.nodes.clone(), None);
         let chapters = [Ok(own), repairs(&scene, args.nodes.clone())].into_iter();
         let fig1 = Scene::open("fig1")?;
-        let others = [fig1.clone(), lowered(fig1)].map(Case::new);
+        let others = [fig1.clone(), lowered(fig1)].map(|scene| {
+            let name = scene.name.clone();
+            (name, prices(&Case::new(scene), FAULTS.iter().collect()))
+        });
         let findings = FINDINGS.iter().map(|finding| chapter(finding, &others));
         chapters.chain(findings).collect()
     })?;
@@ -116,28 +119,31 @@ fn lowered(mut scene: Scene) -> Scene {
     scene
 }
 
+/// The faults that have a price on a scene, with that.
+type Prices = Vec<(&'static Fault, Price)>;
+
 /// Returns the chapter of a finding, on the smallest scene that shows it; its faults have prices there and on
-/// others.
-fn chapter(finding: &'static Finding, others: &[Case]) -> Result<Chapter> {
+/// other scenes, by name.
+fn chapter(finding: &'static Finding, others: &[(String, Prices)]) -> Result<Chapter> {
     let case = Case::new(finding.scene());
     let model = |switch: Switch| Ok((switch.clone(), switch.model(&case.scene)?));
     let runs = study::chapter(finding).into_iter().map(model).collect::<Result<_>>()?;
     let evidence = finding.measure(&case);
-    let priced = iter::once(&case).chain(others).flat_map(|case| {
-        let prices = prices(case, finding).into_iter();
-        prices.map(|price| (case.scene.name.clone(), price))
+    let faults = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+    let own = (case.scene.name.clone(), prices(&case, faults));
+    let all = iter::once(&own).chain(others).flat_map(|(name, prices)| {
+        let prices = prices.iter().filter(|(fault, _)| fault.is_of(finding.id));
+        prices.map(|(_, price)| (name.clone(), price.clone()))
     });
-    let measured = Measured { finding, evidence, prices: priced.collect() };
+    let measured = Measured { finding, evidence, prices: all.collect() };
     Ok(opened(case.scene, runs, vec![], Some(measured)))
 }
 
-/// Returns what a finding's faults cost on a scene; nothing where the corrected algorithm itself has no
-/// result that is sure.
-fn prices(case: &Case, finding: &Finding) -> Vec<Price> {
-    let faults: Vec<_> = FAULTS.iter().filter(|fault| fault.is_of(finding.id)).collect();
+/// Returns what faults cost on a scene; nothing where the corrected algorithm itself has no result that is sure.
+fn prices(case: &Case, faults: Vec<&'static Fault>) -> Prices {
     let prices = prices::of_faults(case, &faults, &|| ()).unwrap_or_default();
     // The first price is that of no fault.
-    prices.into_iter().skip(1).collect()
+    faults.into_iter().zip(prices.into_iter().skip(1)).collect()
 }
 
 /// Returns a chapter with its reference solution, on the model of its first run.
