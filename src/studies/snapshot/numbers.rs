@@ -25,6 +25,9 @@ pub struct Numbers {
     /// What rounding does to the numbers: the most that inputs changed in the last digit were seen to change
     /// of one; null where that was not measured, or changes who is in contact.
     pub bound: Option<f64>,
+    /// What rounding does at the least, in files of earlier versions.
+    #[serde(default, skip_serializing)]
+    pub floor: f64,
     /// The tolerance of a comparison in place of what rounding does, where a user gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Tolerance>,
@@ -164,7 +167,7 @@ impl Numbers {
     }
 
     fn new(unit: &str, values: Values) -> Self {
-        Numbers { unit: unit.into(), bound: None, tolerance: None, values }
+        Numbers { unit: unit.into(), bound: None, floor: 0.0, tolerance: None, values }
     }
 
     /// Notes what rounding does to the numbers: the most by which `others`, the same array of runs whose
@@ -183,7 +186,8 @@ impl Numbers {
 
     /// Returns the largest difference that rounding may make, where that was measured.
     pub fn rounding(&self) -> Option<f64> {
-        self.bound.map(|bound| MARGIN * bound.max(ROUNDED * self.largest()))
+        let measured = self.bound.map(|bound| MARGIN * bound.max(ROUNDED * self.largest()));
+        measured.or((self.floor > 0.0).then(|| self.floor.max(UNMEASURED * self.largest())))
     }
 
     /// Returns the largest difference that rounding may make where that is a thousandth of the numbers or

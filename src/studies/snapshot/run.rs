@@ -148,10 +148,12 @@ impl Run {
     /// What rounding does is negative.
     pub(super) fn check(&self) -> Result<(), InputError> {
         for (name, numbers) in self.numbers.iter() {
-            if let Some(bound) = numbers.bound.filter(|bound| *bound < 0.0) {
-                let what = format!("what rounding does, the bound, is {bound}");
-                let fix = "give a number from 0; null where it was not measured";
-                return Err(InputError::new(format!("numbers.{name}.bound"), what, fix));
+            for (field, value) in [("bound", numbers.bound), ("floor", Some(numbers.floor))] {
+                if let Some(value) = value.filter(|value| *value < 0.0) {
+                    let what = format!("what rounding does, the {field}, is {value}");
+                    let fix = "give a number from 0; null where it was not measured";
+                    return Err(InputError::new(format!("numbers.{name}.{field}"), what, fix));
+                }
             }
         }
         Ok(())

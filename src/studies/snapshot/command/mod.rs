@@ -12,7 +12,7 @@ commands::group! {
 Examples:
   plane-contact snapshot record fig1
   plane-contact snapshot verify out/fig1.snapshot.json
-  plane-contact snapshot diff old.json new.json
+  plane-contact snapshot diff fig1 --variant tied,stepped
   plane-contact snapshot accept my/snapshot.json")]
     Command {
         Record(record::Args): record::run,
