@@ -315,22 +315,23 @@ impl<'m> Worksheet<'m> {
     /// A program fails: the matrix is singular where contact and restraints leave a body free to move.
     pub fn iterate(&self, edits: &[&str], steps: usize) -> Result<Ending, Box<Failure>> {
         let mut sheet = self.sheet.clone();
+        let are_turned = lines(Program::Normals, edits) != lines(Program::Normals, &[]);
         for other in Program::ALL.iter().filter(|other| **other != Program::Iterate) {
-            let listing = shortened(*other, edits, &mut sheet);
+            let listing = shortened(*other, edits, are_turned, &mut sheet);
             sheet.define_program(Rc::new(listing));
         }
-        let main = shortened(Program::Iterate, edits, &mut sheet);
+        let main = shortened(Program::Iterate, edits, are_turned, &mut sheet);
         ending(self.model, &sheet, &main, steps)
     }
 }
 
 /// Returns a program with what concerns it of the edits, in which values stand in place of what is computed once; those
-/// that edits change are computed anew, by the programs that the worksheet has.
-fn shortened(own: Program, edits: &[&str], sheet: &mut Sheet) -> Listing {
-    let are_turned = lines(Program::Normals, edits) != lines(Program::Normals, &[]);
-    let printed = lines(own, &[]).expect("nothing is edited");
+/// that edits change, or that read normals which edits change, are computed anew, by the programs that the worksheet
+/// has.
+fn shortened(own: Program, edits: &[&str], are_turned: bool, sheet: &mut Sheet) -> Listing {
     let mut listing = program(own, edits);
     for once in ONCE.iter().filter(|once| once.program == own) {
+        let printed = lines(own, &[]).expect("nothing is edited");
         if are_turned || once.lines_of(listing.lines()) != once.lines_of(&printed) {
             let Some(value) = once.value(edits, sheet) else { continue };
             sheet.define(once.name, value);

@@ -4,6 +4,7 @@
 mod common {
     pub use testing::{annulus, embedded, golden_floats, rows, tolerances};
 
+    pub mod letter;
     pub mod outcome;
     pub mod program;
     pub mod same_text;

@@ -6,13 +6,14 @@
 
 use std::path::Path;
 
-use plane_contact::engine::contact::{ContactNode, Sense, Status};
+use plane_contact::engine::contact::ContactNode;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::{self, Detail, Request, Solution, share_of_load};
 use plane_contact::error::InputError;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::scene::Scene;
 
+use crate::common::letter::letter;
 use crate::common::rows::{assert_rows, scene_of};
 use crate::common::same_text::same_text;
 use crate::common::tolerances::{Tolerance, assert_near};
@@ -71,16 +72,6 @@ fn answer(row: &str) -> String {
             let tried = why.find("; on springs").unwrap_or(why.len());
             format!("status {status}: {}", &why[..tried])
         }
-    }
-}
-
-fn letter(status: &Status) -> char {
-    match status {
-        Status::Open => 'o',
-        Status::Stick => 's',
-        Status::Slip(Sense::Forward) => 'f',
-        Status::Slip(Sense::Backward) => 'b',
-        Status::Slip(Sense::Free) => 'c',
     }
 }
 

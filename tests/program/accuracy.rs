@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common::json::build;
 use crate::common::random::fixed;
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::rows::{assert_rows, scene_of, two_and_scene};
 use dashu_ratio::RBig;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Inputs, ScalarName};
@@ -168,9 +168,7 @@ fn square(changes: &str) -> Scene {
 #[test]
 fn precisions_are_tried_from_the_cheapest() {
     let answer = |row: &str| {
-        let [accuracy, variant, scene] = row.splitn(3, ' ').collect::<Vec<_>>()[..] else {
-            panic!("{row}")
-        };
+        let [accuracy, variant, scene] = two_and_scene(row);
         let scene = scene_of("tests/program", scene).expect("it is sound");
         let request = Request::new(&scene).variant(variant.parse().expect("a variant"));
         let accuracy = accuracy.parse().expect("a number");

@@ -10,14 +10,12 @@ use plane_contact::engine::{Request, solve};
 use plane_contact::output::plan::line;
 use serde_json::json;
 
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::rows::{assert_rows, scene_of, two_and_scene};
 
 #[test]
 fn plans() {
     let answer = |row: &str| {
-        let [variant, solver, scene] = row.splitn(3, ' ').collect::<Vec<_>>()[..] else {
-            panic!("{row}")
-        };
+        let [variant, solver, scene] = two_and_scene(row);
         let scene = scene_of("golden", scene).expect("it is sound");
         let solver = (solver != "-").then(|| solver.parse().expect("a solver"));
         let arithmetic = Arithmetic { solver, ..Arithmetic::default() };

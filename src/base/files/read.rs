@@ -136,13 +136,13 @@ fn read_ordinary(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 
 /// Returns the path of a file from the folder of `from`, which need not be there, with `/`; None where there is no
 /// such file.
-pub fn from_folder_of(from: &Path, file: &Path) -> Option<String> {
+pub fn from_folder_of(from: &Path, file: impl AsRef<Path>) -> Option<String> {
     let folder = from.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     // A folder that is not there yet is below one that is.
     let there = folder.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     let folder = there.canonicalize().ok()?.join(folder.strip_prefix(there).unwrap_or(folder));
-    let file = file.canonicalize().ok().filter(|path| path.is_file())?;
+    let file = file.as_ref().canonicalize().ok().filter(|path| path.is_file())?;
     let pairs = file.components().zip(folder.components());
     let common = pairs.take_while(|(one, other)| one == other).count();
     let up = folder.components().skip(common).map(|_| Some(".."));

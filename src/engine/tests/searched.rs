@@ -3,12 +3,12 @@
 
 use std::path::Path;
 
-use engine::contact::{Sense, Status};
 use engine::{Detail, Request, solve};
 use fastrand::Rng;
 use problem::modelling::{ContactModel, Coupling, Friction, Geometry};
 use problem::scene::{Axis, SceneBuilder};
 
+use crate::letter::letter;
 use testing::bodies::{Bodies, Writing, grid, regular};
 use testing::drawn::{KINDS, draw};
 use testing::draws::one_of;
@@ -23,16 +23,6 @@ fn outcome(scene: &SceneBuilder) -> String {
             Detail::Published(_) => unreachable!("unilateral was asked for"),
         },
         Err(why) => format!("exit status {}", why.exit_status().number()),
-    }
-}
-
-fn letter(status: &Status) -> char {
-    match status {
-        Status::Open => 'o',
-        Status::Stick => 's',
-        Status::Slip(Sense::Forward) => 'f',
-        Status::Slip(Sense::Backward) => 'b',
-        Status::Slip(Sense::Free) => 'c',
     }
 }
 

@@ -91,7 +91,7 @@ impl Snapshot {
     /// Sums up the runs of a scene anew.
     pub(super) fn summarised(self, scene: &Scene) -> Self {
         let mut own = self.with_tolerances();
-        // Whoever writes JSON may put them in another order.
+        // A file that another program wrote may have them in another order.
         own.runs.values_mut().for_each(Run::sort);
         let of = |(name, run): (&String, &Run)| (name.clone(), summary::of(run, scene));
         Snapshot { summary: own.runs.iter().map(of).collect(), ..self }

@@ -88,9 +88,9 @@ fn in_words<S: Serializer>(failure: &Option<Error>, serializer: S) -> Result<S::
 impl Trade {
     /// Returns the exit status: that of the first failure where no trial has a result.
     pub fn exit_status(&self) -> ExitStatus {
-        let mut failures = self.sections.iter().flat_map(|of| &of.rows).map(|row| &row.failure);
-        let first = failures.clone().next().and_then(Option::as_ref);
-        let failed = first.filter(|_| failures.all(Option::is_some));
-        failed.map_or(ExitStatus::Done, Error::exit_status)
+        let rows = self.sections.iter().flat_map(|section| &section.rows);
+        let failures: Option<Vec<&Error>> = rows.map(|row| row.failure.as_ref()).collect();
+        let first = failures.iter().flatten().next();
+        first.map_or(ExitStatus::Done, |why| why.exit_status())
     }
 }

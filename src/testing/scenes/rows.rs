@@ -35,6 +35,12 @@ pub fn scene_of(folder: &str, row: &str) -> Result<Scene, InputError> {
     Scene::build("test", scene.to_string().as_bytes(), beside)
 }
 
+/// Returns the words of a row: two, then the scene.
+#[track_caller]
+pub fn two_and_scene(row: &str) -> [&str; 3] {
+    row.splitn(3, ' ').collect::<Vec<_>>().try_into().expect("two words and a scene")
+}
+
 fn set(scene: &mut Value, place: &str, value: Value) {
     let (parent, key) = place.rsplit_once('/').expect("a place");
     match scene.pointer_mut(parent).expect(place) {

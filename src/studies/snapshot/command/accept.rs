@@ -1,6 +1,6 @@
 //! `plane-contact snapshot accept`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::given_files::{GivenFile, read_all, scene_of};
 use crate::snapshot::verified_file::{self as report, VerifiedFile};
@@ -54,8 +54,7 @@ fn record(GivenFile { path, text }: &GivenFile, given_file: Option<&SceneFile>) 
     let new = waiting("recording", || accept(&old, scene.as_ref()));
     let mut new = new.map_err(|error| within(error, &file))?;
     if let Some(scene) = given_file {
-        new.scene_file =
-            scene.path().and_then(|scene| files::from_folder_of(path, Path::new(scene)));
+        new.scene_file = scene.path().and_then(|scene| files::from_folder_of(path, scene));
     }
     let was = text.as_deref().unwrap_or_default();
     let text = new.readable_text()?;

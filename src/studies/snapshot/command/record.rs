@@ -77,7 +77,7 @@ pub fn run(args: &Args) -> Result<()> {
         let mut snapshot = snapshot.summarised(&scene);
         let file = folder(&args.out, format!("{}.snapshot.json", scene.name));
         snapshot.scene_file =
-            scene_file.path().and_then(|scene| files::from_folder_of(&file, Path::new(scene)));
+            scene_file.path().and_then(|scene| files::from_folder_of(&file, scene));
         write_new(&file, &snapshot.readable_text()?)?;
         print_report(recorded(&snapshot).line(format!("Written to {}", shown(&file))))?;
     }
