@@ -174,8 +174,8 @@ struct FoundState<T> {
     node_n: Table<T>,
     pairs: Pairs<T>,
     constraints: Vec<Constraint<T>>,
-    /// The position of each node in contact on its target edge, to measure eq. (1).
-    places: Vec<NodeToSegment<T>>,
+    /// Eq. (1) as it is measured: on the target edge of each node in contact.
+    measured: Vec<Constraint<T>>,
 }
 
 impl<T: Precision> Run<'_, T> {
@@ -212,7 +212,7 @@ impl<T: Precision> Run<'_, T> {
         if !model.has_contact() {
             // Without contact `c_cnt` is not called.
             let pairs = Pairs::none(sheet.R());
-            return Ok(FoundState { node_n, pairs, constraints: Vec::new(), places: Vec::new() });
+            return Ok(FoundState { node_n, pairs, constraints: Vec::new(), measured: Vec::new() });
         }
         let edited = interpreter.and_then(|edited| edited.c_cnt(&node_n));
         let pairs = if let Some(pairs) = edited {
@@ -223,16 +223,15 @@ impl<T: Precision> Run<'_, T> {
             let found = status::statuses(request.contact.status, model, sheet, reading, &node_n)?;
             door::pairs(model, sheet, reading, &node_n, &found)?
         };
-        let linked = door::linked(sheet, &pairs);
-        let places = if request.is_edited(Which::CCnt) {
-            // Its weights are its own, wherever it takes them from.
-            linked.clone()
-        } else {
-            door::on_edges(sheet, &pairs, reading, &node_n)?
-        };
-        let mut constraints: Vec<Constraint<T>> = linked.into_iter().map(Into::into).collect();
+        let mut constraints = bound(door::linked(sheet, &pairs));
         self.bind_by_mortar(&mut constraints, &node_n);
-        Ok(FoundState { node_n, pairs, constraints, places })
+        // The weights of mortar and of an edited c_cnt are their own.
+        let measured = if self.surfaces.is_some() || request.is_edited(Which::CCnt) {
+            constraints.clone()
+        } else {
+            bound(door::on_edges(sheet, &pairs, reading, &node_n)?)
+        };
+        Ok(FoundState { node_n, pairs, constraints, measured })
     }
 
     /// Gives eq. (1) the weights of mortar, where that is the coupling, for the nodes in contact whose
@@ -270,14 +269,10 @@ impl<T: Precision> Run<'_, T> {
         cycle: Option<Cycle>,
         solved: &Increment<T>,
     ) -> Step {
-        let FoundState { node_n, pairs, constraints, places } = found;
+        let FoundState { node_n, pairs, constraints, measured } = found;
         let bound: &[Constraint<T>] = match self.equations.request.variant {
             Variant::Printed => &[],
             Variant::Tied | Variant::Stepped | Variant::Unilateral => constraints,
-        };
-        let residual = |u: &DVector<T>| match &self.surfaces {
-            Some(_) => eq1_residual(constraints.iter().map(|c| (c.node, &c.masters[..])), u),
-            None => eq1_residual(places.iter().map(|p| (p.node, &p.masters[..])), u),
         };
         Step {
             k,
@@ -290,8 +285,8 @@ impl<T: Precision> Run<'_, T> {
             solve_residual: solved.residual,
             detail: Detail::Published(Published {
                 pairs: FoundPairs::new(pairs),
-                eq1_residual: residual(&self.u),
-                eq1_residual_step: residual(&solved.u),
+                eq1_residual: eq1_residual(measured, &self.u),
+                eq1_residual_step: eq1_residual(measured, &solved.u),
             }),
         }
     }
@@ -317,6 +312,11 @@ impl<T: Precision> Run<'_, T> {
     }
 }
 
+/// Returns the constraints that bind nodes by eq. (1).
+fn bound<T: Scalar>(nodes: Vec<NodeToSegment<T>>) -> Vec<Constraint<T>> {
+    nodes.into_iter().map(Into::into).collect()
+}
+
 /// Returns the coordinates of each node as `f64`, length.
 fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
     shape.iter().map(|place| place.map(T::to_f64)).collect()
@@ -324,15 +324,12 @@ fn numbers<T: Scalar>(shape: &[[T; 2]]) -> Vec<[f64; 2]> {
 
 /// Returns the largest component of u_cont − u_targ over contact nodes, length; u_targ is
 /// interpolated between their master nodes.
-fn eq1_residual<'a, T: Scalar>(
-    bound: impl Iterator<Item = (NodeId, &'a [(NodeId, T)])>,
-    u: &DVector<T>,
-) -> f64 {
+fn eq1_residual<T: Scalar>(bound: &[Constraint<T>], u: &DVector<T>) -> f64 {
     let mut largest = T::zero();
-    for (node, masters) in bound {
+    for Constraint { node, masters, .. } in bound {
         for direction in [0, 1] {
-            let component = |node: NodeId| node.components(u)[direction];
-            let target = sum(masters.iter().map(|&(master, k)| k * component(master)));
+            let component = |node: &NodeId| node.components(u)[direction];
+            let target = sum(masters.iter().map(|(master, k)| *k * component(master)));
             largest = largest.max((component(node) - target).abs());
         }
     }

@@ -32,13 +32,13 @@ const FIRST: f64 = 1e-3;
 
 /// A point of the path: what the next step starts from.
 #[derive(Clone)]
-struct Point {
+pub(super) struct Point {
     /// The part of the path that was applied; whole numbers end stages.
-    load: f64,
+    pub(super) load: f64,
     /// The displacements, length.
-    u: DVector<f64>,
-    /// The statuses; none at the beginning.
-    statuses: Option<Vec<Status>>,
+    pub(super) u: DVector<f64>,
+    /// The statuses; None at the beginning.
+    pub(super) statuses: Option<Vec<Status>>,
 }
 
 impl Point {
@@ -234,7 +234,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// None was found either, or it is known that there is none: under friction, whether the bodies slide.
     fn on_springs(&mut self, from: &Point, to: f64, why: Error) -> Result<Equilibrium, Error> {
-        self.taken.retain(|part| part.to <= from.load);
+        self.taken.retain(|part| part.to.load <= from.load);
         let why = match why {
             Error::Equilibrium(why) if why.cause == Cause::NotFound => {
                 match self.step(from, to, |problem, setting, watch| {
@@ -268,8 +268,8 @@ impl<'a> Run<'a> {
         if !self.keeps_all {
             self.taken.clear();
         }
-        let is_first = from.statuses.is_none();
-        self.taken.push(TakenStep::new(to, is_first, from.u.clone(), found));
+        let (to, config) = (Point::after(to, found), found.config.clone());
+        self.taken.push(TakenStep { from: from.clone(), to, config });
     }
 
     /// Goes to the load `to` in one step by a search.
@@ -290,7 +290,7 @@ impl<'a> Run<'a> {
     fn confirmed(&mut self, to: f64, found: Equilibrium) -> Result<Equilibrium, Error> {
         let load = self.problem.load(to);
         let last = self.taken.pop().expect("a path has a step");
-        let setting = self.problem.setting(to, &last.before, None);
+        let setting = self.problem.setting(to, &last.from.u, None);
         let setting = Setting { whole: true, ..setting };
         let end = self.problem.confirmed(found, &setting, &mut |config, iteration| {
             self.keep(to, &load, config, iteration);
@@ -300,7 +300,7 @@ impl<'a> Run<'a> {
         if let Some(last) = self.steps.last_mut() {
             *last = step(self.problem, (k, to), &load, &end.config, &end.last);
         }
-        self.taken.push(TakenStep::new(last.to, last.is_first, last.before, &end));
+        self.take(&last.from, to, &end);
         Ok(end)
     }
 

@@ -173,16 +173,6 @@ pub(super) struct Equilibrium {
     pub(super) springs: Option<f64>,
 }
 
-/// The result of an attempt to solve.
-pub(super) enum StateAttempt {
-    Solved(StateSolution),
-    /// A degree of freedom without restraint, and the motion under the load on soft springs.
-    Free {
-        dof: Dof,
-        motion: Option<DVector<f64>>,
-    },
-}
-
 /// Sees each iteration, and the place in which its contact was measured.
 pub(super) type Watch<'w> = dyn FnMut(&Configuration, &Iteration) + 'w;
 

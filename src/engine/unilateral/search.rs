@@ -4,16 +4,15 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use nalgebra::DVector;
-
 use super::problem::{
-    CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateAttempt, StateSearch,
-    StateSolution, Watch, cause_first,
+    CONE, Configuration, Equilibrium, Iteration, Problem, Setting, StateSearch, StateSolution,
+    Watch, cause_first,
 };
 use super::status::{History, nearest_open, next_closed};
 use crate::contact::{ContactForce, Pairing, ROUNDING_OF_A_FORCE, Sense, Status};
-use crate::elimination::Constraint;
+use crate::elimination::{Constraint, Elimination};
 use crate::error::{Cause, Error, NoEquilibrium, too_large};
+use crate::held::Unheld;
 use crate::linear::largest;
 use crate::solution::{Cycle, Margin, NearestDecision};
 
@@ -154,7 +153,7 @@ impl Problem<'_> {
         }
         let search = self.search(&found.config, setting);
         let Iteration { statuses, constraints, cycle, .. } = found.last.clone();
-        if let StateAttempt::Solved(solution) = search.solve(&statuses, &constraints)? {
+        if let Ok((_, solution)) = search.held(&statuses, &constraints)? {
             let last = search.completed_iteration((statuses, constraints), cycle, solution);
             if search.wanted(&last, false) == last.statuses {
                 return Ok(Equilibrium { last, ..found });
@@ -370,14 +369,12 @@ impl StateSearch<'_> {
         }
         let (constraints, solution) = loop {
             let constraints = self.constraints(&statuses);
-            match self.solve(&statuses, &constraints)? {
-                StateAttempt::Solved(solution) => break (constraints, solution),
-                StateAttempt::Free { dof, motion } => {
-                    if !self.restrain_more(&mut statuses, motion) {
-                        return Err(self
-                            .problem
-                            .unrestrained(&self.config.pairings, &constraints, dof)
-                            .into());
+            match self.held(&statuses, &constraints)? {
+                Ok((_, solution)) => break (constraints, solution),
+                Err(Unheld { t, dof }) => {
+                    if !self.restrain_more(&mut statuses, &t) {
+                        let pairings = &self.config.pairings;
+                        return Err(self.problem.unrestrained(pairings, &constraints, dof).into());
                     }
                 }
             }
@@ -414,9 +411,10 @@ impl StateSearch<'_> {
     }
 
     /// Closes more nodes, or lets one stick; false where there is none.
-    fn restrain_more(&self, statuses: &mut [Status], motion: Option<DVector<f64>>) -> bool {
+    fn restrain_more(&self, statuses: &mut [Status], t: &Elimination) -> bool {
         let gaps = self.problem.gaps(self.config, self.setting.before);
-        let first = motion.and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
+        let first =
+            self.motion(t).and_then(|u| next_closed(statuses, &gaps, &self.config.pairings, &u));
         let more = first.map_or_else(|| nearest_open(statuses, &gaps), |i| vec![i]);
         more.iter().for_each(|&i| statuses[i] = self.problem.closing(self.config, i));
         if !more.is_empty() {
@@ -429,7 +427,7 @@ impl StateSearch<'_> {
     /// Imposes statuses once, to see whether they are in equilibrium too; None where they are not.
     pub(super) fn try_statuses(&self, statuses: &[Status]) -> Option<StateSolution> {
         let constraints = self.constraints(statuses);
-        let solution = self.solved_state(statuses, &constraints)?;
+        let (_, solution) = self.held(statuses, &constraints).ok()?.ok()?;
         let iteration = self.completed_iteration((statuses.to_vec(), constraints), None, solution);
         let wanted = self.wanted(&iteration, false);
         (wanted == iteration.statuses).then_some(iteration.solution)
