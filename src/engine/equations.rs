@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::contact::{Surfaces, hidden};
 use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
-use super::reactions::{passed, reactions, support, supports};
+use super::reactions::{reactions, support, supports};
 use super::request::Request;
 use super::sparse::takes_sparse;
 use super::stiffness::Stiffness;
@@ -64,6 +64,22 @@ pub(super) struct Increment<T> {
     pub support: [T; 2],
     /// What contact adds to the forces on restraints, by degree of freedom, force.
     pub passed: DVector<T>,
+}
+
+impl<T: Scalar> Increment<T> {
+    /// Returns that of no load.
+    pub fn none(dofs: usize) -> Self {
+        let zeros = DVector::from_element(dofs, T::zero());
+        Increment { u: zeros.clone(), residual: 0.0, support: [T::zero(); 2], passed: zeros }
+    }
+
+    /// Adds the next one, whose residual is that of the sum.
+    pub fn add(&mut self, next: &Self) {
+        self.u += &next.u;
+        self.residual = next.residual;
+        self.support = [0, 1].map(|d| self.support[d] + next.support[d]);
+        self.passed += &next.passed;
+    }
 }
 
 impl<'a, T: Precision> Equations<'a, T> {
@@ -183,8 +199,7 @@ impl<'a, T: Precision> Equations<'a, T> {
         bound.for_each(|dof| wanted[dof.index()] = true);
         let load = self.load.map(|f| f / self.share);
         let force = self.stiffness.times_of(self.stiffness.about(&wanted), &u) - &load;
-        let support = support(&self.restrained, constraints, &force, &load);
-        let passed = passed(&self.restrained, constraints, &force);
+        let (support, passed) = support(&self.restrained, constraints, &force, &load);
         Increment { residual, support, passed, u }
     }
 

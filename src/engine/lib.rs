@@ -40,8 +40,7 @@ pub use reactions::share_of_load;
 pub use request::Request;
 pub use solution::{
     Cycle, Detail, Equilibrium, FoundPairs, Margin, NearestDecision, OtherEquilibrium, Overlap,
-    Path, Published, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load,
-    max_displacement,
+    Path, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
 pub use sparse::is_dense;

@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use super::contact::{ContactNode, NodeEnd, Surfaces, reactions, status};
+use super::contact::{ContactNode, NodeEnd, Status, Surfaces, reactions, status};
 use super::elimination::{Constraint, sum};
 use super::equations::{Equations, Increment};
 use super::error::{Error, too_large};
 use super::reactions::transmitted_force;
 use super::request::Request;
-use super::solution::{Cycle, Detail, FoundPairs, Published, Solution, Step, max_displacement};
+use super::solution::{Cycle, Detail, FoundPairs, Solution, Step, max_displacement};
 use super::sparse::is_dense;
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
@@ -53,9 +53,7 @@ pub(super) fn published<T: Precision>(
     let mut run = Run {
         equations: Equations::new(request, &model, &sheet, interpreter, &number)?,
         surfaces: request.is_bound_by_mortar().then(|| Surfaces::new(&model)).transpose()?,
-        u: DVector::from_element(model.dofs(), T::zero()),
-        support: [T::zero(), T::zero()],
-        passed: DVector::from_element(model.dofs(), T::zero()),
+        reached: Increment::none(model.dofs()),
         visited: Vec::new(),
     };
     let mut steps: Vec<Step> = Vec::with_capacity(request.iterations);
@@ -64,17 +62,19 @@ pub(super) fn published<T: Precision>(
         watch(&step);
         steps.push(step);
     }
-    let in_contact = steps.last().expect("a request has an iteration").statuses();
-    let reaction = run.equations.reaction(&run.u).map(T::to_f64);
+    let last = steps.last().expect("a request has an iteration");
+    let reaction = run.equations.reaction(&run.reached.u).map(T::to_f64);
     Ok(Solution {
-        contact: run.contact(&in_contact, &reaction)?,
-        reactions: run.equations.reactions(&reaction, &run.passed),
-        elements: run.equations.stiffness.states(&run.u),
+        contact: run.contact(last, &reaction)?,
+        reactions: run.equations.reactions(&reaction, &run.reached.passed),
+        elements: run.equations.stiffness.states(&run.reached.u),
         factored: run.visited.len(),
-        digits: T::zero().digits().and_then(|_| run.u.iter().map(|u| u.to_rational()).collect()),
+        digits: T::zero()
+            .digits()
+            .and_then(|_| run.reached.u.iter().map(|u| u.to_rational()).collect()),
         equilibrium: None,
         overlap: None,
-        u: run.u.map(T::to_f64),
+        u: run.reached.u.map(T::to_f64),
         request: request.clone(),
         model: Arc::clone(&model),
         steps,
@@ -147,12 +147,8 @@ struct Run<'a, T> {
     equations: Equations<'a, T>,
     /// The surfaces that mortar needs; None under `nts`.
     surfaces: Option<Surfaces>,
-    /// The total displacements by degree of freedom, length.
-    u: DVector<T>,
-    /// The sum of what holds the body to which contact passes its force so far, force.
-    support: [T; 2],
-    /// What contact adds to the forces on restraints so far, by degree of freedom, force.
-    passed: DVector<T>,
+    /// The sum of the increments so far, or the last one where each has the whole load.
+    reached: Increment<T>,
     /// The contact states visited, each with its solution and the last iteration that visited it.
     /// The load of an iteration is always the same, so a state that returns has the same matrix and
     /// the same solution, and its matrix is not factored again.
@@ -207,7 +203,7 @@ impl<T: Precision> Run<'_, T> {
     /// Finds the contact state in the current shape.
     fn search(&self) -> Result<FoundState<T>, Error> {
         let Equations { request, model, sheet, interpreter, .. } = self.equations;
-        let node_n = door::displaced_nodes(sheet, &self.u);
+        let node_n = door::displaced_nodes(sheet, &self.reached.u);
         let reading = &request.reading;
         if !model.has_contact() {
             // Without contact `c_cnt` is not called.
@@ -250,15 +246,8 @@ impl<T: Precision> Run<'_, T> {
     /// Advances from one shape to the next.
     fn advance(&mut self, solved: &Increment<T>) {
         match self.equations.request.schedule() {
-            Schedule::Total => {
-                (self.u, self.support) = (solved.u.clone(), solved.support);
-                self.passed.clone_from(&solved.passed);
-            }
-            Schedule::Stepped => {
-                self.u += &solved.u;
-                self.support = [0, 1].map(|d| self.support[d] + solved.support[d]);
-                self.passed += &solved.passed;
-            }
+            Schedule::Total => self.reached = solved.clone(),
+            Schedule::Stepped => self.reached.add(solved),
         }
     }
 
@@ -274,38 +263,42 @@ impl<T: Precision> Run<'_, T> {
             Variant::Printed => &[],
             Variant::Tied | Variant::Stepped | Variant::Unilateral => constraints,
         };
+        let status = |dy: &usize| if *dy == 1 { Status::Stick } else { Status::Open };
         Step {
             k,
             shape: Arc::new(numbers(&door::shape(node_n))),
+            statuses: pairs.dy.iter().map(status).collect(),
             constraints: bound.iter().map(|bound| bound.map(T::to_f64)).collect(),
             in_contact: pairs.dy.iter().sum(),
-            max_displacement: max_displacement(&self.u),
+            max_displacement: max_displacement(&self.reached.u),
             cycle,
-            target_force: transmitted_force(self.equations.model, self.support.map(T::to_f64)),
+            target_force: transmitted_force(
+                self.equations.model,
+                self.reached.support.map(T::to_f64),
+            ),
             solve_residual: solved.residual,
-            detail: Detail::Published(Published {
-                pairs: FoundPairs::new(pairs),
-                eq1_residual: eq1_residual(measured, &self.u),
-                eq1_residual_step: eq1_residual(measured, &solved.u),
-            }),
+            contact_residual: eq1_residual(measured, &self.reached.u),
+            contact_residual_step: eq1_residual(measured, &solved.u),
+            detail: Detail::Published(FoundPairs::new(pairs)),
         }
     }
 
     /// Returns the contact surface at the end.
     fn contact(
         &self,
-        in_contact: &[bool],
+        last: &Step,
         reaction: &DVector<f64>,
     ) -> Result<Vec<ContactNode>, InputError> {
         let surfaces = Surfaces::new(self.equations.model)?;
-        let shape = numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.u)));
+        let shape =
+            numbers(&door::shape(&door::displaced_nodes(self.equations.sheet, &self.reached.u)));
         let pairings = surfaces.pairings(Coupling::Nts, &shape);
         let eliminated = self.equations.request.variant != Variant::Printed;
-        let (model, u) = (self.equations.model, self.u.map(T::to_f64));
+        let (model, u) = (self.equations.model, self.reached.u.map(T::to_f64));
         let forces = reactions(model, &pairings, reaction, eliminated);
         Ok(surfaces.nodes_at_end((model, &u), (&shape, &pairings), |i, pairing| NodeEnd {
             gap: pairing.gap,
-            in_contact: in_contact[i],
+            in_contact: last.statuses[i].is_closed(),
             status: None,
             force: forces[i],
         }))

@@ -78,9 +78,8 @@ pub(super) fn solve(problem: &Problem, watch: &mut dyn FnMut(&Step)) -> Result<S
 
 /// Returns the number of steps in which a node that was closed has another status at the end.
 fn changes(steps: &[Step]) -> usize {
-    let own = |i: usize| steps[i].unilateral();
-    let ends: Vec<_> = last_under_each_load(steps).into_iter().filter_map(own).collect();
-    let changed = |pair: &&[&solution::Unilateral]| {
+    let ends: Vec<&Step> = last_under_each_load(steps).into_iter().map(|i| &steps[i]).collect();
+    let changed = |pair: &&[&Step]| {
         let mut statuses = pair[0].statuses.iter().zip(&pair[1].statuses);
         statuses.any(|(before, after)| before.is_closed() && before != after)
     };
@@ -378,19 +377,20 @@ fn step(
     Step {
         k,
         shape: Arc::clone(&config.shape),
+        statuses: statuses.clone(),
         constraints: constraints.clone(),
         in_contact: statuses.iter().filter(|status| status.is_closed()).count(),
         max_displacement: max_displacement(&solution.u),
         cycle: cycle.clone(),
         target_force,
         solve_residual: solution.residual,
+        contact_residual: *violation,
+        contact_residual_step: *violation,
         detail: Detail::Unilateral(solution::Unilateral {
             load: to,
-            statuses: statuses.clone(),
             pairings: Arc::clone(&config.pairings),
             friction_needed: friction_needed(statuses, &solution.forces),
             friction: solution.friction.clone(),
-            violation: *violation,
             springs: iteration.springs,
         }),
     }

@@ -1,6 +1,7 @@
 //! The problem of contact under one load: the scene, where its nodes face the target, and what statuses
 //! impose.
 
+use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -423,17 +424,15 @@ impl<'a> Problem<'a> {
             Coupling::Mortar => true,
         };
         let rounding = self.closed.max(APART * max_displacement(u));
+        let written = LazyCell::new(|| self.written());
         found.retain(|inside| match inside.watched {
             Watched::Contact => inside.depth > UNSEEN * size(self.model),
             Watched::Target => !sees_target && inside.depth > UNSEEN * size(self.model),
-            Watched::Not => inside.depth > inside.height + rounding,
+            Watched::Not => {
+                let beyond = inside.depth - inside.height - rounding;
+                beyond > 0.0 && beyond > *written
+            }
         });
-        if found.iter().any(|inside| inside.watched == Watched::Not) {
-            let written = self.written();
-            found.retain(|inside| {
-                inside.watched != Watched::Not || inside.depth > inside.height + written + rounding
-            });
-        }
         found
     }
 
