@@ -247,15 +247,12 @@ fn edges(solution: &Solution, turns: &Turns) -> Vec<(Cause, [NodeId; 2])> {
     let constraints = &solution.last().constraints;
     let pairs = constraints.iter().filter_map(|own| Some([own.node, carrier(own)?]));
     let pairs: Vec<[NodeId; 2]> = pairs.collect();
-    let distance = |a: NodeId, b: NodeId| {
-        let ([ax, ay], [bx, by]) = (model.coordinates(a), model.coordinates(b));
-        (ax - bx).hypot(ay - by)
-    };
     let goes_on_beside = |node: NodeId, other: NodeId| {
         let body = model.body_of(other);
         let outline =
             turns.iter().filter(|(at, _)| **at != node && body.is_some_and(|b| b.has(**at)));
-        let nearest = outline.min_by(|a, b| distance(node, *a.0).total_cmp(&distance(node, *b.0)));
+        let distance = |other: &NodeId| model.length([node, *other]);
+        let nearest = outline.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
         nearest.is_some_and(|(_, turn)| turn.is_smooth())
     };
     let is_edge = |pair: &&[NodeId; 2]| {
