@@ -214,7 +214,7 @@ fn c4_a_scene_mirrored_in_y_has_another_answer() {
     assert_eq!(published(&scene.steps[0]).dy.as_slice(), [1, 1, 1, 0, 1]);
     let image = mirrored([1.0, -1.0]);
     let call = Call::c_cnt(&image.model, &Reading::default(), &image.model.nodes).unwrap();
-    assert_eq!(call.dy.as_slice(), [1, 1, 0, 1, 1]);
+    assert_eq!(call.pairs.dy.as_slice(), [1, 1, 0, 1, 1]);
 }
 
 /// The residual of eq. (1) is measured on the target edge, not by the weights that were imposed:
