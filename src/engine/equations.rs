@@ -9,9 +9,8 @@ use super::elimination::{Constraint, Elimination};
 use super::error::{Error, SingularMatrix};
 use super::reactions::{reactions, support, supports};
 use super::request::Request;
-use super::sparse::takes_sparse;
 use super::stiffness::Stiffness;
-use crate::linear::{Precision, Singular, Solved};
+use crate::linear::{Precision, Singular, Solved, Solver};
 use mathcad::array::Table;
 use numbers::scalar::Scalar;
 use numbers::square::SparseSquare;
@@ -100,15 +99,15 @@ impl<'a, T: Precision> Equations<'a, T> {
         };
         let (load, restrained) = (model.load_in(number), restrained(model, request));
         let f = restrained.free_part(&load.map(|f| f / share));
-        let assembly = if request.variant == Variant::Printed {
-            Assembly::Printed
-        } else if takes_sparse(request.solver()) {
-            Assembly::Sparse
-        } else {
-            Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
-                Some(edited) => edited?,
-                None => door::free_stiffness(sheet, &request.reading)?,
-            })
+        let assembly = match (request.variant, request.solver()) {
+            (Variant::Printed, _) => Assembly::Printed,
+            (_, Solver::SparseCholesky) => Assembly::Sparse,
+            (_, Solver::DenseLu | Solver::SparseLu) => {
+                Assembly::Dense(match interpreter.and_then(|i| i.free_stiffness()) {
+                    Some(edited) => edited?,
+                    None => door::free_stiffness(sheet, &request.reading)?,
+                })
+            }
         };
         let stiffness = Stiffness::new(model, number);
         Ok(Equations {

@@ -22,7 +22,6 @@ pub mod reduction;
 mod request;
 mod solution;
 mod solve;
-mod sparse;
 mod stiffness;
 mod stretches;
 mod unilateral;
@@ -43,7 +42,6 @@ pub use solution::{
     Path, Solution, Start, Step, Unilateral, Uniqueness, last_under_each_load, max_displacement,
 };
 pub use solve::{check, solve};
-pub use sparse::is_dense;
 pub use stiffness::Stiffness;
 pub use stretches::{Resultant, Stretch, resultant, resultant_of_field, stretches};
 pub use unilateral::{Implied, implied};

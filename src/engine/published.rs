@@ -17,7 +17,6 @@ use super::error::{Error, too_large};
 use super::reactions::transmitted_force;
 use super::request::Request;
 use super::solution::{Cycle, Detail, FoundPairs, Solution, Step, max_displacement};
-use super::sparse::is_dense;
 use crate::linear::{Inputs, Precision, cost};
 use base::error::InputError;
 use base::limits;
@@ -131,7 +130,7 @@ fn check_load<T: Scalar>(
 /// Checks that dense matrices are small, iterations are few, and exact numbers end within a bearable time.
 fn check_size(request: &Request, model: &Model) -> Result<(), InputError> {
     // An edited `Km` is interpreted into a dense matrix, of which a sparse one is made.
-    if is_dense(request.variant, request.arithmetic) || request.is_edited(Which::Km) {
+    if request.is_dense() || request.is_edited(Which::Km) {
         limits::DENSE.check(model.dofs(), "the mesh")?;
     }
     limits::check_steps(request.iterations, model.nodes.len(), "iterations")?;
