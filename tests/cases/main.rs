@@ -13,19 +13,17 @@
 //! A line `...` stands for any lines, and `[..]` for any part of one. Words are exact; a number may differ by one in its
 //! last printed digit. A case runs in a folder of its own, its commands in one shell, in which `LISTINGS` is the folder
 //! of that name. No command may panic.
-//! `INSTA_UPDATE=always` writes anew what a command prints, where that differs.
+//! `GOLDEN=write` writes anew what a command prints, where that differs.
 //!
 //! Why no library runs them: trycmd joins both streams and knows no shell, and neither it nor snapbox has a tolerance.
-
-#[path = "../common/same_text.rs"]
-mod same_text;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use same_text::same_text;
 use tempfile::TempDir;
+use testing::golden_file::is_written;
+use testing::same_text::same_text;
 
 /// A test of each area, which is a file of cases and a folder of their files.
 macro_rules! areas {
@@ -93,7 +91,7 @@ fn check(area: &str) {
             }
         }
     }
-    if !wrong.is_empty() && std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if !wrong.is_empty() && is_written() {
         std::fs::write(&file, written(&cases)).expect("the file of an area");
         return;
     }

@@ -4,10 +4,11 @@
 use std::process::Command;
 
 use crate::common::embedded::scene_json;
-use crate::common::golden_floats::assert_golden;
+use crate::common::golden_file::assert_file_by;
 use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::rows::scene_of;
+use crate::common::same_text::same_text;
 use crate::common::tolerances::{Tolerance, assert_near};
 use crate::scenes::FOLDER;
 use crate::unilateral::models;
@@ -77,12 +78,12 @@ fn decks_of_fig1() {
         let (scene, solution) = solve("fig1", variant);
         let parts = Contact::parts(&solution).unwrap();
         let text = last_deck(&scene, &solution, &parts);
-        assert_golden("fig1", &format!("calculix-{variant}"), &text);
+        assert_file_by(format!("golden/fig1/calculix-{variant}.snap"), &text, same_text);
     }
     let (scene, solution) = solve("fig1", Variant::Tied);
     let pair = |friction| Pair::new(&solution.model, Some(1e7), friction);
     let of = |friction| last_deck(&scene, &solution, &[pair(friction).into()]);
-    assert_golden("fig1", "calculix-pair", &of(Friction::STICK));
+    assert_file_by("golden/fig1/calculix-pair.snap", &of(Friction::STICK), same_text);
     assert!(of(Friction::STICK).contains("*FRICTION"));
     assert!(!of(Friction::NONE).contains("*FRICTION"));
 }

@@ -4,8 +4,6 @@
 //! States are o open, s sticks, f and b slips forward and backward, c slips without friction. A number is `zero` up to
 //! 1e-10 of the largest force, or 1e-12 of a gap; a list of zeros is left out, and what a search tried on springs too.
 
-use std::path::Path;
-
 use plane_contact::engine::contact::ContactNode;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::{self, Detail, Request, Solution, share_of_load};
@@ -13,8 +11,9 @@ use plane_contact::error::InputError;
 use plane_contact::problem::model::NodeId;
 use plane_contact::problem::scene::Scene;
 
+use crate::common::golden_file::assert_rows_by;
 use crate::common::letter::letter;
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
 use crate::common::tolerances::{Tolerance, assert_near};
 
@@ -32,7 +31,7 @@ pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/contact/sce
 
 #[test]
 fn scenes_by_hand() {
-    assert_rows(&Path::new(FOLDER).join("rows.txt"), same_text, answer);
+    assert_rows_by(format!("{FOLDER}/rows.txt"), same_text, answer);
 }
 
 #[test]

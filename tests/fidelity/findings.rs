@@ -6,8 +6,9 @@ use std::fmt::Write as _;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::common::golden_floats::assert_golden;
+use crate::common::golden_file::assert_file_by;
 use crate::common::json::build;
+use crate::common::same_text::same_text;
 use crate::common::tolerances::{Tolerance, assert_near};
 use crate::golden::number;
 use nalgebra::{DMatrix, DVector};
@@ -425,7 +426,7 @@ fn verdicts() {
             writeln!(text, "  {}: {verdict}: {number}", finding.id).unwrap();
         }
     }
-    assert_golden("findings", "verdicts", &text);
+    assert_file_by("golden/findings/verdicts.snap", &text, same_text);
 }
 
 /// Each finding has its folder, with the numbers by hand, and each folder its finding.

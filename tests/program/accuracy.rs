@@ -2,11 +2,11 @@
 //! it says that it cannot.
 
 use std::cell::Cell;
-use std::path::Path;
 
+use crate::common::golden_file::assert_rows;
 use crate::common::json::build;
 use crate::common::random::fixed;
-use crate::common::rows::{assert_rows, scene_of, two_and_scene};
+use crate::common::rows::{scene_of, two_and_scene};
 use dashu_ratio::RBig;
 use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Inputs, ScalarName};
@@ -185,7 +185,7 @@ fn precisions_are_tried_from_the_cheapest() {
         });
         tried.collect::<Vec<_>>().join(", ")
     };
-    assert_rows(Path::new("tests/program/accuracy/rows.txt"), |golden, is| golden == is, answer);
+    assert_rows("tests/program/accuracy/rows.txt", answer);
 }
 
 /// f32 rounds coordinates far from the origin: no number of its run shows that.

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use crate::common::golden::assert_golden_by;
+use crate::common::golden_file::assert_file_by;
 use crate::common::tolerances::Tolerance;
 use plane_contact::studies::extremes::digit_tables as report;
 use plane_contact::studies::extremes::{Column, GENERATORS, Kept, SweepTable, measure};
@@ -31,7 +31,7 @@ static MEASURED: LazyLock<Vec<SweepTable>> =
 
 #[test]
 fn the_table_is_the_golden_one() {
-    assert_golden_by("extremes", "table", &text(&MEASURED), |golden, table| {
+    assert_file_by("golden/extremes/table.snap", &text(&MEASURED), |golden, table| {
         let near = [-1.0, 1.0].map(|side| text(&moved(side * EXTREME_DIGITS.limit)));
         same_table(golden, [table, &near[0], &near[1]])
     });

@@ -18,6 +18,7 @@ use plane_contact::studies::lesson::{Repairs, Switch};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::common::golden_file::is_written;
 use crate::common::program::run;
 use crate::common::tools::{browser, is_there};
 
@@ -55,7 +56,7 @@ fn in_browser(modules: &Path, script: &str, args: &[&str]) {
 fn keep_picture(folder: &Path, name: &str) {
     let picture = folder.join(name);
     assert!(picture.exists(), "{name} was taken");
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    if is_written() {
         std::fs::copy(picture, Path::new(ROOT).join("golden/pages").join(name)).expect("a file");
     }
 }

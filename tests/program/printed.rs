@@ -29,8 +29,7 @@ fn report() -> Report {
 /// Compares with a file of `printed`.
 #[track_caller]
 fn assert_printed(name: &str, text: &str) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/printed");
-    assert_file(&folder.join(name), text);
+    assert_file(format!("tests/program/printed/{name}"), text);
 }
 
 /// In 80 columns, in 25, and in 18, where the table turns to records.

@@ -1,7 +1,6 @@
 //! The tables under `golden/tables`, which pages quote: each is made from what the program computes.
-//! `INSTA_UPDATE=always` writes them anew.
+//! `GOLDEN=write` writes them anew.
 
-use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
@@ -33,6 +32,7 @@ use plane_contact::{Request, Scene};
 use crate::claims::JUDGED;
 use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
+use crate::common::page::{self, assert_table, markdown, percent};
 use crate::common::tolerances::{CORRECTED, Tolerance, assert_near};
 
 /// Persson's peak pressure of the strand, relative to that of fine meshes.
@@ -63,31 +63,6 @@ static VARIANTS: LazyLock<[Solution; 6]> = LazyLock::new(|| {
     runs.map(|request| solve(&request, &mut |_| ()).expect("strand has a solution"))
 });
 
-/// Asserts that `golden/tables/<name>.md` has a title, where its numbers come from (a command that prints them, or this
-/// test), and a table.
-#[track_caller]
-fn assert_table(name: &str, title: &str, source: &str, table: &str) {
-    let source = match source {
-        "" => format!("Made by the test `{name}`"),
-        command => format!("Printed by `plane-contact {command}`"),
-    };
-    let text = format!("**{title}** {source}.\n\n{table}");
-    let file = format!("golden/tables/{name}.md");
-    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), &text);
-}
-
-/// A table in Markdown, from its head and its rows, the cells of each apart by `|`.
-pub fn markdown(head: &str, rows: impl IntoIterator<Item = String>) -> String {
-    let rule = "---|".repeat(head.split('|').count());
-    let rows: String = rows.into_iter().map(|row| format!("| {row} |\n")).collect();
-    format!("| {head} |\n|{rule}\n{rows}")
-}
-
-/// A share in per cent; what is rounding alone is 0.
-pub fn percent(share: f64, decimals: usize) -> String {
-    if share.abs() < 1e-9 { "0".into() } else { format!("{:.decimals$} %", 100.0 * share) }
-}
-
 /// A whole number with a comma before its last three digits.
 fn thousands(number: usize) -> String {
     if number < 1000 {
@@ -100,8 +75,7 @@ fn thousands(number: usize) -> String {
 /// The quantities of a result, each declared once.
 #[test]
 fn quantities() {
-    let page = quantities_page();
-    assert_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/quantities.md"), &page);
+    assert_file("golden/quantities.md", &quantities_page());
 }
 
 /// What each printed fault costs on strand, and the way from the print on fig1 (on strand it takes
@@ -168,7 +142,12 @@ fn prices() {
                corrected algorithm the faults are reintroduced one at a time, each time the one that leaves \
                the least error; the last one is repaired first.** Printed by \
                `plane-contact audit fig1 --prices --repairs`.";
-    assert_table("prices", title, "audit --prices", &format!("{alone}\n{way}\n\n{repairs}"));
+    assert_table(
+        "prices",
+        title,
+        "Printed by `plane-contact audit --prices`",
+        &format!("{alone}\n{way}\n\n{repairs}"),
+    );
 }
 
 #[test]
@@ -211,7 +190,7 @@ fn variants() {
         STRAND.iterations,
         fx.hypot(fy)
     );
-    assert_table("variants", &title, "solve strand --variant V", &table);
+    assert_table("variants", &title, "Printed by `plane-contact solve strand --variant V`", &table);
 }
 
 /// How many nodes are in contact at the end, and how the end was reached.
@@ -282,7 +261,7 @@ fn mesh_errors() {
         runs,
     );
     let title = "The estimate of the error of the mesh, in the energy norm, beside the error from a mesh 64 times finer.";
-    assert_table("mesh_errors", title, "", &table);
+    assert_table("mesh_errors", title, "Made by the test `mesh_errors`", &table);
 }
 
 #[test]
@@ -292,12 +271,17 @@ fn claims() {
     let each = Verdict::ALL.iter().map(|verdict| format!("{} {verdict}", count(verdict)));
     let title =
         format!("What the paper claims, {}: {}.", counts(), each.collect::<Vec<_>>().join(", "));
-    assert_table("claims", &title, "audit --range", &verdicts().markdown());
+    assert_table(
+        "claims",
+        &title,
+        "Printed by `plane-contact audit --range`",
+        &verdicts().markdown(),
+    );
     assert_table(
         "range",
         "Claims whose verdict changes with what the paper does not give, each value on a mesh of `scene mesh strand`; \
          figures on the scene strand, whose mesh is of Gmsh, differ a little.",
-        "audit --range",
+        "Printed by `plane-contact audit --range`",
         &over_the_range().markdown(),
     );
     // What the verdict on the paper's own example cites.
@@ -398,7 +382,7 @@ fn calculix() {
     assert_table(
         "calculix",
         &title,
-        "compare strand --with calculix --contact pair --friction stick",
+        "Printed by `plane-contact compare strand --with calculix --contact pair --friction stick`",
         &table,
     );
 }
@@ -425,7 +409,7 @@ fn scenes() {
     assert_table(
         "scenes",
         "What the scenes of `scene mesh` are made of.",
-        "",
+        "Made by the test `scenes`",
         &markdown(head, rows),
     );
 }
@@ -491,7 +475,7 @@ fn settings() {
          displacement. The error is against the equilibrium under friction, of half a scene \
          against the whole; the change against the scene's own value. Where the last digit of the \
          inputs decides who is in contact, the row is of double-doubles.",
-        "trade strand --only c_tll,iterations,symmetry",
+        "Printed by `plane-contact trade strand --only c_tll,iterations,symmetry`",
         &table,
     );
 }
@@ -558,7 +542,7 @@ fn limit() {
                  differences from mesh to mesh fall by one factor; where they do not, the own mesh is compared \
                  with the finest. Peak and half width are those of Hertz's parabola for p² through the \
                  pressures of nodes.";
-    assert_table("limit", title, "", &table);
+    assert_table("limit", title, "Made by the test `limit`", &table);
 }
 
 /// Where values on meshes of halved edges lead to; nothing where their differences change their sign or do not
@@ -626,19 +610,9 @@ fn quantities_of<T>(place: &str, quantities: &[Quantity<T>]) -> String {
             2 => "vector",
             _ => "tensor",
         };
-        let cells = [
-            &format!("`{}`", q.name),
-            &q.title.replace('|', "\\|"),
-            &q.symbols.join(", ").replace('|', "\\|"),
-            q.unit.name(),
-            shape,
-            &q.meaning.replace('|', "\\|"),
-        ];
-        format!("| {} |\n", cells.join(" | "))
+        let (name, symbols) = (format!("`{}`", q.name), q.symbols.join(", "));
+        page::row(&[&name, q.title, &symbols, q.unit.name(), shape, q.meaning])
     };
-    format!(
-        "\n## {place}\n\n| field | title | symbol | unit | shape | what it is |\n\
-         |---|---|---|---|---|---|\n{}",
-        quantities.iter().map(row).collect::<String>()
-    )
+    let head = "field | title | symbol | unit | shape | what it is";
+    format!("\n## {place}\n\n{}", markdown(head, quantities.iter().map(row)))
 }

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use plane_contact::problem::modelling::Variant;
 use tempfile::TempDir;
 
-use crate::common::golden::assert_golden_by;
+use crate::common::golden_file::assert_file_by;
 use crate::common::program::run;
-use crate::common::same_text;
+use crate::common::same_text::same_text;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -24,18 +24,8 @@ pub fn printed(args: &[&str]) -> String {
 
 fn assert_text(folder: &str, name: &str, args: &[&str]) -> String {
     let text = printed(args);
-    assert_golden_by(folder, name, &text, same_text);
+    assert_file_by(format!("golden/{folder}/{name}.snap"), &text, same_text);
     text
-}
-
-/// Compares texts, and says where they differ.
-pub fn same_text(expected: &str, value: &str) -> bool {
-    let is_same = same_text::same_text(expected, value);
-    let different = expected.lines().zip(value.lines()).find(|(e, v)| e != v);
-    if let (false, Some((e, v))) = (is_same, different) {
-        eprintln!("expected {e}\n     got {v}");
-    }
-    is_same
 }
 
 #[test]
@@ -157,7 +147,7 @@ fn help() {
         assert_eq!(broken, None, "{page}");
         all += &format!("# plane-contact {}\n\n{text}\n", args.join(" "));
     }
-    assert_golden_by("", "help", &all, same_text);
+    assert_file_by("golden/help.snap", &all, same_text);
 }
 
 /// The commands that a text names: what follows the name of the program.

@@ -1,10 +1,9 @@
 //! Speed against accuracy: what is measured, and what it says. No test asserts a time.
 
-use std::path::Path;
-
 use crate::claims::judged;
 use crate::common::annulus::annulus;
-use crate::common::rows::{assert_rows, scene_of};
+use crate::common::golden_file::assert_rows_by;
+use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
 use crate::common::tolerances::{CLAIM, CONSTANT_FIELD, Tolerance, assert_near};
 use plane_contact::engine::linear::{Arithmetic, ScalarName};
@@ -214,7 +213,7 @@ fn half_of_a_symmetric_scene_is_the_whole() {
 /// The rows of `half/rows.txt`: what is left of each scene.
 #[test]
 fn what_is_symmetric_has_a_half() {
-    assert_rows(&Path::new(HALF_SCENES).join("rows.txt"), same_text, |row| {
+    assert_rows_by(format!("{HALF_SCENES}/rows.txt"), same_text, |row| {
         let Some(half) = half(&scene_of(HALF_SCENES, row).unwrap()) else { return "none".into() };
         assert!(half.scene.model.dropped.is_empty() && half.nodes.iter().all(|[a, b]| a == b));
         let nodes = half.nodes.iter().map(|[node, _]| format!(" {node}"));

@@ -1,13 +1,12 @@
 //! What a scene is built into: bodies and how they are held, loads of edges, identifiers and boxes.
 
-use std::path::Path;
-
 use nalgebra::DVector;
 use problem::element::Plane;
 use problem::model::{Bounds, Dof, EdgeId, Model, NodeId, TriangleId, freedom};
 use problem::scene::{Axis, Contact, MeshBuilder, SceneBuilder, file};
 use serde_json::json;
-use testing::rows::{assert_rows, scene_of};
+use testing::golden_file::assert_rows;
+use testing::rows::scene_of;
 
 /// Builds square blocks of the side 2, each of a material of the given name, side by side with
 /// a gap; the nodes of block k are 4k + 1 to 4k + 4, counter-clockwise from the lower left one.
@@ -156,7 +155,7 @@ fn models_by_hand() {
             model.total_load()
         )
     };
-    assert_rows(Path::new("tests/models/rows.txt"), |golden, is| golden == is, answer);
+    assert_rows("tests/models/rows.txt", answer);
 }
 
 /// In a scalar in which each number is twice as large: that is twice a force, and eight times what an edge of a body
