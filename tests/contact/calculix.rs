@@ -9,7 +9,7 @@ use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::scenes::FOLDER;
 use crate::unilateral::models;
 use nalgebra::DVector;
@@ -22,42 +22,24 @@ use plane_contact::studies::compare::Beside;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The same for the largest von Mises stress of a body, relative to it.
-const PENALTY_STRESS: Tolerance = Tolerance {
-    limit: 5e-2,
-    reason: "ccx pushes along the normal of the target's face, unilateral along one that turns from \
-         face to face: 2.3e-2 on the strand, whatever the penalty; the default penalty adds 2e-3",
-};
-
-/// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest
-/// displacement.
-const PENALTY: Tolerance = Tolerance {
-    limit: 1e-2,
-    reason: "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 \
-         mm of 4.2e-4 mm",
-};
-
-/// CalculiX beside this program on the same equations, relative to the largest displacement, or
-/// von Mises stress.
-const CCX_PRINTS: Tolerance = Tolerance {
-    limit: 1e-6,
-    reason: "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, \
-         and so is each of the parts of a sum",
-};
-
-/// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to
-/// the largest.
-const CORRECTED_CCX: Tolerance = Tolerance {
-    limit: 0.01,
-    reason: "its contact yields by a penalty: 0.6 % measured, normal and both",
-};
-
-/// Displacements under friction beside those of ccx's own contact and friction, relative to the
-/// largest.
-const CCX_FRICTION: Tolerance = Tolerance {
-    limit: 0.01,
-    reason: "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2",
-};
+testing::tolerances! {
+    /// The same for the largest von Mises stress of a body, relative to it.
+    PENALTY_STRESS = 5e-2,
+        "ccx pushes along the normal of the target's face, unilateral along one that turns from face to face: 2.3e-2 \
+         on the strand, whatever the penalty; the default penalty adds 2e-3";
+    /// CalculiX's contact pair beside `unilateral`, node to segment, relative to the largest displacement.
+    PENALTY = 1e-2,
+        "bodies penetrate by pressure over penalty, h/(10 E) of the pressure: on two-blocks 3e-6 mm of 4.2e-4 mm";
+    /// CalculiX beside this program on the same equations, relative to the largest displacement, or von Mises stress.
+    CCX_PRINTS = 1e-6,
+        "ccx prints seven digits: each of two components is rounded by at most 5e-7 of itself, and so is each of the \
+         parts of a sum";
+    /// Displacements of the corrected algorithm on the strand beside those of ccx's own contact, relative to the
+    /// largest.
+    CORRECTED_CCX = 0.01, "its contact yields by a penalty: 0.6 % measured, normal and both";
+    /// Displacements under friction beside those of ccx's own contact and friction, relative to the largest.
+    CCX_FRICTION = 0.01, "its contact and its sticking yield by a penalty: 0.2 % measured at 0.2";
+}
 
 /// What `ccx` printed for the deck `golden/fig1/calculix-tied.snap`.
 const PRINTED: &str = include_str!("calculix/fig1.dat");

@@ -15,17 +15,16 @@ use crate::common::golden_file::assert_rows_by;
 use crate::common::letter::letter;
 use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 
 /// Asks for the first contact state alone.
 const START: &str = " only=start";
 
-/// A displacement in a scene a million of its sizes from the origin, relative to itself.
-const FAR_FROM_THE_ORIGIN: Tolerance = Tolerance {
-    limit: 1e-6,
-    reason: "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a \
-         thousand times less",
-};
+testing::tolerances! {
+    /// A displacement in a scene a million of its sizes from the origin, relative to itself.
+    FAR_FROM_THE_ORIGIN = 1e-6,
+        "a coordinate of 3e6 resolves 5e-10; strains, and gaps over displacements of 1e-3, a thousand times less";
+}
 
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/contact/scenes");
 

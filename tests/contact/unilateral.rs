@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::common::tolerances::{BALANCE, Tolerance, assert_near};
+use crate::common::tolerances::{BALANCE, assert_near};
 use plane_contact::engine::contact::{ContactNode, Status};
 use plane_contact::engine::{self, Detail, Request, Solution, Step, distance};
 use plane_contact::problem::modelling::{ContactModel, Coupling, Friction, Geometry, Variant};
@@ -10,14 +10,13 @@ use plane_contact::problem::scene::{Axis, SCENES, Scene};
 use plane_contact::studies::benchmark::{Blocks, Hertz, Punch};
 use testing::bodies::{Bodies, Writing, grid};
 
-/// Contact in the current shape beside contact in the initial one at a load of a thousandth of
-/// CGS-1's, relative to the peak.
-const CURRENT_LENGTHS: Tolerance =
-    Tolerance { limit: 2e-3, reason: "strains of 1e-3 at the contact: the two differ by as much" };
-
-/// Gap times force of a contact node relative to size times the largest force; penetration
-/// relative to the size.
-const COMPLEMENTARITY: Tolerance = Tolerance { limit: 1e-12, reason: "the issue's own number" };
+testing::tolerances! {
+    /// Contact in the current shape beside contact in the initial one at a load of a thousandth of CGS-1's, relative to
+    /// the peak.
+    CURRENT_LENGTHS = 2e-3, "strains of 1e-3 at the contact: the two differ by as much";
+    /// Gap times force of a contact node relative to size times the largest force; penetration relative to the size.
+    COMPLEMENTARITY = 1e-12, "the issue's own number";
+}
 
 /// Both directions.
 const BOTH: &[Axis] = &[Axis::X, Axis::Y];

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::common::golden_file::assert_file_by;
 use crate::common::json::build;
 use crate::common::same_text::same_text;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::golden::number;
 use nalgebra::{DMatrix, DVector};
 use plane_contact::engine::{self, Detail, Request};
@@ -25,11 +25,10 @@ use plane_contact::studies::audit::findings::{Evidence, FINDINGS, Finding, Prese
 use plane_contact::studies::lesson::{Switch, chapter};
 use serde_json::{Value, json};
 
-/// The number of a finding on its own scene, worked out by hand, relative to that number.
-const FINDING: Tolerance = Tolerance {
-    limit: 1e-12,
-    reason: "a handful of operations, and LU of a few equations, on numbers of order 1",
-};
+testing::tolerances! {
+    /// The number of a finding on its own scene, worked out by hand, relative to that number.
+    FINDING = 1e-12, "a handful of operations, and LU of a few equations, on numbers of order 1";
+}
 
 fn finding(id: &str) -> &'static Finding {
     Finding::of(id.parse().expect("an id of the register"))

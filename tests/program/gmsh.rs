@@ -9,15 +9,15 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::common::program::run;
-use crate::common::tolerances::{Tolerance, assert_near};
+use crate::common::tolerances::assert_near;
 use crate::common::tools::is_there;
 
-/// Forces and pressures of the five problems meshed by Gmsh, relative to the textbook's.
-const GMSH: Tolerance = Tolerance {
-    limit: 0.03,
-    reason: "meshes of 400 to 3,400 nodes: 0.3 % was measured at the press fit, 0.2 % at the cylinders, 1 % at the \
-         punch and the ring, whose thickness is a tenth of its radius",
-};
+testing::tolerances! {
+    /// Forces and pressures of the five problems meshed by Gmsh, relative to the textbook's.
+    GMSH = 0.03,
+        "meshes of 400 to 3,400 nodes: 0.3 % was measured at the press fit, 0.2 % at the cylinders, 1 % at the punch \
+         and the ring, whose thickness is a tenth of its radius";
+}
 
 /// Whether Gmsh is installed, as it must be where `REQUIRE_GMSH` is set.
 fn has_gmsh() -> bool {

@@ -33,17 +33,14 @@ use crate::claims::JUDGED;
 use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
 use crate::common::page::{self, assert_table, markdown, percent};
-use crate::common::tolerances::{CORRECTED, Tolerance, assert_near};
+use crate::common::tolerances::{CORRECTED, assert_near};
 
-/// Persson's peak pressure of the strand, relative to that of fine meshes.
-const CURVED: Tolerance =
-    Tolerance { limit: 2e-2, reason: "it has not Dundurs' β, which is 0.30 here: measured 1.8 %" };
-
-/// The peak pressure of the strand on meshes with true arcs, relative to a finer mesh's, and Hertz's.
-const TRUE_ARCS: Tolerance = Tolerance {
-    limit: 1e-2,
-    reason: "the issue's own number; measured 0.7 % at 0.2 mm, 0.1 % of Hertz's",
-};
+testing::tolerances! {
+    /// Persson's peak pressure of the strand, relative to that of fine meshes.
+    CURVED = 2e-2, "it has not Dundurs' β, which is 0.30 here: measured 1.8 %";
+    /// The peak pressure of the strand on meshes with true arcs, relative to a finer mesh's, and Hertz's.
+    TRUE_ARCS = 1e-2, "the issue's own number; measured 0.7 % at 0.2 mm, 0.1 % of Hertz's";
+}
 
 static STRAND: LazyLock<Scene> =
     LazyLock::new(|| Scene::open("strand").expect("an embedded scene"));

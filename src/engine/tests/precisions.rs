@@ -22,36 +22,19 @@ use testing::random::fixed;
 use testing::shipped::shipped_scenes;
 use testing::tolerances::Tolerance;
 
-/// f32 against exact numbers, displacements relative to the largest.
-const LADDER_SINGLE: Tolerance = Tolerance {
-    limit: 1e-4,
-    reason: "eps = 6e-8 times a condition number of 1e2 to 1e3 of fig1 and two-blocks",
-};
-
-/// f64 against exact numbers, displacements relative to the largest.
-const LADDER_DOUBLE: Tolerance = Tolerance {
-    limit: 1e-13,
-    reason: "eps = 1e-16 times a condition number of 1e2 to 1e3 of fig1 and two-blocks",
-};
-
-/// f64x2 against exact numbers, displacements relative to the largest.
-const LADDER_DOUBLE_DOUBLE: Tolerance = Tolerance {
-    limit: 1e-28,
-    reason: "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 \
-         and two-blocks",
-};
-
-/// What rounding is measured to do over what it does.
-const MEASURED_ROUNDING: Tolerance = Tolerance {
-    limit: 1e3,
-    reason: "an error may be small by chance, where the changed last digits all add up",
-};
-
-/// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
-const NORM_ESTIMATE: Tolerance = Tolerance {
-    limit: 1e-10,
-    reason: "estimate and norm are both rounded: 1e-16 times a condition number of 1e4",
-};
+testing::tolerances! {
+    /// f32 against exact numbers, displacements relative to the largest.
+    LADDER_SINGLE = 1e-4, "eps = 6e-8 times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// f64 against exact numbers, displacements relative to the largest.
+    LADDER_DOUBLE = 1e-13, "eps = 1e-16 times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// f64x2 against exact numbers, displacements relative to the largest.
+    LADDER_DOUBLE_DOUBLE = 1e-28,
+        "eps = 5e-32, iterations stop at 16 of it, times a condition number of 1e2 to 1e3 of fig1 and two-blocks";
+    /// What rounding is measured to do over what it does.
+    MEASURED_ROUNDING = 1e3, "an error may be small by chance, where the changed last digits all add up";
+    /// An estimate of a norm that no exact arithmetic would let it pass, relative to the norm.
+    NORM_ESTIMATE = 1e-10, "estimate and norm are both rounded: 1e-16 times a condition number of 1e4";
+}
 
 const PUBLISHED: [Variant; 3] = [Variant::Printed, Variant::Tied, Variant::Stepped];
 
