@@ -46,7 +46,7 @@ macro_rules! areas {
 }
 
 areas!(
-    bodies commands contact edited fields files guide hostile limits meshes mistakes pictures sentences
+    bodies commands contact disks edited fields files guide hostile limits meshes mistakes pictures sentences
     snapshots solvers summary sweeps trade worksheets
 );
 

@@ -295,33 +295,3 @@ fn what_fails_as_printed_fails_in_exact_numbers() {
     }
     assert!(failed > 0, "some scene is here to fail");
 }
-
-#[test]
-fn what_no_precision_has_is_refused() {
-    let refused = |scene: &str, variant, arithmetic, words: &str| {
-        let error = solve(&Scene::open(scene).unwrap(), variant, arithmetic).unwrap_err();
-        assert_eq!(error.exit_status().number(), 2);
-        assert!(error.to_string().contains(words), "{error}");
-    };
-    let of = arithmetic;
-    let tied = Variant::Tied;
-    refused(
-        "strand",
-        tied,
-        of(ScalarName::Exact, None),
-        "free equations: an exact run may have 1000",
-    );
-    let by_lu = Some(Solver::SparseLu);
-    for scalar in [ScalarName::Exact, ScalarName::F32] {
-        let words = format!("sparse-lu does not solve in {scalar}");
-        refused("fig1", tied, of(scalar, by_lu), &words);
-    }
-    refused(
-        "fig1",
-        Variant::Unilateral,
-        of(ScalarName::F64x2, None),
-        "unilateral does not run in f64x2",
-    );
-    let unilateral = Variant::Unilateral;
-    refused("fig1", unilateral, of(ScalarName::F64, by_lu), "does not solve by sparse-lu");
-}
