@@ -3,7 +3,6 @@
 
 use std::process::Command;
 
-use crate::common::embedded::scene_json;
 use crate::common::golden_file::assert_file_by;
 use crate::common::outcome::solve;
 use crate::common::program;
@@ -19,7 +18,6 @@ use plane_contact::problem::modelling::{ContactModel, Friction, Variant};
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::calculix::{Contact, Pair, Part, deck, float, parse, run};
 use plane_contact::studies::compare::Beside;
-use serde_json::{Value, json};
 use tempfile::TempDir;
 
 testing::tolerances! {
@@ -256,53 +254,4 @@ fn export_writes_the_deck() {
     let (scene, solution) = solve("fig1", Variant::Tied);
     let parts = Contact::parts(&solution).unwrap();
     assert_eq!(String::from_utf8(printed.stdout).unwrap(), last_deck(&scene, &solution, &parts));
-}
-
-#[test]
-fn compare_prints_tables_or_json_and_writes_tables() {
-    if !ccx_is_there() {
-        return;
-    }
-    let folder = TempDir::new().unwrap();
-    let compare = ["compare", "fig1", "--with", "calculix", "--variant", "tied"];
-    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
-    for words in ["beside CalculiX 2", "8 equations", "Largest differences", "The worst nodes"] {
-        assert!(tables.contains(words), "{words:?}: {tables}");
-    }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is written");
-    let with = |more: &[&str]| program::run(folder.path(), &[&compare[..], more].concat());
-    let document = |more: &[&str]| -> Value {
-        serde_json::from_slice(&with(&[&["--json"], more].concat()).stdout).unwrap()
-    };
-    let unjudged = document(&[]);
-    assert_eq!(unjudged.get("is_same"), None);
-    assert_eq!(unjudged["calculix"]["contact"], json!({"kind": "equation", "equations": 8}));
-    assert_eq!(unjudged["nodes"].as_array().unwrap().len(), 13);
-    assert_eq!(unjudged["worst_nodes"].as_array().unwrap().len(), 10);
-    assert_eq!(document(&["--rtol", "1e-5"])["is_same"], true);
-    let exact = with(&["--rtol", "0", "--csv", "tables"]);
-    assert_eq!(exact.status.code(), Some(1));
-    let printed = String::from_utf8(exact.stdout).unwrap();
-    assert!(printed.contains("Differs by more than --rtol 0 (energy norm"), "{printed}");
-    assert!(folder.path().join("tables/the-worst-nodes.csv").is_file());
-}
-
-/// Bodies that lie flush at c_tll = 1e-17: who is in contact is decided by rounding in f64, and not in
-/// the double-doubles that are compared.
-#[test]
-fn compare_repeats_in_double_doubles_where_rounding_decides() {
-    if !ccx_is_there() {
-        return;
-    }
-    let mut scene = scene_json("two-blocks");
-    scene["contact"]["c_tll"] = 1e-17.into();
-    let folder = TempDir::new().unwrap();
-    std::fs::write(folder.path().join("flush.json"), scene.to_string()).unwrap();
-    let compare = ["compare", "flush.json", "--with", "calculix", "--variant", "tied"];
-    let tables = String::from_utf8(program::run(folder.path(), &compare).stdout).unwrap();
-    let words = "the last digit of the inputs decides who is in contact in f64; this is the run in double-doubles";
-    assert!(tables.contains(words), "{tables}");
-    let json = program::run(folder.path(), &[&compare[..], &["--json"]].concat()).stdout;
-    let document: Value = serde_json::from_slice(&json).unwrap();
-    assert_eq!(document["calculix"]["certainty"], "in-double-double");
 }

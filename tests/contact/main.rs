@@ -2,7 +2,7 @@
 
 #[path = "../common"]
 mod common {
-    pub use testing::{annulus, embedded, golden_file, rows, same_text, tolerances};
+    pub use testing::{annulus, golden_file, rows, same_text, tolerances};
 
     pub mod letter;
     pub mod outcome;

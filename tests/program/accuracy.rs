@@ -12,7 +12,7 @@ use plane_contact::engine::error::Error;
 use plane_contact::engine::linear::{Arithmetic, Inputs, ScalarName};
 use plane_contact::engine::{Request, Solution, max_displacement, solve};
 use plane_contact::numbers::scalar::rational;
-use plane_contact::problem::modelling::{ContactModel, Coupling, Variant};
+use plane_contact::problem::modelling::Variant;
 use plane_contact::problem::scene::Scene;
 use plane_contact::studies::trade::trial_tables as report;
 use plane_contact::studies::trade::{Rounding, solve_to};

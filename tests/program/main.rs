@@ -31,7 +31,6 @@ mod plan;
 mod printed;
 mod printed_numbers;
 mod prose;
-mod recipes;
 mod result_file;
 mod scenes;
 mod shells;
