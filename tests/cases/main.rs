@@ -50,7 +50,7 @@ macro_rules! areas {
 }
 
 areas!(
-    bodies commands contact disks edited fields files guide hostile limits meshes mistakes pictures recipes sentences
+    bodies commands contact disks edited fields files guide hostile limits meshes mistakes pictures recipes sentences shells
     snapshots solvers summary sweeps trade worksheets
 );
 

@@ -67,16 +67,6 @@ fn iterations(solution: &Solution) -> usize {
     loads.chunk_by(|a, b| a == b).map(<[u64]>::len).max().unwrap_or(0)
 }
 
-/// Larger extent of the scene.
-fn size(solution: &Solution) -> f64 {
-    let extent = |axis: usize| {
-        let values = solution.model.nodes.iter().map(|place| place[axis]);
-        let (l, h) = values.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-        h - l
-    };
-    extent(0).max(extent(1))
-}
-
 /// Twice as thick bodies under twice the forces move as before, by the same pressures and shears.
 #[test]
 fn tractions_are_forces_over_length_and_thickness() {
@@ -106,7 +96,7 @@ fn assert_equilibrium(name: &str, scene: &Scene, model: ContactModel) {
     let load = fx.hypot(fy);
     assert_near(&what("force on the target"), solution.target_force(), load, load, &BALANCE);
     assert!(iterations(&solution) <= ITERATIONS, "{}", what(&iterations(&solution).to_string()));
-    let size = size(&solution);
+    let size = solution.model.bounds().larger_side();
     let most = solution.contact.iter().map(force).fold(0.0, f64::max);
     assert!(most > 0.0, "{}", what("nothing presses"));
     for node in &solution.contact {

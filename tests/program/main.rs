@@ -33,7 +33,6 @@ mod printed_numbers;
 mod prose;
 mod result_file;
 mod scenes;
-mod shells;
 mod snapshots;
 mod statuses;
 mod sweeps;
