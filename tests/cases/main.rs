@@ -160,9 +160,7 @@ impl Case {
     fn is_possible(&self) -> bool {
         self.needs.as_ref().is_none_or(|needs| {
             let (demanded_by, command) = needs.split_once(' ').expect("a variable and a command");
-            let mut shell = Command::new("sh");
-            shell.args(["-c", command]);
-            tools::is_there(shell, demanded_by)
+            tools::has(command, demanded_by)
         })
     }
 

@@ -1,14 +1,13 @@
 //! CalculiX: its decks, its results, and what it computes where `ccx` is installed. Where
 //! `REQUIRE_CCX` is set it must be.
 
-use std::process::Command;
-
 use crate::common::golden_file::assert_file_by;
 use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
 use crate::common::tolerances::assert_near;
+use crate::common::tools::has_ccx;
 use crate::scenes::FOLDER;
 use crate::unilateral::models;
 use nalgebra::DVector;
@@ -41,12 +40,6 @@ testing::tolerances! {
 
 /// What `ccx` printed for the deck `golden/fig1/calculix-tied.snap`.
 const PRINTED: &str = include_str!("calculix/fig1.dat");
-
-fn ccx_is_there() -> bool {
-    let there = Command::new("ccx").arg("-v").output().is_ok();
-    assert!(there || std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
-    there
-}
 
 fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
     deck(&scene.title, &solution.model, &parts.last().unwrap().contact).unwrap()
@@ -167,7 +160,7 @@ fn solution(scene: &Scene, variant: Variant) -> Solution {
 
 #[test]
 fn ccx_solves_the_same_equations() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     for (name, mut scene) in scenes() {
@@ -194,7 +187,7 @@ fn assert_equations(name: &str, scene: &Scene, variant: Variant) {
 /// own.
 #[test]
 fn ccx_rubs_alike_but_for_its_penalty() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     let mut scene = Scene::open("strand").unwrap();
@@ -212,7 +205,7 @@ fn ccx_rubs_alike_but_for_its_penalty() {
 /// ccx's own contact beside `unilateral` without friction.
 #[test]
 fn ccx_finds_the_same_contact_but_for_its_penalty() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     for (name, mut scene) in scenes() {
@@ -233,7 +226,7 @@ fn ccx_finds_the_same_contact_but_for_its_penalty() {
 /// with both components where nothing slides.
 #[test]
 fn ccx_finds_what_the_corrected_algorithm_finds() {
-    if !ccx_is_there() {
+    if !has_ccx() {
         return;
     }
     let scene = Scene::open("strand").unwrap();

@@ -41,22 +41,3 @@ fn a_snapshot_is_recorded_once_and_then_verified() {
         .expect("written");
     assert!(!snapshot_in_a_test::check("fig1", &path).expect("it runs"));
 }
-
-/// The library without the command line needs nothing of it.
-#[test]
-fn a_library_has_no_clap() {
-    let tree = |more: &[&str]| {
-        let mut cargo = std::process::Command::new(env!("CARGO"));
-        cargo.args(["tree", "--offline", "--locked", "--edges", "normal", "--prefix", "none"]);
-        let output = cargo.args(more).current_dir(env!("CARGO_MANIFEST_DIR")).output();
-        let output = output.expect("cargo");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    let has = |tree: &str, name: &str| tree.lines().any(|line| line.starts_with(name));
-    assert!(has(&tree(&["-p", "plane-contact"]), "clap "));
-    let library = tree(&["-p", "plane-contact", "--no-default-features"]);
-    for name in ["clap", "indicatif", "plane-contact-studies", "plane-contact-commands"] {
-        assert!(!has(&library, &format!("{name} ")), "{name}: {library}");
-    }
-}

@@ -49,17 +49,6 @@ fn shell(folder: &Path, line: &str) -> Output {
         .expect("a shell")
 }
 
-/// Checks that a line ends with exit status 2, and that its error has all the `words`.
-#[track_caller]
-fn refused(folder: &Path, line: &str, words: &[&str]) {
-    let output = shell(folder, line);
-    let error = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{line}: {error}");
-    for word in words {
-        assert!(error.contains(word), "{line}: {word:?} is not in {error}");
-    }
-}
-
 /// The content of each file in `folder` and below, by its name there; none where it is missing.
 fn files(folder: &Path) -> Files {
     let mut found = Files::new();
@@ -229,21 +218,6 @@ fn no_file_is_written_through_a_link() {
     assert_eq!(files(folder.path()), Files::from([("o/notes.txt".into(), b"mine".to_vec())]));
     write("there/b").expect("it is a folder of its own");
     assert!(at("o/there/b").is_file());
-}
-
-/// A disk that is mounted for reading alone, where a user may mount one.
-#[test]
-fn a_read_only_disk_is_named() {
-    let folder = TempDir::new().expect("a folder");
-    let mount = "unshare -rm sh -c 'mount -t tmpfs -o ro tmpfs .";
-    if !shell(folder.path(), &format!("{mount}'")).status.success() {
-        eprintln!("no disk can be mounted: a read-only one is not tried");
-        return;
-    }
-    for command in ["solve fig1 --out .", "snapshot record fig1", "lesson fig1 --out page.html"] {
-        let line = format!("{mount} && cd \"$PWD\" && \"$P\" {command}'");
-        refused(folder.path(), &line, &["cannot be written: ", "Read-only file system"]);
-    }
 }
 
 /// Whichever signal ends the program, CalculiX ends with it, and so does what it started.

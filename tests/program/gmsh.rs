@@ -10,7 +10,7 @@ use tempfile::TempDir;
 
 use crate::common::program::run;
 use crate::common::tolerances::assert_near;
-use crate::common::tools::is_there;
+use crate::common::tools::has;
 
 testing::tolerances! {
     /// Forces and pressures of the five problems meshed by Gmsh, relative to the textbook's.
@@ -19,17 +19,9 @@ testing::tolerances! {
          and the ring, whose thickness is a tenth of its radius";
 }
 
-/// Whether Gmsh is installed, as it must be where `REQUIRE_GMSH` is set.
-fn has_gmsh() -> bool {
-    let mut gmsh = Command::new("gmsh");
-    gmsh.arg("--version");
-    is_there(gmsh, "REQUIRE_GMSH")
-}
-
 /// What the program has for a scene of the folder `gmsh`, whose mesh is made here; nothing without Gmsh.
 fn solved(name: &str, edit: impl Fn(String) -> String) -> Option<(Option<i32>, Value)> {
-    if !has_gmsh() {
-        eprintln!("gmsh is not installed: {name} is not solved");
+    if !has("gmsh --version", "REQUIRE_GMSH") {
         return None;
     }
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/gmsh");

@@ -20,7 +20,7 @@ use tempfile::TempDir;
 
 use crate::common::golden_file::is_written;
 use crate::common::program::run;
-use crate::common::tools::{browser, is_there};
+use crate::common::tools::{browser, has_ccx};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -211,9 +211,7 @@ fn a_report_has_hertz_and_calculix_beside_the_runs() {
     };
     made(folder.path(), "mesh", &["scene", "mesh", "hertz", "--size", "10"]);
     report("hertz", &["out/mesh-hertz"]);
-    let mut ccx = Command::new("sh");
-    ccx.args(["-c", "command -v ccx"]);
-    if is_there(ccx, "REQUIRE_CCX") {
+    if has_ccx() {
         report("calculix", &["fig1", "--ccx"]);
     }
 }

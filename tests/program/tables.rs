@@ -1,7 +1,6 @@
 //! The tables under `golden/tables`, which pages quote: each is made from what the program computes.
 //! `GOLDEN=write` writes them anew.
 
-use std::process::Command;
 use std::sync::LazyLock;
 
 use plane_contact::engine::estimates::{Certainty, Estimates};
@@ -34,6 +33,7 @@ use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
 use crate::common::page::{self, assert_table, markdown, percent};
 use crate::common::tolerances::{CORRECTED, assert_near};
+use crate::common::tools::has_ccx;
 
 testing::tolerances! {
     /// Persson's peak pressure of the strand, relative to that of fine meshes.
@@ -328,9 +328,7 @@ fn over_the_range() -> Table<Vec<(&'static JudgedClaim, Parameter)>> {
 /// the table is not made; where `REQUIRE_CCX` is set it must be.
 #[test]
 fn calculix() {
-    if Command::new("ccx").arg("-v").output().is_err() {
-        assert!(std::env::var_os("REQUIRE_CCX").is_none(), "ccx is not installed");
-        eprintln!("ccx is not installed: golden/tables/calculix.md is not made");
+    if !has_ccx() {
         return;
     }
     let pair = Pair::new(&STRAND.model, None, Friction::STICK);
