@@ -5,7 +5,6 @@ use crate::common::golden_file::assert_file_by;
 use crate::common::outcome::solve;
 use crate::common::program;
 use crate::common::rows::scene_of;
-use crate::common::same_text::same_text;
 use crate::common::tolerances::assert_near;
 use crate::common::tools::has_ccx;
 use crate::scenes::FOLDER;
@@ -45,18 +44,25 @@ fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
     deck(&scene.title, &solution.model, &parts.last().unwrap().contact).unwrap()
 }
 
+/// Words to the letter, numbers to twelve digits.
+fn same_deck(golden: &str, deck: &str) -> bool {
+    let digits = |word: &str| word.parse().map_or(word.into(), |x: f64| format!("{x:.11e}"));
+    let words = |text: &str| text.split([',', '\n']).map(digits).collect::<Vec<String>>();
+    words(golden) == words(deck)
+}
+
 #[test]
 fn decks_of_fig1() {
     for variant in [Variant::Tied, Variant::Unilateral] {
         let (scene, solution) = solve("fig1", variant);
         let parts = Contact::parts(&solution).unwrap();
         let text = last_deck(&scene, &solution, &parts);
-        assert_file_by(format!("golden/fig1/calculix-{variant}.snap"), &text, same_text);
+        assert_file_by(format!("golden/fig1/calculix-{variant}.snap"), &text, same_deck);
     }
     let (scene, solution) = solve("fig1", Variant::Tied);
     let pair = |friction| Pair::new(&solution.model, Some(1e7), friction);
     let of = |friction| last_deck(&scene, &solution, &[pair(friction).into()]);
-    assert_file_by("golden/fig1/calculix-pair.snap", &of(Friction::STICK), same_text);
+    assert_file_by("golden/fig1/calculix-pair.snap", &of(Friction::STICK), same_deck);
     assert!(of(Friction::STICK).contains("*FRICTION"));
     assert!(!of(Friction::NONE).contains("*FRICTION"));
 }

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::common::golden_file::{assert_file_by, assert_rows_by};
+use crate::common::golden_file::{assert_file_by, assert_rows};
 use crate::common::json::build;
 use crate::common::rows::scene_of;
 use crate::common::same_text::same_text;
@@ -59,7 +59,7 @@ fn displacements(row: &str, variant: Variant) -> DVector<f64> {
 /// The rows of `findings.txt`: what each finding measures on its scene, as it is or changed.
 #[test]
 fn findings_by_hand() {
-    assert_rows_by("tests/fidelity/findings.txt", same_text, |row| {
+    assert_rows("tests/fidelity/findings.txt", |row| {
         let (id, _) = row.split_once('/').expect("a finding");
         let Evidence { verdict, number, detail, .. } = finding(id).measure(&case(row));
         let number = (1e11 * number.expect("a number")).round() / 1e11;
