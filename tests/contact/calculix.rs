@@ -44,6 +44,8 @@ fn last_deck(scene: &Scene, solution: &Solution, parts: &[Part]) -> String {
     deck(&scene.title, &solution.model, &parts.last().unwrap().contact).unwrap()
 }
 
+const FIG1: &str = "golden/fig1";
+
 /// Words to the letter, numbers to twelve digits.
 fn same_deck(golden: &str, deck: &str) -> bool {
     let digits = |word: &str| word.parse().map_or(word.into(), |x: f64| format!("{x:.11e}"));
@@ -57,12 +59,12 @@ fn decks_of_fig1() {
         let (scene, solution) = solve("fig1", variant);
         let parts = Contact::parts(&solution).unwrap();
         let text = last_deck(&scene, &solution, &parts);
-        assert_file_by(format!("golden/fig1/calculix-{variant}.snap"), &text, same_deck);
+        assert_file_by(format!("{FIG1}/calculix-{variant}.snap"), &text, same_deck);
     }
     let (scene, solution) = solve("fig1", Variant::Tied);
     let pair = |friction| Pair::new(&solution.model, Some(1e7), friction);
     let of = |friction| last_deck(&scene, &solution, &[pair(friction).into()]);
-    assert_file_by("golden/fig1/calculix-pair.snap", &of(Friction::STICK), same_deck);
+    assert_file_by(format!("{FIG1}/calculix-pair.snap"), &of(Friction::STICK), same_deck);
     assert!(of(Friction::STICK).contains("*FRICTION"));
     assert!(!of(Friction::NONE).contains("*FRICTION"));
 }

@@ -20,6 +20,7 @@ use plane_contact::studies::audit::claims::{
     Basis, CLAIMS, ClaimId, JudgedClaim, Scope, Verdict, judge,
 };
 use plane_contact::studies::audit::evidence::BY_ROUNDING;
+use plane_contact::studies::audit::prices::Price;
 use plane_contact::studies::audit::range::{Parameter, Range, range};
 use plane_contact::studies::audit::words::{self, Depth, WIDER, WIDTH};
 use plane_contact::studies::audit::{Case, audit};
@@ -28,35 +29,39 @@ fn open(name: &str) -> Case {
     Case::new(Scene::open(name).expect("an embedded scene"))
 }
 
+static CASE: LazyLock<Case> = LazyLock::new(|| open("strand"));
+
 /// The range of what the paper leaves open, whose runs are made once for all tests.
 pub static RANGE: LazyLock<Range> =
     LazyLock::new(|| range(Reading::default()).expect("its values are allowed"));
 
 /// The claims on the paper's example over the range.
-pub static JUDGED: LazyLock<Vec<JudgedClaim>> =
-    LazyLock::new(|| judge(CLAIMS, &open("strand"), &RANGE));
+pub static JUDGED: LazyLock<Vec<JudgedClaim>> = LazyLock::new(|| judge(CLAIMS, &CASE, &RANGE));
 
 /// What `audit` prints of a scene: its first screen, all, and the JSON.
 pub struct Audited {
     pub screen: String,
     pub full: String,
     json: Value,
+    /// What each printed fault costs.
+    pub prices: Vec<Price>,
 }
 
 impl Audited {
-    fn new(scene: &str) -> Self {
-        let audit = audit(&open(scene), &Range::new(), true, &|| ());
+    fn new(case: &Case) -> Self {
+        let audit = audit(case, &Range::new(), true, &|| ());
         let report = |depth, width| words::report(&audit, depth).text(width);
         Audited {
             screen: report(Depth::Screen, WIDTH),
             full: report(Depth::Full, usize::MAX),
             json: serde_json::from_str(&line(Some(&audit.scene), &audit)).expect("JSON"),
+            prices: audit.prices.expect("it has a solution"),
         }
     }
 }
 
 /// The audit of the paper's example, which takes 42 s of a processor, once for all tests.
-pub static STRAND: LazyLock<Audited> = LazyLock::new(|| Audited::new("strand"));
+pub static STRAND: LazyLock<Audited> = LazyLock::new(|| Audited::new(&CASE));
 
 /// What a command prints as JSON; of the audit of strand what the program would.
 fn printed(command: &[&str]) -> Value {
@@ -72,7 +77,7 @@ fn the_program_prints_what_an_audit_finds() {
         [&["audit", "fig1"][..], &["audit", "fig1", "--full"]].map(texts::printed),
         json(&["audit", "fig1", "--json"]),
     );
-    let audited = Audited::new("fig1");
+    let audited = Audited::new(&open("fig1"));
     assert!(audited.json == json && audited.screen == screen && audited.full == full);
 }
 

@@ -122,21 +122,28 @@ fn each_is_whole(folder: &Path, expected: &[Files; 2]) {
     }
 }
 
-/// The k-th kill comes when the folder has changed k times: before anything is written, while files are staged and
-/// while they are put in their places. After it the next run finds the folder to be the program's.
+/// Kills at equal parts of a run, and kills that come when the folder has changed once and more often: while files are
+/// staged and put in their places. After a kill the next run finds the folder to be the program's.
 #[test]
 fn a_kill_leaves_whole_files() {
     let folder = TempDir::new().expect("a folder");
     let expected = whole(folder.path());
     let out = folder.path().join("o");
     let kills = std::env::var(KILLS.0).ok().map_or(KILLS.1, |n| n.parse().expect("a number"));
+    let begun = Instant::now();
+    assert!(run(folder.path(), RUNS[0]).status.success());
+    let duration = begun.elapsed();
     let (mut died, mut slowest) = (0, Duration::ZERO);
     for k in 0..kills {
-        let signal = [Signal::KILL, Signal::TERM, Signal::INT, Signal::HUP][k % 4];
+        let signal = [Signal::KILL, Signal::TERM, Signal::INT, Signal::HUP][k / 2 % 4];
         let left = staged(&out);
         let mut child = start(folder.path(), RUNS[k / 4 % 2]);
         let (mut changes, mut last) = (0, sizes(&out));
-        while changes < k && child.try_wait().expect("a process").is_none() {
+        if k % 2 == 0 {
+            std::thread::sleep(duration * k as u32 / kills as u32);
+            changes = usize::MAX;
+        }
+        while changes < 1 + k / 8 && child.try_wait().expect("a process").is_none() {
             let now = sizes(&out);
             changes += usize::from(now != last);
             last = now;

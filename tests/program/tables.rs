@@ -28,7 +28,7 @@ use plane_contact::studies::calculix::{Pair, RECORDED, run};
 use plane_contact::studies::trade;
 use plane_contact::{Request, Scene};
 
-use crate::claims::JUDGED;
+use crate::claims::{self, JUDGED};
 use crate::common::conforming::Conforming;
 use crate::common::golden_file::assert_file;
 use crate::common::page::{self, assert_table, markdown, percent};
@@ -80,13 +80,13 @@ fn quantities() {
 /// once, a loop over nodes left out, or rows that nobody reads, nothing either.
 #[test]
 fn prices() {
-    let alone = prices::on(&Case::new(STRAND.clone()), &|| ()).expect("strand has a solution");
+    let alone = &claims::STRAND.prices;
     let fig1 = Case::new(Scene::open("fig1").expect("an embedded scene"));
     let on_fig1 = prices::on(&fig1, &|| ()).expect("fig1 has a solution");
     let repairs = prices::repairs(&fig1, &on_fig1, &|| ()).expect("fig1 has a solution");
     // The sign rule looks at the gap of a closed neighbour, which is a rounding error.
-    assert_eq!(prices::price_tables::of_weight(&alone, Weight::Rounding), ["C4 and C5"]);
-    for price in &alone {
+    assert_eq!(prices::price_tables::of_weight(alone, Weight::Rounding), ["C4 and C5"]);
+    for price in alone {
         let is_free = [None, Some(FindingId::C7), Some(FindingId::C12), Some(FindingId::K4)]
             .contains(&price.finding);
         assert!(price.error() < CORRECTED.limit || !is_free, "{:?}", price.finding);
